@@ -1,8 +1,11 @@
-//! The layout of a scene's state vector: coordinates, first-order states, modes, inputs.
+//! The layout of a scene's state vector: positions, coordinates, first-order states, modes, inputs.
+
+mod quasi_joints;
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use crate::mechanism::CoordinateId;
 use crate::unit::Dimension;
@@ -14,14 +17,58 @@ pub struct StateCoordinate {
     pub name: String,
     /// The store of its momentum.
     pub store: MomentumStore,
-    /// Whether its position is part of the state; a motor's charge is not.
-    pub stored: bool,
+    /// The position whose rate is its velocity. `None` for a motor's current, whose charge is not part of
+    /// the state, and for a quasi-velocity.
+    pub position: Option<usize>,
     /// The dimensions of position, velocity and effort.
     pub dimensions: [Dimension; 3],
-    /// Name of the velocity: `shoulder_rate`, `motor_current`.
+    /// Name of the velocity: `shoulder_rate`, `motor_current`; of a quasi-velocity `base_x_velocity`.
     pub rate_name: String,
     /// The coordinate whose initial position is its default.
     pub starts_with: Option<String>,
+}
+
+impl StateCoordinate {
+    /// Returns whether it is the velocity of a motion, not a motor's current.
+    pub fn moves(&self) -> bool {
+        self.position.is_some() || self.is_quasi_velocity()
+    }
+
+    /// Returns whether it is a quasi-velocity: a velocity of a joint that is not the rate of a position.
+    pub fn is_quasi_velocity(&self) -> bool {
+        self.position.is_none() && matches!(self.store, MomentumStore::Links(_))
+    }
+}
+
+/// A position of the state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatePosition {
+    /// Its name.
+    pub name: String,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// The coordinate whose velocity is its rate; `None` for a position of a [`QuasiJoint`], whose rates
+    /// are q̇ = N(q) v.
+    pub coordinate: Option<usize>,
+    /// Its value in the neutral position.
+    pub neutral: Dd,
+}
+
+/// A joint with quasi-velocities: planar, spherical, floating.
+#[derive(Clone, Debug, PartialEq)]
+pub struct QuasiJoint {
+    /// Its name.
+    pub name: String,
+    /// Its type, for its integration.
+    pub kind: QuasiJointKind,
+    /// Its positions.
+    pub positions: Range<usize>,
+    /// Its coordinates.
+    pub coordinates: Range<usize>,
+    /// Index of the first position of its quaternion x, y, z, w, if it has one.
+    pub quaternion: Option<usize>,
+    /// Whether its quaternion may have any length in the file.
+    pub any_length: bool,
 }
 
 /// The store of a coordinate's momentum.
@@ -78,6 +125,10 @@ impl Variable {
 /// The layout of a scene's state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StateLayout {
+    /// Positions: those of the joints, then those of other coordinates.
+    pub positions: Vec<StatePosition>,
+    /// The joints with quasi-velocities, in the order of their positions.
+    pub quasi_joints: Vec<QuasiJoint>,
     /// Velocities: joints, then other coordinates with positions, then currents.
     pub coordinates: Vec<StateCoordinate>,
     /// First-order states.
@@ -121,21 +172,27 @@ impl StateLayout {
         stored: bool,
         dimensions: [Dimension; 3],
     ) {
+        // Currents follow the velocities of motions.
+        let at = match stored {
+            true => self.motions(),
+            false => self.coordinates.len(),
+        };
         let coordinate = StateCoordinate {
             name: name.to_owned(),
             store: MomentumStore::Own(name.to_owned()),
-            stored,
+            position: stored.then_some(self.positions.len()),
             dimensions,
             rate_name,
             starts_with: None,
         };
-        // Positions belong to the first velocities.
-        let stored_before = self.coordinates.iter().filter(|c| c.stored).count();
-        let at = if stored {
-            stored_before
-        } else {
-            self.coordinates.len()
-        };
+        if stored {
+            self.positions.push(StatePosition {
+                name: name.to_owned(),
+                dimension: dimensions[0],
+                coordinate: Some(at),
+                neutral: Dd::ZERO,
+            });
+        }
         for input in &mut self.inputs {
             input.drives = input.drives.map(|j| if j >= at { j + 1 } else { j });
         }
@@ -259,19 +316,29 @@ impl StateLayout {
 
     /// Returns a name that two parts of the state, or two inputs, have.
     pub fn repeated(&self) -> Option<&str> {
-        let stored = self.coordinates.iter().filter(|c| c.stored);
-        let rates = self.coordinates.iter().map(|c| c.rate_name.as_str());
-        let states = self.states.iter().map(|p| p.name.as_str());
-        let mut state = stored.map(|c| c.name.as_str()).chain(rates).chain(states);
+        let mut state = self.state_names();
         let mut inputs = self.inputs.iter().map(|p| p.name.as_str());
         let (mut in_state, mut in_inputs) = (BTreeSet::new(), BTreeSet::new());
         let twice = state.find(|name| !in_state.insert(*name));
         twice.or_else(|| inputs.find(|name| !in_inputs.insert(*name)))
     }
 
+    /// Returns the names of positions, velocities and first-order states, in the order of the state.
+    pub fn state_names(&self) -> impl Iterator<Item = &str> {
+        let positions = self.positions.iter().map(|p| p.name.as_str());
+        let rates = self.coordinates.iter().map(|c| c.rate_name.as_str());
+        let states = self.states.iter().map(|p| p.name.as_str());
+        positions.chain(rates).chain(states)
+    }
+
     /// Returns the number of positions.
     pub fn nq(&self) -> usize {
-        self.coordinates.iter().filter(|c| c.stored).count()
+        self.positions.len()
+    }
+
+    /// Returns the number of coordinates that are motions: all but currents, which are the last ones.
+    pub fn motions(&self) -> usize {
+        self.coordinates.iter().filter(|c| c.moves()).count()
     }
 
     /// Returns the number of velocities.

@@ -74,7 +74,7 @@ fn effects(
             None => refused.call(raw, &[], kinds),
         }
     }
-    let all = mechanism.joint_names();
+    let all = mechanism.one_degree_names();
     let all: Vec<&str> = all.iter().map(String::as_str).collect();
     let each = found.iter().cloned();
     let each: Vec<Declaration> = each.flat_map(|d| d.of_each_joint(&all, faults)).collect();

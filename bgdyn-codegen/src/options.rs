@@ -150,6 +150,27 @@ impl Options {
         Err(vec![UnknownName::whole("formulation", message)])
     }
 
+    /// Checks that a scene's mechanism has a canonical form, if it is selected.
+    ///
+    /// # Errors
+    /// The option, with the joint whose velocities are quasi-velocities.
+    pub fn check_canonical(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
+        let quasi = graph.frames.iter().find(|f| {
+            let own = f.motion.velocity_positions();
+            own.iter().any(Option::is_none)
+        });
+        match quasi.filter(|_| self.canonical) {
+            None => Ok(()),
+            Some(frame) => {
+                let message = format!(
+                    "`canonical`: the joint of link `{}` has quasi-velocities, whose momenta are not canonical (their equations are Lie–Poisson)",
+                    frame.name
+                );
+                Err(vec![UnknownName::whole("canonical", message)])
+            }
+        }
+    }
+
     /// Returns the selected options that only scenes have.
     fn misplaced_scene_options(&self) -> Vec<UnknownName> {
         let asked = [

@@ -64,7 +64,7 @@ pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]
 pub use dual::DualPart;
 pub use dynamics::Dynamics;
-pub use joint::{Limits, Motion};
+pub use joint::{Limits, Motion, QuasiJoint, QuasiJointKind};
 #[cfg(feature = "wide")]
 pub use lanes::LaneSingular;
 pub use nalgebra;

@@ -3,6 +3,7 @@
 use core::fmt::Debug;
 
 use crate::Scalar;
+use crate::joint::QuasiJoint;
 use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 
 /// Power of one effect, W. Supplied power equals the rate of stored energy plus dissipated power in the
@@ -59,9 +60,15 @@ pub trait HybridSystem<T: Scalar> {
 
     /// Returns the names of the components of the state.
     fn state_names(&self) -> &'static ArrayOf<Self::State, &'static str>;
-    /// Returns the number of positions in the state. They come first, then as many velocities, their
-    /// rates. A winding's charge is not part of the state; its current follows the other velocities.
+    /// Returns the number of positions in the state. They come first, then the velocities: the rates of the
+    /// positions in their order, but for the joints of [`HybridSystem::quasi_joints`]. A winding's charge
+    /// is not part of the state; its current follows the other velocities.
     fn positions(&self) -> usize;
+    /// Returns the joints whose velocities are not the rates of their positions, in the order of the state:
+    /// planar, spherical and floating ones. Their quaternions have length 1 within rounding.
+    fn quasi_joints(&self) -> &'static [QuasiJoint] {
+        &[]
+    }
     /// Returns the names of the modes.
     fn mode_names(&self) -> &'static ArrayOf<Self::Modes, &'static str>;
     /// Returns the names of the inputs.

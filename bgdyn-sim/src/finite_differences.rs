@@ -39,8 +39,25 @@ where
         self.0.position_rates(t, y)
     }
 
+    fn position_change(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+        h: ScalarOf<O>,
+    ) -> Result<O::State, O::Error> {
+        self.0.position_change(t, y, h)
+    }
+
     fn project(&self, y: &mut O::State) -> bool {
         self.0.project(y)
+    }
+
+    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> bool {
+        self.0.project_in_two(y, low)
+    }
+
+    fn strays(&self, y: &O::State) -> bool {
+        self.0.strays(y)
     }
 }
 

@@ -58,6 +58,12 @@ pub trait Integrator<Y: StateVector> {
     /// Returns the properties of the integrator.
     fn info(&self) -> IntegratorInfo;
 
+    /// Returns whether it conserves quadratic invariants such as the length of a quaternion to rounding.
+    /// States are then projected only where they stray from their manifold.
+    fn keeps_lengths(&self) -> bool {
+        false
+    }
+
     /// Computes a step of length `h`.
     ///
     /// # Errors

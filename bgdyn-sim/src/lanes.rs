@@ -16,8 +16,9 @@ use nalgebra::SVector;
 
 use crate::integrator::{Integrator, Start};
 use crate::ode::Ode;
+use crate::quasi_joints;
 use crate::real::{Of, Real};
-use crate::solver::sum_in_two;
+use crate::two_sum::sum_in_two;
 
 /// A scalar that has one number per lane; a plain number has one lane.
 pub trait Lanes: Scalar {
@@ -200,6 +201,14 @@ fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
     })
 }
 
+/// Returns the rates of a scene's positions.
+fn position_rates<T: Scalar, S: HybridSystem<T>>(scene: &S, y: &S::State) -> S::State {
+    let mut rates = *y;
+    let (joints, positions) = (scene.quasi_joints(), scene.positions());
+    quasi_joints::position_rates(joints, positions, y.entries(), rates.entries_mut());
+    rates
+}
+
 /// A scene without dry friction that can hold, in any scalar. Kinks of its laws and corners of its inputs are
 /// stepped over: there the method loses its order, and [`crate::Run`] would not.
 #[derive(Debug)]
@@ -248,8 +257,9 @@ where
             .derivative(y, &S::Modes::zero_vector(), &input, t);
         Ok(found.unwrap_or_else(|error| {
             let positions = self.scene.positions();
+            let rates = position_rates(self.scene, y);
             S::State::from_entries(|i| match i.checked_sub(positions) {
-                None => y.entries()[positions + i],
+                None => rates.entries()[i],
                 Some(i) => error.rate(i),
             })
         }))
@@ -260,7 +270,18 @@ where
     }
 
     fn position_rates(&self, _: T, y: &S::State) -> Result<S::State, Infallible> {
-        Ok(following(self.scene.positions(), y))
+        Ok(position_rates(self.scene, y))
+    }
+
+    fn position_change(&self, _: T, y: &S::State, h: T) -> Result<S::State, Infallible> {
+        let mut change = *y;
+        let (joints, positions) = (self.scene.quasi_joints(), self.scene.positions());
+        quasi_joints::position_change(joints, positions, y.entries(), h, change.entries_mut());
+        Ok(change)
+    }
+
+    fn project(&self, y: &mut S::State) -> bool {
+        quasi_joints::normalize(self.scene.quasi_joints(), y.entries_mut())
     }
 }
 
@@ -336,6 +357,7 @@ where
                 });
             }
         }
+        ode.project(&mut y);
         self.y = y;
         (self.t, self.low_time) = sum_in_two(self.t, self.low_time + h);
     }

@@ -77,6 +77,7 @@ mod lu;
 mod model_step;
 mod ode;
 mod plant;
+pub mod quasi_joints;
 mod real;
 mod rk4;
 mod rodas4;
@@ -86,6 +87,7 @@ mod semi_implicit_euler;
 mod solver;
 mod stiction;
 mod tableau;
+mod two_sum;
 mod zero_crossing;
 
 pub use audit::Audit;

@@ -65,10 +65,39 @@ pub trait Ode {
         self.rates(t, y)
     }
 
+    /// Returns the change of the positions in the time `h` at the velocities of `y`; the other components
+    /// are not read. The default is h times [`Ode::position_rates`]; where velocities are constant in axes
+    /// that rotate, it is the exact motion.
+    ///
+    /// # Errors
+    /// As [`Ode::rates`].
+    fn position_change(
+        &self,
+        t: ScalarOf<Self>,
+        y: &Self::State,
+        h: ScalarOf<Self>,
+    ) -> Result<Self::State, Self::Error> {
+        Ok(self.position_rates(t, y)?.times(h))
+    }
+
     /// Projects a state onto the manifold of valid states. Returns whether that changed it.
     fn project(&self, y: &mut Self::State) -> bool {
         let _ = y;
         false
+    }
+
+    /// Projects a state in two words, y + low unevaluated. The default projects the first word. Returns
+    /// whether that changed it.
+    fn project_in_two(&self, y: &mut Self::State, low: &mut Self::State) -> bool {
+        let _ = low;
+        self.project(y)
+    }
+
+    /// Returns whether a state is off the manifold by more than the rounding errors of many steps. Only then
+    /// the states of integrators that remain on it ([`crate::Integrator::keeps_lengths`]) are projected.
+    fn strays(&self, y: &Self::State) -> bool {
+        let _ = y;
+        true
     }
 }
 
@@ -96,7 +125,24 @@ impl<O: Ode> Ode for &O {
         (**self).position_rates(t, y)
     }
 
+    fn position_change(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+        h: ScalarOf<O>,
+    ) -> Result<O::State, O::Error> {
+        (**self).position_change(t, y, h)
+    }
+
     fn project(&self, y: &mut O::State) -> bool {
         (**self).project(y)
+    }
+
+    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> bool {
+        (**self).project_in_two(y, low)
+    }
+
+    fn strays(&self, y: &O::State) -> bool {
+        (**self).strays(y)
     }
 }

@@ -75,10 +75,36 @@ pub trait Plant {
         self.rates(t, y, modes)
     }
 
+    /// The change of the positions in the time `h`, as [`Ode::position_change`].
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn position_change(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        h: Time<Self>,
+    ) -> Result<Self::State, Self::Error> {
+        Ok(self.position_rates(t, y, modes)?.times(h))
+    }
+
     /// Takes a state back onto the set of possible ones, as [`Ode::project`].
     fn project(&self, y: &mut Self::State) -> bool {
         let _ = y;
         false
+    }
+
+    /// Takes a state in two words back onto the set of possible ones, as [`Ode::project_in_two`].
+    fn project_in_two(&self, y: &mut Self::State, low: &mut Self::State) -> bool {
+        let _ = low;
+        self.project(y)
+    }
+
+    /// Whether a state is off the set of possible ones by more than rounding, as [`Ode::strays`].
+    fn strays(&self, y: &Self::State) -> bool {
+        let _ = y;
+        true
     }
 
     /// Values whose passage through zero is an event.
@@ -191,7 +217,19 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
         self.plant.position_rates(t, y, self.modes)
     }
 
+    fn position_change(&self, t: Time<P>, y: &P::State, h: Time<P>) -> Result<P::State, P::Error> {
+        self.plant.position_change(t, y, self.modes, h)
+    }
+
     fn project(&self, y: &mut P::State) -> bool {
         self.plant.project(y)
+    }
+
+    fn project_in_two(&self, y: &mut P::State, low: &mut P::State) -> bool {
+        self.plant.project_in_two(y, low)
+    }
+
+    fn strays(&self, y: &P::State) -> bool {
+        self.plant.strays(y)
     }
 }

@@ -45,7 +45,7 @@ where
     }
 
     /// One step of the method, no longer than `most`, or up to the first event in it. Gives the
-    /// states within.
+    /// states within; they are interpolated, and [`Plant::project`] makes possible states of them.
     ///
     /// # Errors
     /// Where the plant cannot go on.
@@ -108,6 +108,13 @@ where
         Ok((skipped + h + self.reach_corner(), dense))
     }
 
+    /// The state in a part of a step, as a possible one.
+    pub(super) fn within(&self, dense: &Dense<P::State>, theta: Time<P>) -> P::State {
+        let mut y = dense.at(theta);
+        self.plant.project(&mut y);
+        y
+    }
+
     /// The account with the work of a step, and the energy after it.
     fn booked(
         &self,
@@ -123,7 +130,7 @@ where
         for (at, weight) in quadrature(self.solver.integrator().info().order) {
             let theta: Time<P> = at.to();
             let t = dense.start() + theta * h;
-            let power = self.plant.power(t, &dense.at(theta), &self.modes);
+            let power = self.plant.power(t, &self.within(dense, theta), &self.modes);
             ledger.add(
                 weight.to::<Time<P>>() * h,
                 &power.map_err(Reason::Singular)?,

@@ -7,6 +7,7 @@ use bgdyn_runtime::{
 use crate::finite_differences::differences;
 use crate::ode::Jacobian;
 use crate::plant::{FixedModes, Plant, Power};
+use crate::quasi_joints;
 use crate::real::Real;
 use crate::stiction::Stiction;
 
@@ -143,11 +144,35 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
 
     fn position_rates(&self, _: T, y: &S::State, _: &S::Modes) -> Result<S::State, S::Singular> {
         let mut rates = *y;
-        let positions = self.positions();
-        for i in 0..positions {
-            rates.entries_mut()[i] = y.entries()[positions + i];
-        }
+        let (joints, positions) = (self.scene.quasi_joints(), self.positions());
+        quasi_joints::position_rates(joints, positions, y.entries(), rates.entries_mut());
         Ok(rates)
+    }
+
+    fn position_change(
+        &self,
+        _: T,
+        y: &S::State,
+        _: &S::Modes,
+        h: T,
+    ) -> Result<S::State, S::Singular> {
+        let mut change = *y;
+        let (joints, positions) = (self.scene.quasi_joints(), self.positions());
+        quasi_joints::position_change(joints, positions, y.entries(), h, change.entries_mut());
+        Ok(change)
+    }
+
+    fn project(&self, y: &mut S::State) -> bool {
+        quasi_joints::normalize(self.scene.quasi_joints(), y.entries_mut())
+    }
+
+    fn project_in_two(&self, y: &mut S::State, low: &mut S::State) -> bool {
+        let joints = self.scene.quasi_joints();
+        quasi_joints::normalize_in_two(joints, y.entries_mut(), low.entries_mut())
+    }
+
+    fn strays(&self, y: &S::State) -> bool {
+        quasi_joints::strays(self.scene.quasi_joints(), y.entries())
     }
 
     fn events(&self, t: T, y: &S::State, modes: &S::Modes) -> Result<S::Events, S::Singular> {

@@ -8,7 +8,8 @@ use crate::ode::Ode;
 use crate::real::Of;
 
 /// The semi-implicit Euler method, of order 1 with fixed steps: velocities and first-order states advance
-/// with their rates at the start, then positions with the velocities at the end.
+/// with their rates at the start, then positions with the velocities at the end: exactly
+/// ([`Ode::position_change`]) where these are constant in axes that rotate.
 ///
 /// It evaluates the rates once per step, and is much more accurate for oscillations than the explicit
 /// method. It is symplectic if the mass matrix is constant.
@@ -41,12 +42,12 @@ impl<Y: StateVector> Integrator<Y> for SemiImplicitEuler {
             // The state with the old positions and the new velocities.
             let mut moved = from.y.plus(Of::<Y>::from_f64(1.0), &change);
             moved.entries_mut()[..positions].copy_from_slice(&from.y.entries()[..positions]);
-            let rates = ode
-                .position_rates(from.t, &moved)
+            let moves = ode
+                .position_change(from.t, &moved, h)
                 .map_err(Reason::Singular)?;
-            let moves = change.entries_mut().iter_mut().zip(rates.entries());
-            for (change, &rate) in moves.take(positions) {
-                *change = h * rate;
+            let moves = change.entries_mut().iter_mut().zip(moves.entries());
+            for (change, &moved) in moves.take(positions) {
+                *change = moved;
             }
         }
         Ok(Step {

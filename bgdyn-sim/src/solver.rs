@@ -1,6 +1,6 @@
 //! Advances a state step by step: fixed or controlled steps, plain or compensated sums.
 
-use bgdyn_runtime::{Scalar, StateVector};
+use bgdyn_runtime::{Scalar as _, StateVector};
 
 use crate::control::{Controller, Tolerance, first_step};
 use crate::dense::Dense;
@@ -8,6 +8,7 @@ use crate::failure::{Failure, Reason};
 use crate::integrator::{Integrator, Start, Step};
 use crate::ode::Ode;
 use crate::real::{Of, Real, finite};
+use crate::two_sum::sum_in_two;
 
 /// A step that the solver can accept.
 #[derive(Clone, Debug)]
@@ -250,7 +251,7 @@ where
     ) -> Result<Proposal<Y, M::Stages>, Reason<O::Error>> {
         let step = self.integrator.step(ode, &self.start(), h)?;
         let t = sum_in_two(self.t, self.low_time + h);
-        let (mut y, low) = match &self.low {
+        let (mut y, mut low) = match &self.low {
             None => (self.y.plus(Of::<Y>::from_f64(1.0), &step.change), None),
             Some(low) => {
                 let mut y = self.y.clone();
@@ -264,7 +265,12 @@ where
         if !finite(&y) {
             return Err(Reason::NotFinite);
         }
-        let smooth = !ode.project(&mut y);
+        let projected = (!self.integrator.keeps_lengths() || ode.strays(&y))
+            && match &mut low {
+                None => ode.project(&mut y),
+                Some(low) => ode.project_in_two(&mut y, low),
+            };
+        let smooth = !projected;
         Ok(Proposal {
             step,
             t,
@@ -288,11 +294,4 @@ where
     ) -> Result<Dense<Y>, Reason<O::Error>> {
         self.integrator.dense(ode, &self.start(), step)
     }
-}
-
-/// Returns a + b rounded, and the rounding error (Knuth's two-sum).
-pub(crate) fn sum_in_two<T: Scalar>(a: T, b: T) -> (T, T) {
-    let sum = a + b;
-    let back = sum - a;
-    (sum, (a - (sum - back)) + (b - back))
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
-use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
+use bgdyn_codegen::scene::{Integration, IntegratorName, Scene, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
@@ -60,7 +60,9 @@ pub(crate) struct Simulate {
     /// Set a run-time parameter, such as `payload=500 g` [default: the value in the file]. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     parameters: Vec<String>,
-    /// Set an initial position, velocity (`NAME_rate`), state or mode, such as `shoulder=30 deg`. May be repeated
+    /// Set an initial position, velocity (`NAME_rate`), state or mode, such as `shoulder=30 deg`; of a
+    /// spherical or floating joint the pose: `free.xyz=0,0,1`, `free.rpy=0,0,90 deg`,
+    /// `free.quaternion=0,0,0,1`. May be repeated
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     initial: Vec<String>,
     #[command(flatten)]
@@ -94,7 +96,7 @@ impl Simulate {
         let system = file.scene()?;
         let given = batch_values::parse_fixed(&system.scene, &self.parameters, &self.initial)?;
         let way = Way {
-            integration: self.integration(system.scene.integration, &numbers)?,
+            integration: self.integration(&system.scene, &numbers)?,
             points: self.points,
             audited: true,
         };
@@ -177,11 +179,9 @@ impl Simulate {
     }
 
     /// Returns the scene's settings of integration, changed by the options.
-    fn integration(
-        &self,
-        scene: Integration,
-        given: &NumericOptions,
-    ) -> Result<Integration, Usage> {
+    fn integration(&self, scene: &Scene, given: &NumericOptions) -> Result<Integration, Usage> {
+        let quasi_joint = scene.layout.quasi_joints.first();
+        let scene = scene.integration;
         let method = match &self.method {
             None => scene.method,
             Some(name) => IntegratorName::named(name).ok_or_else(|| {
@@ -190,6 +190,13 @@ impl Simulate {
                 Usage(format!("there is no method `{name}`; there are {all}"))
             })?,
         };
+        if let Some(joint) = quasi_joint.filter(|_| method.needs_canonical()) {
+            let (name, natural) = (method.name(), method.on_velocities().name());
+            return Err(Usage(format!(
+                "`{name}` integrates momenta, and those of the joint `{}` are not canonical (their equations are Lie–Poisson): use `{natural}`",
+                joint.name
+            )));
+        }
         let step_control = match (given.step, given.tolerance) {
             (Some(step), _) => StepControl::Step(step),
             (_, Some(tolerance)) => StepControl::Tolerance(tolerance),

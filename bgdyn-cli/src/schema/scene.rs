@@ -44,7 +44,7 @@ pub fn scene() -> Value {
             ),
             (
                 "initial",
-                named("parts of the state at the start; 0 without", number()),
+                named("parts of the state at the start; 0 without", initial()),
             ),
             ("outputs", list("what the run is to tell", identifier())),
             ("integration", json!({ "$ref": "#/$defs/integration" })),
@@ -110,6 +110,27 @@ fn changes_schema() -> Value {
 /// Returns a number, with or without a unit.
 fn number() -> Value {
     json!({ "type": ["number", "string"] })
+}
+
+/// Returns a number, or the pose of a spherical or floating joint.
+fn initial() -> Value {
+    let numbers =
+        |n: usize| json!({ "type": "array", "items": number(), "minItems": n, "maxItems": n });
+    let keys = [
+        (
+            "xyz",
+            described("origin of the link in the joint's origin", numbers(3)),
+        ),
+        (
+            "rpy",
+            described("turns about the fixed axes x, y, z", numbers(3)),
+        ),
+        (
+            "quaternion",
+            described("x, y, z, w, of length 1", numbers(4)),
+        ),
+    ];
+    json!({ "anyOf": [number(), object(&keys, &[])] })
 }
 
 /// Returns the signals in time, by their words.

@@ -2,7 +2,7 @@
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::scene::{Override, OverrideKind, Scene};
+use bgdyn_codegen::scene::{Override, OverrideKind, Scene, quaternion_of_rpy};
 use bgdyn_runtime::Dd;
 
 use crate::quantity::value_in;
@@ -51,6 +51,15 @@ pub(crate) fn parse_fixed(
         } else {
             "part of the state"
         };
+        if let Some(pose) = pose(scene, name.trim(), value).filter(|_| !is_parameter) {
+            for (position, value) in pose.map_err(wrong)? {
+                if found.iter().any(|(s, _)| *s == position) {
+                    return Err(wrong(format!("`{}` is set twice", position.name)));
+                }
+                found.push((position, value));
+            }
+            continue;
+        }
         let wanted = |kind: OverrideKind| kind.is_parameter() == is_parameter;
         let overrides = scene
             .override_named(what, name.trim(), wanted)
@@ -62,6 +71,33 @@ pub(crate) fn parse_fixed(
         found.push((overrides, value));
     }
     Ok(found)
+}
+
+/// Returns the positions of `JOINT.xyz`, `JOINT.rpy` or `JOINT.quaternion`; `None` if a name is no part of a
+/// pose.
+fn pose(scene: &Scene, name: &str, value: &str) -> Option<Result<Vec<Given>, String>> {
+    let (joint, part) = name.split_once('.')?;
+    let positions = scene.pose_overrides(joint, part)?;
+    let (count, unit) = match part {
+        "xyz" => (3, "m"),
+        "rpy" => (3, "rad"),
+        _ => (4, ""),
+    };
+    let numbers = value.split(',').map(|text| value_in(text.trim(), unit));
+    let numbers: Result<Vec<Dd>, String> = numbers.collect();
+    Some(numbers.and_then(|numbers| {
+        let numbers = match (numbers.as_slice(), part) {
+            (&[roll, pitch, yaw], "rpy") => quaternion_of_rpy([roll, pitch, yaw]).to_vec(),
+            (all, _) if all.len() == count && part != "rpy" => all.to_vec(),
+            (all, _) => {
+                let found = all.len();
+                return Err(format!(
+                    "{found} numbers: write {count}, with commas between them"
+                ));
+            }
+        };
+        Ok(positions.into_iter().zip(numbers).collect())
+    }))
 }
 
 /// Returns the runs of a table: names of quantities in the first line, one run per further line.

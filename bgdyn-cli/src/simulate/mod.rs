@@ -13,11 +13,13 @@ pub(crate) mod progress;
 pub(crate) mod report;
 mod run_recorder;
 mod run_table;
+mod scene_functions;
 mod undefined;
 
 pub use difference::Difference;
 pub(crate) use plant::Evaluation;
-pub use plant::{Evaluated, Form, Numbers};
+pub use plant::{Evaluated, Numbers};
 pub use run_recorder::{prepared, record, record_from};
 pub use run_table::{Column, EnergyAt, Event, Record, Row, Way, columns};
+pub use scene_functions::Form;
 pub use undefined::Undefined;

@@ -4,25 +4,16 @@ use std::sync::Arc;
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
-use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction};
+use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
+use super::scene_functions::{Form, SceneFunctions};
 use super::undefined::Undefined;
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
-
-/// The variables in which a scene is integrated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// y: positions, velocities, first-order states.
-    Natural,
-    /// z: momenta in place of velocities, for which Gauss–Legendre integrators are symplectic.
-    Canonical,
-}
 
 /// A scene in the evaluator. Inputs that the scene does not drive are 0; run-time parameters have the
 /// values of its files.
@@ -33,33 +24,6 @@ pub struct Evaluated<'a> {
     functions: Arc<SceneFunctions>,
 }
 
-/// The functions of a scene, the same for every start.
-#[derive(Debug)]
-struct SceneFunctions {
-    derivative: Function,
-    inputs: Option<Function>,
-    events: Option<Function>,
-    contacts: Option<Function>,
-    outputs: Option<Function>,
-    power: Function,
-    energy: Function,
-    jacobian: Option<Function>,
-    canonical: Option<Canonical>,
-    event_modes: Vec<Option<usize>>,
-    /// The component of the state that is the velocity of each mode's coordinate.
-    mode_velocities: Vec<usize>,
-    /// Instants at which an input bends, s.
-    corners: Vec<f64>,
-}
-
-/// The functions of the canonical form.
-#[derive(Debug)]
-struct Canonical {
-    to: Function,
-    from: Function,
-    rates: Function,
-}
-
 /// A value of a scene, or the error that it does not exist.
 pub(crate) type Evaluation<T> = Result<T, Undefined>;
 /// The contacts that can hold a coordinate, mode by mode.
@@ -68,36 +32,10 @@ type ContactsOf = Evaluation<Vec<Contact<f64>>>;
 impl<'a> Evaluated<'a> {
     /// Returns the scene in these variables; `slopes` for integrators that need the slopes of the rates.
     pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
-        let roles = system.roles();
-        let if_there = |role| roles.contains(&role).then(|| system.function(role));
-        let canonical = || Canonical {
-            to: system.function(SceneFunction::ToCanonical),
-            from: system.function(SceneFunction::FromCanonical),
-            rates: system.function(SceneFunction::CanonicalRates),
-        };
-        let layout = &system.scene.layout;
-        let coordinates = system.mode_coordinates().into_iter();
-        let mode_velocities = coordinates.map(|j| layout.nq() + j);
-        let functions = SceneFunctions {
-            derivative: system.function(SceneFunction::Derivative),
-            inputs: if_there(SceneFunction::Inputs),
-            events: if_there(SceneFunction::Events),
-            contacts: if_there(SceneFunction::Contacts),
-            outputs: if_there(SceneFunction::Outputs),
-            power: system.function(SceneFunction::Power),
-            energy: system.function(SceneFunction::Energy),
-            // In canonical form the slopes are not available: stages are then solved without them.
-            jacobian: (slopes && form == Form::Natural)
-                .then(|| system.function(SceneFunction::Jacobian)),
-            canonical: (form == Form::Canonical).then(canonical),
-            event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
-            mode_velocities: mode_velocities.collect(),
-            corners: system.scene.corners(),
-        };
         Evaluated {
             system,
             parameters: parameters(system),
-            functions: Arc::new(functions),
+            functions: Arc::new(SceneFunctions::new(system, form, slopes)),
         }
     }
 
@@ -227,19 +165,27 @@ impl<'a> Evaluated<'a> {
     /// Evaluates rates, or columns of rates, which must be finite.
     fn checked(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
         let values = self.regular(function, at)?;
-        let layout = &self.system.scene.layout;
         match values.iter().position(|x| !x.is_finite()) {
             None => Ok(values),
-            Some(i) => Err(self.undefined(i % (layout.nv() + layout.nx()).max(1), false)),
+            Some(i) => Err(self.undefined(i % self.rows(), false)),
         }
     }
 
-    /// Returns the error of rate `i`: the coordinates come first, then the first-order states.
+    /// Returns the number of rates in the derivative, and in a column of the Jacobian.
+    fn rows(&self) -> usize {
+        let layout = &self.system.scene.layout;
+        (layout.nv() + layout.nx() + layout.coupled().len()).max(1)
+    }
+
+    /// Returns the error of rate `i`: the coordinates come first, then the first-order states, then coupled
+    /// positions.
     fn undefined(&self, i: usize, singular: bool) -> Undefined {
         let layout = &self.system.scene.layout;
-        let at = match i.checked_sub(layout.nv()) {
-            None => &layout.coordinates[i].name,
-            Some(i) => &layout.states[i].name,
+        let own = layout.nv() + layout.nx();
+        let at = match (i.checked_sub(layout.nv()), i.checked_sub(own)) {
+            (_, Some(k)) => &layout.positions[layout.coupled()[k]].name,
+            (Some(i), None) => &layout.states[i].name,
+            (None, None) => &layout.coordinates[i].name,
         };
         let at = at.clone();
         Undefined { at, singular }
@@ -296,8 +242,16 @@ impl Plant for Evaluated<'_> {
             };
         }
         let at = self.driven(t, state, modes);
-        let mut rates = at.v[..self.positions()].to_vec();
-        rates.extend(self.checked(&self.functions.derivative, at)?);
+        let values = self.checked(&self.functions.derivative, at)?;
+        let layout = &self.system.scene.layout;
+        let (own, coupled) = values.split_at(layout.nv() + layout.nx());
+        let v = &state.as_slice()[layout.nq()..];
+        let mut coupled = coupled.iter();
+        let rates = layout.positions.iter().map(|p| match p.coordinate {
+            Some(j) => v[j],
+            None => coupled.next().copied().unwrap_or(f64::NAN),
+        });
+        let rates: Vec<f64> = rates.chain(own.iter().copied()).collect();
         Ok(rates.into())
     }
 
@@ -312,12 +266,9 @@ impl Plant for Evaluated<'_> {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
         };
-        // The rates of positions are the velocities.
-        let (n, nq) = (y.len(), self.positions());
-        let entry = |i: usize, k: usize| match i.checked_sub(nq) {
-            None => f64::from(u8::from(k == nq + i)),
-            Some(i) => values[k * (n - nq) + i],
-        };
+        let layout = &self.system.scene.layout;
+        let n = y.len();
+        let entry = |i: usize, k: usize| layout.jacobian_entry(&values, i, k);
         Some(Ok(Jacobian {
             state: DMatrix::from_fn(n, n, entry),
             time: DVector::from_fn(n, |i, _| entry(i, n)),
@@ -331,9 +282,36 @@ impl Plant for Evaluated<'_> {
     fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
         let mut rates = y.clone();
-        let nq = self.positions();
-        rates.rows_mut(0, nq).copy_from(&y.rows(nq, nq));
+        let (joints, nq) = (&self.functions.quasi_joints, self.positions());
+        quasi_joints::position_rates(joints, nq, y.as_slice(), rates.as_mut_slice());
         Ok(rates)
+    }
+
+    fn position_change(
+        &self,
+        t: f64,
+        state: &Numbers,
+        modes: &Numbers,
+        h: f64,
+    ) -> Evaluation<Numbers> {
+        let y = self.natural(t, state, modes)?;
+        let mut change = y.clone();
+        let (joints, nq) = (&self.functions.quasi_joints, self.positions());
+        quasi_joints::position_change(joints, nq, y.as_slice(), h, change.as_mut_slice());
+        Ok(change)
+    }
+
+    fn project(&self, y: &mut Numbers) -> bool {
+        quasi_joints::normalize(&self.functions.quasi_joints, y.as_mut_slice())
+    }
+
+    fn project_in_two(&self, y: &mut Numbers, low: &mut Numbers) -> bool {
+        let joints = &self.functions.quasi_joints;
+        quasi_joints::normalize_in_two(joints, y.as_mut_slice(), low.as_mut_slice())
+    }
+
+    fn strays(&self, y: &Numbers) -> bool {
+        quasi_joints::strays(&self.functions.quasi_joints, y.as_slice())
     }
 
     fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {

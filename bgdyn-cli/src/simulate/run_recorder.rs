@@ -2,10 +2,13 @@
 
 use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_sim::{Dense, Failure, Integrator, Run, Tolerance, WithIntegrator, with_integrator};
+use bgdyn_sim::{
+    Dense, Failure, Integrator, Plant as _, Run, Tolerance, WithIntegrator, with_integrator,
+};
 
-use super::plant::{Evaluated, Form, Numbers};
+use super::plant::{Evaluated, Numbers};
 use super::run_table::{EnergyAt, Event, Record, Row, Way};
+use super::scene_functions::Form;
 use super::undefined::Undefined;
 
 /// Returns a scene as a plant for its integrator.
@@ -221,7 +224,8 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             if t > now + rest {
                 return;
             }
-            let y = step.at_time(t.min(now));
+            let mut y = step.at_time(t.min(now));
+            self.run.plant().project(&mut y);
             self.keep_with(t, &y, modes, false);
             self.points += 1;
         }

@@ -34,8 +34,8 @@ pub(crate) fn state_columns(system: &SceneEquations) -> Vec<Column> {
         name: name.to_owned(),
         unit,
     };
-    let stored = layout.coordinates.iter().filter(|c| c.stored);
-    let places = stored.map(|c| column(&c.name, c.dimensions[0].si()));
+    let positions = layout.positions.iter();
+    let places = positions.map(|p| column(&p.name, p.dimension.si()));
     let all = layout.coordinates.iter();
     let rates = all.map(|c| column(&c.rate_name, c.dimensions[1].si()));
     let states = layout.states.iter();

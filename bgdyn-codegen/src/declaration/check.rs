@@ -100,6 +100,10 @@ impl Declaration {
                     faults.push(unknown(key, word, location, &known, context));
                     return None;
                 }
+                if let Some(fault) = self.unserved(key, word, location, context) {
+                    faults.push(fault);
+                    return None;
+                }
                 if reads == Reads::Input && !is_identifier(word) {
                     faults.push(wording::not_identifier(location, word));
                 }
@@ -137,6 +141,25 @@ impl Declaration {
             }
             (ParsedValue::Number(_) | ParsedValue::Group(_), _) => None,
         }
+    }
+}
+
+impl Declaration {
+    /// Returns the fault of a quasi-velocity for an effect that needs its position.
+    fn unserved(
+        &self,
+        key: &Key,
+        word: &str,
+        location: &Location,
+        context: &NameScope,
+    ) -> Option<Fault> {
+        if !matches!(key.reads, Reads::Coordinate | Reads::Joint) || !self.effect.reads_position() {
+            return None;
+        }
+        let mut all = context.quasi_velocities.iter();
+        let (_, kind) = all.find(|(name, _)| name == word)?;
+        let effect = (self.name.value.as_str(), self.effect.keyword());
+        Some(wording::no_position(location, effect, word, kind))
     }
 }
 
@@ -180,6 +203,11 @@ fn unknown(
 ) -> Fault {
     if context.locked.iter().any(|joint| joint == word) {
         return wording::joint_is_locked(location, word);
+    }
+    let mut followers = context.followers.iter();
+    let follower = followers.find(|(name, _)| name == word);
+    if let (Some((_, leader)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {
+        return wording::effect_on_follower(location, word, leader);
     }
     let what = match key.reads {
         Reads::Coordinate | Reads::Joint => "moving joint",

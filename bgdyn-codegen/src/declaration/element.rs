@@ -100,6 +100,12 @@ pub trait EffectKind: Sync {
         None
     }
 
+    /// Returns whether its law reads the position of its joint, not only the velocity: then it cannot act
+    /// on a quasi-velocity.
+    fn reads_position(&self) -> bool {
+        true
+    }
+
     /// Returns whether a joint can have only one effect of this kind.
     fn once_per_joint(&self) -> bool {
         false

@@ -3,13 +3,17 @@
 use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
 use crate::format::{Key, ParsedValue};
-use crate::mechanism::{Limits, LinkId, Mechanism, Motion, SiteOrigins};
+use crate::mechanism::{CoordinateId, Limits, Link, LinkId, Mechanism, Motion, SiteOrigins};
 
 /// The names that an effect may refer to.
 #[derive(Clone, Debug, Default)]
 pub struct NameScope {
     /// Moving joints and the coordinates that effects add, with their motions.
     pub coordinates: Vec<(String, Motion)>,
+    /// Velocities that are not the rate of a position, with their joint's type.
+    pub quasi_velocities: Vec<(String, &'static str)>,
+    /// Joints with `mimic`, with the joint that each follows.
+    pub followers: Vec<(String, String)>,
     /// Limits of the joints that have limits.
     pub limits: Vec<(String, Limits)>,
     /// Names of the coordinates that are no joints.
@@ -28,21 +32,31 @@ impl NameScope {
     /// Returns the names of a mechanism; `locked` are joints that a scene locks.
     pub fn of(mechanism: &Mechanism, locked: Vec<String>) -> NameScope {
         let names = mechanism.joint_names();
-        let coordinate = |(link, name): (&LinkId, String)| {
-            let joint = &mechanism.links()[link.0].joint;
-            (name, joint.kind.motion)
+        let coordinate = |(j, name): (usize, &String)| {
+            let motion = match mechanism.linear(CoordinateId(j)) {
+                true => Motion::Translation,
+                false => Motion::Rotation,
+            };
+            (name.clone(), motion)
+        };
+        let kind = |(j, name): (usize, &String)| {
+            let joint = mechanism.joint(CoordinateId(j));
+            let quasi = mechanism.is_quasi_velocity(CoordinateId(j));
+            quasi.then(|| (name.clone(), joint.kind.keyword))
+        };
+        let follower = |link: &Link| {
+            let mimic = link.joint.degrees.mimic?;
+            let leader = &mechanism.links()[mimic.leader.0].joint.name;
+            Some((link.joint.name.clone(), leader.clone()))
         };
         let limits = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.limits)
         };
         NameScope {
-            coordinates: mechanism
-                .coordinates()
-                .iter()
-                .zip(names)
-                .map(coordinate)
-                .collect(),
+            coordinates: names.iter().enumerate().map(coordinate).collect(),
+            quasi_velocities: names.iter().enumerate().filter_map(kind).collect(),
+            followers: mechanism.links().iter().filter_map(follower).collect(),
             limits: mechanism.coordinates().iter().map(limits).collect(),
             added: Vec::new(),
             locked,

@@ -47,6 +47,10 @@ impl EffectKind for Coulomb {
         "R"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[KINETIC, STATIC, JOINT, REFERENCE]
     }

@@ -54,6 +54,10 @@ impl EffectKind for CoulombSmooth {
         "R"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[KINETIC, WIDTH, JOINT, REFERENCE]
     }

@@ -35,6 +35,10 @@ impl EffectKind for Damper {
         "R"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[DAMPING, MAYBE_JOINT, BETWEEN, REFERENCE]
     }

@@ -109,6 +109,10 @@ impl EffectKind for DcMotor {
         "GY"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &KEYS
     }

@@ -39,6 +39,10 @@ impl EffectKind for GearEffect {
         "TF"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[EFFICIENCY, JOINT]
     }

@@ -69,6 +69,10 @@ impl EffectKind for LuGre {
         "R"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[
             STIFFNESS,

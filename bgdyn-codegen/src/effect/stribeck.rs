@@ -68,6 +68,10 @@ impl EffectKind for Stribeck {
         "R"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[
             KINETIC,

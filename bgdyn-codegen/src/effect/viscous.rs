@@ -53,6 +53,10 @@ impl EffectKind for Viscous {
         "R"
     }
 
+    fn reads_position(&self) -> bool {
+        false
+    }
+
     fn keys(&self) -> &'static [Key] {
         &[DAMPING, JOINT, REFERENCE]
     }

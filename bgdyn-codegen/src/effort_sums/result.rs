@@ -37,11 +37,11 @@ impl<'g> EffortSums<'g, '_> {
 
     /// Returns the drive of a coordinate before its gear. A voltage passes through its motor's law.
     pub(super) fn before_the_gear(&self, j: usize) -> Expr<'g> {
-        let (stored, everywhere) = (
-            self.scene.layout.coordinates[j].stored,
+        let (moves, everywhere) = (
+            self.scene.layout.coordinates[j].moves(),
             self.own == ActuatorEfforts::Each,
         );
-        match (everywhere, stored) {
+        match (everywhere, moves) {
             (true, _) => self.b.leaf(Leaf::Acceleration(j)),
             (false, true) => self.own_effort(j),
             (false, false) => self.b.zero(),

@@ -93,7 +93,12 @@ impl<'a> Naming<'a> {
         let coordinates = scene.layout.coordinates.iter();
         let joints: Vec<&str> = coordinates.map(|c| c.name.as_str()).collect();
         Naming {
-            positions: joints.clone(),
+            positions: scene
+                .layout
+                .positions
+                .iter()
+                .map(|p| p.name.as_str())
+                .collect(),
             joints,
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),
@@ -118,7 +123,7 @@ impl<'a> Naming<'a> {
             (Argument::Tau, _) => of_joints(Leaf::Input),
             (Argument::Canonical, Some(layout)) => {
                 let names = layout.coordinates.iter().map(|c| &c.name).enumerate();
-                let places = names.clone().take(layout.nq());
+                let places = layout.positions.iter().map(|p| &p.name).enumerate();
                 let places = places.map(|(j, name)| (Leaf::Position(j), format!("q_{name}")));
                 let momenta = names.map(|(j, name)| (Leaf::Velocity(j), format!("p_{name}")));
                 let states = layout.states.iter().enumerate();
@@ -143,7 +148,7 @@ impl<'a> Naming<'a> {
             quote! { #whole.#part }
         };
         Some(match leaf {
-            Leaf::Position(j) => of("state", &layout.coordinates[j].name),
+            Leaf::Position(p) => of("state", &layout.positions[p].name),
             Leaf::Velocity(j) => of("state", &layout.coordinates[j].rate_name),
             Leaf::State(i) => of("state", &layout.states[i].name),
             Leaf::Mode(i) => of("state", &format!("{}_mode", layout.modes[i].name)),

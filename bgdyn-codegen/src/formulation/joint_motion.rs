@@ -76,7 +76,7 @@ pub(super) fn tangents<'g>(b: &'g Builder, graph: &Multibody, v: &[Expr<'g>]) ->
 }
 
 /// Returns the tangents of the positions for a unit velocity of coordinate j.
-pub(super) fn unit_tangents(b: &Builder, graph: &Multibody, j: usize) -> Vec<Signed> {
+pub(crate) fn unit_tangents(b: &Builder, graph: &Multibody, j: usize) -> Vec<Signed> {
     let n = graph.coordinates.len();
     let unit = |k: usize| b.constant(if k == j { Dd::ONE } else { Dd::ZERO });
     let v: Vec<Expr<'_>> = (0..n).map(unit).collect();

@@ -8,7 +8,9 @@ use crate::format::{Dimension, Located, Raw, SceneSpec, parse_scene};
 use crate::machine::Machine;
 use crate::mechanism::{CoordinateId, Parameter};
 use crate::name::is_identifier;
-use crate::scene::{self, Initial, MomentumStore, StateCoordinate, StateLayout, Variable};
+use crate::scene::{
+    self, Initial, MomentumStore, StateCoordinate, StateLayout, StatePosition, Variable,
+};
 use crate::system::{Named, SceneEquations};
 
 /// The interface of a scene's module without its functions.
@@ -84,9 +86,7 @@ impl SceneInterface {
         }
         let layout = &mut self.layout;
         for word in words(spec.initial.value()) {
-            let stored = |c: &StateCoordinate| c.stored && c.name == word || c.rate_name == word;
-            let known = layout.coordinates.iter().any(stored)
-                || layout.states.iter().any(|s| s.name == word);
+            let known = layout.state_names().any(|name| name == word);
             match word.strip_suffix("_mode") {
                 Some(mode) if layout.modes.iter().all(|m| m.name != mode) => {
                     layout.modes.push(part(mode));
@@ -122,8 +122,8 @@ impl SceneInterface {
         let new = |seen: &mut BTreeSet<String>, name: &str| seen.insert(name.to_owned());
         let layout = &mut self.layout;
         let mut seen = BTreeSet::new();
-        let fresh = |c: &StateCoordinate| new(&mut seen, &c.name) && new(&mut seen, &c.rate_name);
-        layout.coordinates.retain(fresh);
+        layout.positions.retain(|p| new(&mut seen, &p.name));
+        layout.coordinates.retain(|c| new(&mut seen, &c.rate_name));
         layout.states.retain(|s| new(&mut seen, &s.name));
         layout
             .modes
@@ -169,17 +169,25 @@ fn joints(mechanism: &str) -> SceneInterface {
     let known = super::Interface::guess(mechanism, "mechanism");
     let names = known.into_iter().flat_map(|known| known.joints);
     let names = names.filter(|name| is_identifier(name));
-    let coordinate = |(j, name): (usize, String)| StateCoordinate {
+    let coordinate = |(j, name): (usize, &String)| StateCoordinate {
         rate_name: format!("{name}_rate"),
-        name,
+        name: name.clone(),
         store: MomentumStore::Links(CoordinateId(j)),
-        stored: true,
+        position: Some(j),
         dimensions: [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
         starts_with: None,
     };
+    let position = |(j, name): (usize, &String)| StatePosition {
+        name: name.clone(),
+        dimension: Dimension::Angle,
+        coordinate: Some(j),
+        neutral: bgdyn_runtime::Dd::ZERO,
+    };
+    let names: Vec<String> = names.collect();
     SceneInterface {
         layout: StateLayout {
-            coordinates: names.enumerate().map(coordinate).collect(),
+            positions: names.iter().enumerate().map(position).collect(),
+            coordinates: names.iter().enumerate().map(coordinate).collect(),
             ..StateLayout::default()
         },
         ..nothing()

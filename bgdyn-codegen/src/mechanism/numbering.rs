@@ -1,5 +1,7 @@
 //! PoseNumbers the positions and velocities of a mechanism's joints, and names them.
 
+use bgdyn_runtime::Dd;
+
 use super::{CoordinateId, Degrees, Joint, LinkId, Mechanism, Motion, PositionId};
 
 impl Mechanism {
@@ -62,6 +64,30 @@ impl Mechanism {
     /// Returns the joint of a coordinate.
     pub fn joint(&self, coordinate: CoordinateId) -> &Joint {
         &self.links[self.coordinates[coordinate.0].0].joint
+    }
+
+    /// Returns whether the unit of a coordinate's velocity is m/s, not rad/s.
+    pub fn linear(&self, coordinate: CoordinateId) -> bool {
+        let joint = self.joint(coordinate);
+        let columns = joint.degrees.columns(joint.kind.motion, joint.axis);
+        let own = columns.iter().find(|(j, _)| *j == coordinate);
+        own.is_some_and(|(_, column)| column.angular.0.iter().all(|&x| x == Dd::ZERO))
+    }
+
+    /// Returns whether a coordinate's velocity is not the rate of a position.
+    pub fn is_quasi_velocity(&self, coordinate: CoordinateId) -> bool {
+        let joint = self.joint(coordinate);
+        let velocities = joint.degrees.velocities.iter();
+        let mut own = velocities.zip(joint.kind.motion.velocity_positions());
+        own.any(|(j, position)| *j == coordinate && position.is_none())
+    }
+
+    /// Returns the names of the joints with one velocity, in the order of the velocities.
+    pub fn one_degree_names(&self) -> Vec<String> {
+        let single = |j: &usize| self.joint(CoordinateId(*j)).degrees.velocities.len() == 1;
+        let names = self.joint_names();
+        let kept = (0..names.len()).filter(single);
+        kept.map(|j| names[j].clone()).collect()
     }
 
     /// Returns the joints that are not plain: more than one degree, a screw, or `mimic`.

@@ -3,7 +3,7 @@
 /// A function of a scene, by its result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SceneFunction {
-    /// v̇ and ẋ.
+    /// v̇ and ẋ, then the rates of positions that are not velocities: those of q̇ = N(q) v.
     Derivative,
     /// Drives of the coordinates for given accelerations.
     Inverse,
@@ -19,8 +19,8 @@ pub enum SceneFunction {
     Energy,
     /// The outputs of the scene.
     Outputs,
-    /// ∂ẏ/∂y and ∂ẏ/∂t, including the inputs that the scene drives: without the rows of q̇, column by
-    /// column.
+    /// ∂ẏ/∂y and ∂ẏ/∂t, including the inputs that the scene drives, column by column in the order of the
+    /// derivative.
     Jacobian,
     /// Momenta of a state.
     ToCanonical,

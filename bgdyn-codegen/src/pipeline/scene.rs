@@ -24,6 +24,9 @@ pub(super) fn generate_scene(
     if !misplaced.is_empty() {
         return Err(Refusal::Options(misplaced));
     }
+    options
+        .check_canonical(&system.graph)
+        .map_err(Refusal::Options)?;
     let functions = scene_functions(&system, options);
     if options.verify {
         Refusal::unless_equal(check_scene(&system, &functions))?;

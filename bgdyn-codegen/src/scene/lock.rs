@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::math::rodrigues;
+use crate::mechanism::joint::PoseNumbers;
 use crate::mechanism::{Joint, Motion, Pose};
 
 /// Returns the pose of a joint's link at a coordinate.
@@ -20,8 +21,32 @@ pub(super) fn locked_pose(joint: &Joint, at: Dd) -> Pose {
             rotation,
             translation: translation + rotation * joint.axis.scale(at),
         },
-        // Only joints with one coordinate of their own can be locked.
+        Motion::Compound(motion) if motion.positions.len() == 1 => {
+            let (turn, shift) = motion.pose(&joint.constants(), &[at], &Exact);
+            Pose {
+                rotation: rotation * turn,
+                translation: translation + rotation * shift,
+            }
+        }
+        // Only joints with one velocity can be locked.
         Motion::None | Motion::Compound(_) => joint.origin,
+    }
+}
+
+/// Double-double numbers with exact quarter turns.
+struct Exact;
+
+impl PoseNumbers<Dd> for Exact {
+    fn constant(&self, x: Dd) -> Dd {
+        x
+    }
+
+    fn cos_sin(&self, angle: Dd) -> (Dd, Dd) {
+        cos_sin(angle)
+    }
+
+    fn twice_inverse(&self, squares: Dd) -> Dd {
+        Dd::from_f64(2.0) / squares
     }
 }
 

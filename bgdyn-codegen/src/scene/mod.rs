@@ -18,7 +18,8 @@ use crate::declaration::Element;
 use crate::fault::Location;
 use crate::format::{Located, Raw};
 pub use crate::layout::{
-    InitialValueAs, Level, MomentumStore, StateCoordinate, StateLayout, Variable,
+    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition,
+    Variable,
 };
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
@@ -107,4 +108,16 @@ pub struct Initial {
     pub x: Vec<Dd>,
     /// Modes.
     pub modes: Vec<Dd>,
+}
+
+/// Returns the unit quaternion x, y, z, w of turns about the fixed axes x, then y, then z, rad.
+pub fn quaternion_of_rpy(rpy: [Dd; 3]) -> [Dd; 4] {
+    let halves = rpy.map(|angle| (angle * Dd::from_f64(0.5)).sin_cos());
+    let [(sx, cx), (sy, cy), (sz, cz)] = halves;
+    [
+        cz * cy * sx - sz * sy * cx,
+        cz * sy * cx + sz * cy * sx,
+        sz * cy * cx - cz * sy * sx,
+        cz * cy * cx + sz * sy * sx,
+    ]
 }

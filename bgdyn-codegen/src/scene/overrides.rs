@@ -51,8 +51,8 @@ impl Scene {
             kind,
         };
         let coordinates = layout.coordinates.iter().enumerate();
-        let stored = coordinates.clone().filter(|(_, c)| c.stored);
-        let positions = stored.map(|(j, c)| one(&c.name, c.dimensions[0].si(), Position(j)));
+        let positions = layout.positions.iter().enumerate();
+        let positions = positions.map(|(i, p)| one(&p.name, p.dimension.si(), Position(i)));
         let velocities =
             coordinates.map(|(j, c)| one(&c.rate_name, c.dimensions[1].si(), Velocity(j)));
         let states = layout.states.iter().enumerate().map(|(i, part)| {
@@ -99,6 +99,24 @@ impl Scene {
         }
     }
 
+    /// Returns the positions that a part of the pose of a spherical or floating joint sets: `xyz`, `rpy` or
+    /// `quaternion`. `None` if there is no such joint or part.
+    pub fn pose_overrides(&self, joint: &str, part: &str) -> Option<Vec<Override>> {
+        let joint = self.layout.quasi_joints.iter().find(|j| j.name == joint)?;
+        let quaternion = joint.quaternion?;
+        let positions = match part {
+            "xyz" if joint.positions.start < quaternion => joint.positions.start..quaternion,
+            "rpy" | "quaternion" => quaternion..quaternion + 4,
+            _ => return None,
+        };
+        let one = |i: usize| Override {
+            name: self.layout.positions[i].name.clone(),
+            unit: self.layout.positions[i].dimension.si(),
+            kind: OverrideKind::Position(i),
+        };
+        Some(positions.map(one).collect())
+    }
+
     /// Returns the scene with these values, SI units, in place of those in its file. A drive without a
     /// position in the file starts with its joint; modes that are not among the values are determined
     /// again.
@@ -138,6 +156,10 @@ impl Scene {
                 }
             }
         }
+        let wrong = scene.layout.unit_quaternions(&mut scene.initial.q);
+        faults.0.extend(wrong.into_iter().map(|(joint, length)| {
+            wording::quaternion_length(&Location::file(), &joint.name, length)
+        }));
         if faults.any_fault() {
             return Err(faults);
         }
@@ -155,8 +177,10 @@ impl Scene {
             let Some(k) = with.and_then(|name| layout.coordinate_named(name)) else {
                 continue;
             };
-            if !given(&c.name) {
-                scene.initial.q[j] = scene.initial.q[k];
+            if let (Some(own), Some(other)) = (c.position, layout.coordinates[k].position)
+                && !given(&c.name)
+            {
+                scene.initial.q[own] = scene.initial.q[other];
             }
             if !given(&c.rate_name) {
                 scene.initial.v[j] = scene.initial.v[k];

@@ -73,6 +73,14 @@ pub enum InputSource {
 }
 
 impl InputSource {
+    /// Returns whether it follows a coordinate.
+    pub fn is_controller(&self) -> bool {
+        matches!(
+            self,
+            InputSource::Pd { .. } | InputSource::ComputedTorque { .. }
+        )
+    }
+
     /// The instants, s, at which its course or its target bends.
     pub fn corners(&self) -> impl Iterator<Item = Dd> {
         let course = match self {

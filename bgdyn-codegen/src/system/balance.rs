@@ -62,7 +62,7 @@ fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntryS
         "kinetic energy of links and rotors",
         EntrySource::Links,
     );
-    if (0..scene.layout.nq()).any(|j| !sums.own_effort(j).is_zero()) {
+    if (0..scene.layout.motions()).any(|j| !sums.own_effort(j).is_zero()) {
         own(
             DRIVES,
             "efforts at the joints that are inputs",
@@ -150,7 +150,7 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
             }
             EntrySource::Links => [zero, kinetic_rate, zero],
             EntrySource::Drives => {
-                let n = system.scene.layout.nq();
+                let n = system.scene.layout.motions();
                 let power = (0..n).fold(zero, |sum, j| sum + sums.own_effort(j) * sums.v[j]);
                 [power, zero, zero]
             }
@@ -178,9 +178,10 @@ struct TimeDerivative {
 impl TimeDerivative {
     fn new<'g>(system: &SceneEquations, sums: &EffortSums<'g, '_>, rates: &[Expr<'g>]) -> Self {
         let layout = &system.scene.layout;
-        let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
+        let (nv, nx) = (layout.nv(), layout.nx());
         let mut tangents: Vec<(Leaf, Signed)> = Vec::new();
-        tangents.extend((0..nq).map(|j| (Leaf::Position(j), sums.v[j].signed())));
+        let position_rates = sums.position_rates().into_iter().enumerate();
+        tangents.extend(position_rates.map(|(p, rate)| (Leaf::Position(p), rate.signed())));
         tangents.extend((0..nv).map(|j| (Leaf::Velocity(j), rates[j].signed())));
         tangents.extend((0..nx).map(|i| (Leaf::State(i), rates[nv + i].signed())));
         // A reference's position changes with its rate.

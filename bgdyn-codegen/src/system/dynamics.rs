@@ -11,7 +11,7 @@ use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 
-/// Returns the alternatives for v̇ and ẋ.
+/// Returns the alternatives for v̇, ẋ, and the rates of coupled positions.
 pub(super) fn derivatives(system: &SceneEquations) -> Vec<Function> {
     if system.may_hold_joints() {
         return vec![with_modes(system, None)];
@@ -21,7 +21,7 @@ pub(super) fn derivatives(system: &SceneEquations) -> Vec<Function> {
     ways.map(|forward| without_modes(system, forward)).collect()
 }
 
-/// Returns v̇ and ẋ with this formulation; `None` if it does not support a required method.
+/// Returns them with this formulation; `None` if it does not support a required method.
 pub(super) fn derivative_by(
     system: &SceneEquations,
     formulation: &'static dyn Formulation,
@@ -35,16 +35,18 @@ pub(super) fn derivative_by(
     (known == [true, true]).then(|| with_modes(system, Some(formulation)))
 }
 
-/// Returns v̇ and ẋ if joints may be held.
+/// Returns them if joints may be held.
 fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) -> Function {
     system.one(SceneFunction::Derivative, |system, b| {
         let mut sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
         sums.asked = asked;
-        rates(system, &sums, b)
+        let mut all = rates(system, &sums, b);
+        all.extend(sums.coupled_rates());
+        all
     })
 }
 
-/// Returns v̇ and ẋ with a function for forward dynamics.
+/// Returns them with a function for forward dynamics.
 fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
     let b = Builder::new();
     let outputs: Vec<Signed> = {
@@ -56,6 +58,7 @@ fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
         );
         let joints = link_accelerations(&b, forward, &sums, system);
         let all = joined(system, &sums, joints).into_iter();
+        let all = all.chain(sums.coupled_rates());
         all.map(Expr::signed).collect()
     };
     let name = format!("{}; under the scene's efforts", forward.formulation);

@@ -22,8 +22,12 @@ use crate::method::{Method, SceneFunction};
 const MAX_DIFFERENTIATED_COORDINATES: usize = 4;
 
 /// Returns the alternatives for the Jacobian: column by column, first y's parts and then t, the rates v̇
-/// and ẋ of each.
+/// and ẋ of each, and those of coupled positions.
 pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
+    // The recursion's derivatives are along the tangent, the Jacobian's columns components of positions.
+    if !system.scene.layout.quasi_joints.is_empty() {
+        return vec![differentiated(system)];
+    }
     let mut ways = implicit(system);
     if system.graph.coordinates.len() <= MAX_DIFFERENTIATED_COORDINATES {
         ways.push(differentiated(system));

@@ -107,9 +107,10 @@ impl SceneEquations {
         let coordinates = self.graph.coordinates.iter().enumerate();
         let diagonal = |j: usize| mass[j * (j + 1) / 2 + j];
         // Positions without symmetry; a diagonal entry of M is a sum of squares.
-        let positions: Vec<Dd> = (0..self.graph.coordinates.len())
+        let mut positions: Vec<Dd> = (0..self.scene.layout.nq())
             .map(|j| Dd::from_f64(0.37 + 0.71 * j as f64))
             .collect();
+        self.scene.layout.normalize(&mut positions);
         let at = crate::scene::Initial {
             q: positions,
             ..self.scene.initial.clone()
@@ -125,7 +126,8 @@ impl SceneEquations {
         self.roles_with(false, false)
     }
 
-    /// Returns the same, with the Jacobian and the canonical form if selected.
+    /// Returns the same, with the Jacobian and the canonical form if selected. Scenes with quasi-velocities
+    /// have no canonical form.
     pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<SceneFunction> {
         let layout = &self.scene.layout;
         let method = self.scene.integration.method;
@@ -141,7 +143,10 @@ impl SceneEquations {
             SceneFunction::Jacobian => jacobian || method.needs_jacobian(),
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
-            | SceneFunction::CanonicalRates => canonical || method.needs_canonical(),
+            | SceneFunction::CanonicalRates => {
+                let natural = layout.quasi_joints.is_empty();
+                natural && (canonical || method.needs_canonical())
+            }
         };
         SceneFunction::ALL.into_iter().filter(has).collect()
     }
@@ -224,19 +229,21 @@ fn outputs<'g>(
 ) -> Vec<(Named, Expr<'g>)> {
     let layout = &system.scene.layout;
     let mut known: Vec<(Named, Expr<'g>)> = Vec::new();
-    let about = |c: &crate::scene::StateCoordinate, k: usize| {
-        let what = ["position", "velocity"][k];
-        format!("{what} of `{}`, {}", c.name, c.dimensions[k].si())
+    let about = |c: &crate::scene::StateCoordinate| {
+        format!("velocity of `{}`, {}", c.name, c.dimensions[1].si())
     };
+    let position_about =
+        |p: &crate::scene::StatePosition| format!("position of `{}`, {}", p.name, p.dimension.si());
     let mut add = |name: &str, unit: &'static str, about: &str, value: Expr<'g>| {
         let (name, about) = (name.to_owned(), about.to_owned());
         known.push((Named { name, unit, about }, value));
     };
+    for (position, &q) in layout.positions.iter().zip(&sums.q) {
+        let unit = position.dimension.si();
+        add(&position.name, unit, &position_about(position), q);
+    }
     for (j, c) in layout.coordinates.iter().enumerate() {
-        if c.stored {
-            add(&c.name, c.dimensions[0].si(), &about(c, 0), sums.q[j]);
-        }
-        add(&c.rate_name, c.dimensions[1].si(), &about(c, 1), sums.v[j]);
+        add(&c.rate_name, c.dimensions[1].si(), &about(c), sums.v[j]);
     }
     for reading in sums.readings() {
         add(&reading.name, reading.unit, &reading.about, reading.value);

@@ -41,7 +41,10 @@ fn violated<'g>(
     if let Some(value) = first {
         return Some((value, "at the start".into()));
     }
-    for j in sums.positions_of(condition.value) {
+    for p in sums.positions_of(condition.value) {
+        let Some(j) = scene.layout.positions[p].coordinate else {
+            continue;
+        };
         let coordinate = &scene.layout.coordinates[j];
         let MomentumStore::Links(id) = &coordinate.store else {
             continue;
@@ -53,7 +56,7 @@ fn violated<'g>(
         for k in 0..=POINTS {
             let q = lower + (upper - lower) * f64::from(k) / f64::from(POINTS);
             let mut moved = start.clone();
-            moved.q[j] = Dd::from_f64(q);
+            moved.q[p] = Dd::from_f64(q);
             if let Some(value) = Some(value_at(&moved)).filter(wrong) {
                 let (name, unit) = (&coordinate.name, coordinate.dimensions[0].si());
                 let location = format!("where `{name}` is {q:.4} {unit}, within its limits");

@@ -30,7 +30,8 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
             } => {
                 let wanted = course(b, target);
                 let j = followed(i).unwrap_or(0);
-                (wanted - sums.q[j]) * *stiffness + (rate(b, wanted) - sums.v[j]) * *damping
+                (wanted - sums.position_of(j)) * *stiffness
+                    + (rate(b, wanted) - sums.v[j]) * *damping
             }
             InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
         });
@@ -59,7 +60,7 @@ fn computed_torques<'g>(
         {
             let place = course(b, target);
             let speed = rate(b, place);
-            let error = (place - sums.q[j]) * *stiffness + (speed - sums.v[j]) * *damping;
+            let error = (place - sums.position_of(j)) * *stiffness + (speed - sums.v[j]) * *damping;
             wanted[j] = Some(rate(b, speed) + error);
         }
     }

@@ -4,6 +4,7 @@ use super::SceneEquations;
 use crate::expr::{Builder, Graph, Inputs, Leaf, Signed, Tangent};
 use crate::function::Function;
 use crate::method::SceneFunction;
+use crate::scene::StatePosition;
 use bgdyn_runtime::Dd;
 
 impl SceneEquations {
@@ -45,10 +46,13 @@ impl SceneEquations {
             return None;
         };
         let b = Builder::from(derivative.graph.clone());
-        let mut rates: Vec<Signed> = (0..nq)
-            .map(|j| b.leaf(Leaf::Velocity(j)).signed())
-            .collect();
-        rates.extend(&block.outputs);
+        let (own, mut coupled) = (&block.outputs[..nv + nx], block.outputs[nv + nx..].iter());
+        let position_rate = |position: &StatePosition| match position.coordinate {
+            Some(j) => b.leaf(Leaf::Velocity(j)).signed(),
+            None => *coupled.next().expect("a rate of every coupled position"),
+        };
+        let mut rates: Vec<Signed> = layout.positions.iter().map(position_rate).collect();
+        rates.extend(own);
         let columns: Vec<Vec<Signed>> = leaves
             .iter()
             .map(|&leaf| {

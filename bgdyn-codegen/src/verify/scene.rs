@@ -105,7 +105,8 @@ impl CheckedScene<'_> {
     /// Checks P = E on every coordinate that is free, and the rates ẋ.
     fn derivative(&self, function: &Function, at: &Inputs<Dd>, rates: &[Dd]) -> Option<Difference> {
         let nv = self.system.scene.layout.nv();
-        let (accelerations, first_order) = rates.split_at(nv);
+        let (accelerations, rest) = rates.split_at(nv);
+        let (first_order, coupled) = rest.split_at(self.system.scene.layout.nx());
         let sides = self.sides_at(accelerations, at);
         // The scale includes the terms that the accelerations cancel.
         let still = self.sides_at(&vec![Dd::ZERO; nv], at);
@@ -123,6 +124,18 @@ impl CheckedScene<'_> {
             .or_else(|| {
                 let law = ("the rates of its effects' laws", EXACT);
                 self.compare(function, law, (first_order, expected), LEAST_RATE, at)
+            })
+            .or_else(|| {
+                let rates = self.system.graph.position_rates(&at.q, &at.v);
+                let own = self.system.scene.layout.coupled().into_iter();
+                let expected: Vec<Dd> = own.map(|p| rates[p]).collect();
+                self.compare(
+                    function,
+                    ("q̇ = N(q) v", EXACT),
+                    (coupled, &expected),
+                    0.0,
+                    at,
+                )
             })
     }
 
@@ -152,7 +165,10 @@ impl CheckedScene<'_> {
         };
         let (supplied, used) = ([sum(0)], [sum(1) + sum(2)]);
         let text = "Σ supplied = Σ d(stored)/dt + Σ dissipated";
-        let size = largest(entries);
+        // Without effects only terms of the kinetic energy's rate are left, which cancel.
+        let still = self.sides_at(&vec![Dd::ZERO; at.v.len()], at);
+        let terms = still.iter().zip(&at.v).map(|(&effort, &v)| effort * v);
+        let size = largest(entries).max(largest(&terms.collect::<Vec<_>>()));
         self.compare(function, (text, SOLVED), (&supplied, &used), size, at)
     }
 
@@ -171,8 +187,9 @@ impl CheckedScene<'_> {
         let derivative = self.rates(&along(at, &moved))?;
         let direction = moved.q.iter().chain(&moved.v).chain(&moved.x);
         let direction = direction.chain(std::iter::once(&moved.t));
-        let columns = columns.chunks((nv + nx).max(1)).zip(direction);
-        let mut found = vec![Dd::ZERO; nv + nx];
+        let rows = nv + nx + self.system.scene.layout.coupled().len();
+        let columns = columns.chunks(rows.max(1)).zip(direction);
+        let mut found = vec![Dd::ZERO; rows];
         for (column, &d) in columns {
             found = plus(&found, &column.iter().map(|&x| x * d).collect::<Vec<_>>());
         }

@@ -86,7 +86,7 @@ pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
             let slips = if value < 0.0 { -1.0 } else { 1.0 };
             Dd::from_f64(if k == 0 { slips } else { value.round() })
         });
-        Inputs {
+        let mut state = Inputs {
             modes: modes.collect(),
             q: around(&mut random, &initial.q, 0.3),
             v,
@@ -96,7 +96,9 @@ pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
             parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
             t: Some(signed(&mut random) * signed(&mut random)),
             passed: vec![],
-        }
+        };
+        layout.normalize(&mut state.q);
+        state
     };
     (0..count).map(state).collect()
 }

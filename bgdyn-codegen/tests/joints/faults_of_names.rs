@@ -1,63 +1,6 @@
-//! Names of velocities, scenes with joints of several degrees, joints without inertia.
-
-use bgdyn_codegen::read_scene;
-use bgdyn_codegen::refusal::Refusal;
+//! Names of velocities, joints without inertia.
 
 use super::findings::*;
-
-/// Asserts that a scene refuses the mechanism of a slide and this joint for one reason.
-fn refused_in_a_scene(joint: &str, said: &str) {
-    let scene = "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products, gravity]\n";
-    let mechanism = with_joints(&[LEADER, joint]);
-    let Err(Refusal::Spec(faults)) = read_scene(scene, "scene", |_| Ok(mechanism)) else {
-        panic!("{joint}: not refused by its faults");
-    };
-    let shown = faults.render("scene.yaml", scene);
-    assert_eq!(faults.0.len(), 1, "{joint}:\n{shown}");
-    let fault = &faults.0[0];
-    let place = (fault.rule, fault.path.as_str(), fault.position.line);
-    assert_eq!(place, ("joint-in-scene", "mechanism", 2), "{shown}");
-    assert!(fault.message.contains(said), "{shown}");
-    let help = fault.help.as_deref().unwrap_or_default();
-    assert!(
-        help.contains("bgdyn eval") && help.contains("revolute"),
-        "{help}"
-    );
-}
-
-#[test]
-fn scenes_refuse_joints_of_several_degrees() {
-    refused_in_a_scene("name: j, type: spherical", "`j` is spherical");
-    refused_in_a_scene("name: j, type: floating", "`j` is floating");
-    refused_in_a_scene("name: j, type: planar", "`j` is planar");
-}
-
-#[test]
-fn scenes_refuse_screws() {
-    refused_in_a_scene("name: j, type: helical, lead: 5 mm", "`j` is helical");
-}
-
-#[test]
-fn scenes_refuse_followers() {
-    refused_in_a_scene(
-        "name: j, type: prismatic, mimic: { joint: grip }",
-        "`j` has `mimic`",
-    );
-}
-
-/// Joints that are made of plain ones need no support.
-#[test]
-fn scenes_accept_joints_of_plain_ones() {
-    let scene = "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products, gravity]\n";
-    for joint in [
-        "name: j, type: cylindrical",
-        "name: j, type: universal, axis: x, axis2: y",
-    ] {
-        let mechanism = with_joints(&[joint]);
-        let read = read_scene(scene, "scene", |_| Ok(mechanism));
-        assert!(read.is_ok(), "{joint}: {:?}", read.err());
-    }
-}
 
 /// A joint of several degrees names its velocities: these are names of joints in `JOINT_NAMES`, of leaders,
 /// and of ports.

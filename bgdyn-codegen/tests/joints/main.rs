@@ -13,5 +13,6 @@ mod mimic;
 mod order;
 mod robot;
 mod same_motion;
+mod scenes;
 mod specs;
 mod verified;

@@ -129,7 +129,7 @@ impl Pair {
         let layout = &self.system.scene.layout;
         let mut state = State::default();
         for c in &layout.coordinates {
-            if c.stored {
+            if c.position.is_some() {
                 state.q.insert(c.name.clone(), dd(rng.within(1.2)));
             }
             state.v.insert(c.name.clone(), dd(rng.within(2.0)));
@@ -206,7 +206,7 @@ impl Pair {
         };
         let mut along = State::default();
         for c in &layout.coordinates {
-            if c.stored {
+            if c.position.is_some() {
                 along.q.insert(c.name.clone(), dd(rng.within(1.0)));
             }
             let rate = if held(&c.name) { 0.0 } else { rng.within(1.0) };
@@ -220,7 +220,7 @@ impl Pair {
 
     fn inputs(&self, state: &State) -> Inputs<Dd> {
         let layout = &self.system.scene.layout;
-        let stored = layout.coordinates.iter().filter(|c| c.stored);
+        let stored = layout.coordinates.iter().filter(|c| c.position.is_some());
         Inputs {
             q: stored.map(|c| state.q[&c.name]).collect(),
             v: layout

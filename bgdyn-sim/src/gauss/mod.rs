@@ -214,6 +214,10 @@ where
         }
     }
 
+    fn keeps_lengths(&self) -> bool {
+        true
+    }
+
     fn step<O: Ode<State = Y>>(
         &self,
         ode: &O,

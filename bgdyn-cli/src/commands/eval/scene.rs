@@ -10,6 +10,7 @@ use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::options::Preference;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::Dd;
 use serde_json::{Value, json};
 
 use super::arguments::Eval;
@@ -58,17 +59,10 @@ struct SceneNames {
 impl SceneNames {
     fn of(system: &SceneEquations) -> Self {
         let layout = &system.scene.layout;
-        let stored = layout.coordinates.iter().filter(|c| c.stored);
-        let rates = layout.coordinates.iter().map(|c| c.rate_name.clone());
-        let states = layout.states.iter().map(|s| s.name.clone());
         let modes = layout.modes.iter().map(|m| format!("{}_mode", m.name));
         let coordinates = layout.coordinates.iter().map(|c| c.name.clone());
         SceneNames {
-            state: stored
-                .map(|c| c.name.clone())
-                .chain(rates)
-                .chain(states)
-                .collect(),
+            state: layout.state_names().map(str::to_owned).collect(),
             modes: modes.collect(),
             inputs: layout.inputs.iter().map(|i| i.name.clone()).collect(),
             coordinates: coordinates.collect(),
@@ -141,7 +135,8 @@ impl SceneCall<'_> {
                 "no `z`: the state with momenta in place of velocities".into(),
             ));
         }
-        let y = vector(state, key, &self.names.state, begin)?;
+        let mut y = vector(state, key, &self.names.state, begin)?;
+        self.unit_quaternions(&mut y[..nq])?;
         let modes = vector(state, "modes", &self.names.modes, numbers(&start.modes))?;
         let a = vec![0.0; nv];
         let t = match state.get("t") {
@@ -177,29 +172,61 @@ impl SceneCall<'_> {
         Ok(at)
     }
 
+    /// Divides quaternions by their length.
+    ///
+    /// # Errors
+    /// A quaternion that is no orientation, with its length.
+    fn unit_quaternions(&self, q: &mut [f64]) -> Result<(), Failure> {
+        let layout = &self.system.scene.layout;
+        if layout.quasi_joints.is_empty() {
+            return Ok(());
+        }
+        let mut positions: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
+        let wrong = layout.unit_quaternions(&mut positions);
+        let told: Vec<String> = wrong
+            .into_iter()
+            .map(|(joint, length)| {
+                let name = &joint.name;
+                format!("the quaternion of `{name}` has the length {length:?}, not 1 within 1e-6")
+            })
+            .collect();
+        if !told.is_empty() {
+            return Err(plain(told.join("; ")));
+        }
+        for (q, unit) in q.iter_mut().zip(positions) {
+            *q = unit.to_f64();
+        }
+        Ok(())
+    }
+
     /// Returns the result in printed form.
     fn shaped(&self, at: &Inputs<f64>, values: &[f64]) -> Value {
         let rows = |n: usize| json!(values.chunks(n).collect::<Vec<_>>());
-        let nq = at.q.len();
         match self.role {
-            SceneFunction::Derivative => json!([&at.v[..nq], values].concat()),
+            SceneFunction::Derivative => {
+                let layout = &self.system.scene.layout;
+                let (own, coupled) = values.split_at(layout.nv() + layout.nx());
+                let mut coupled = coupled.iter().copied();
+                let rates = layout.positions.iter().map(|p| match p.coordinate {
+                    Some(j) => at.v[j],
+                    None => coupled.next().unwrap_or(f64::NAN),
+                });
+                json!(rates.chain(own.iter().copied()).collect::<Vec<f64>>())
+            }
             SceneFunction::ToCanonical | SceneFunction::FromCanonical => {
                 json!([&at.q[..], values, &at.x[..]].concat())
             }
             SceneFunction::Power => rows(3),
             SceneFunction::Contacts => rows(4),
-            SceneFunction::Jacobian => self.jacobian(nq, values),
+            SceneFunction::Jacobian => self.jacobian(values),
             _ => json!(values),
         }
     }
 
     /// Returns ∂ẏ/∂y row by row, and ∂ẏ/∂t.
-    fn jacobian(&self, nq: usize, values: &[f64]) -> Value {
+    fn jacobian(&self, values: &[f64]) -> Value {
         let n = self.names.state.len();
-        let entry = |i: usize, k: usize| match i.checked_sub(nq) {
-            None => f64::from(u8::from(k == nq + i)),
-            Some(i) => values[k * (n - nq) + i],
-        };
+        let entry = |i: usize, k: usize| self.system.scene.layout.jacobian_entry(values, i, k);
         let row = |i: usize| (0..n).map(|k| entry(i, k)).collect::<Vec<f64>>();
         json!({
             "along_state": (0..n).map(row).collect::<Vec<_>>(),

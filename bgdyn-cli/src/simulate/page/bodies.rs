@@ -7,6 +7,31 @@ use bgdyn_codegen::scene::Scene;
 use super::body::{Body, BodyJoint, BodyPoint, End, Placed};
 use super::stops::stops;
 
+/// Returns the word by which the page draws a joint.
+fn drawn_as(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Translation => "prismatic",
+        Motion::None | Motion::Rotation => "revolute",
+        Motion::Compound(motion) if motion.manifold.is_empty() => "revolute",
+        Motion::Compound(motion) => motion.manifold,
+    }
+}
+
+/// Returns the least and the largest position of a joint of one degree.
+fn own_travel(link: &Link, travel: &[(f64, f64)]) -> (f64, f64) {
+    let degrees = &link.joint.degrees;
+    let Some(&(low, high)) = degrees.positions.first().and_then(|p| travel.get(p.0)) else {
+        return (0.0, 0.0);
+    };
+    let own = |q: f64| {
+        degrees
+            .mimic
+            .map_or(q, |m| m.ratio.to_f64() * q + m.offset.to_f64())
+    };
+    let (a, b) = (own(low), own(high));
+    (a.min(b), a.max(b))
+}
+
 /// The bodies of a scene, and the poses of its links on them.
 pub(super) struct Bodies {
     pub(super) all: Vec<Body>,
@@ -52,24 +77,30 @@ impl Bodies {
     fn link(&mut self, i: usize, link: &Link, travel: &[(f64, f64)]) {
         let (carrier, place) = self.carrier(link.parent);
         let joint = place.then(&Placed::of(&link.joint.origin));
-        self.all[carrier].beam(place.o, joint.o);
-        let Some(coordinate) = link.joint.coordinate else {
+        let motion = link.joint.kind.motion;
+        let kind = drawn_as(motion);
+        // A joint with displacements in several directions has no place on its carrier.
+        if !matches!(kind, "floating" | "planar") {
+            self.all[carrier].beam(place.o, joint.o);
+        }
+        if motion == Motion::None {
             self.on.push((carrier, joint));
             return;
+        }
+        let axis = match motion.has_axis() {
+            true => link.joint.axis.map(|x| x.to_f64()).0,
+            false => [0.0, 0.0, 1.0],
         };
-        let axis = link.joint.axis.map(|x| x.to_f64()).0;
         let along = joint.rotate(axis);
-        let slides = link.joint.kind.motion == Motion::Translation;
-        let (low, high) = if slides {
-            travel[coordinate.0]
-        } else {
-            (0.0, 0.0)
+        let (low, high) = match kind {
+            "prismatic" => own_travel(link, travel),
+            _ => (0.0, 0.0),
         };
         let moved = |s: f64| std::array::from_fn(|k| joint.o[k] + s * along[k]);
         let mut body = Body::new(&link.name, Some(i));
         body.joint = Some(BodyJoint {
             name: link.joint.name.clone(),
-            kind: if slides { "prismatic" } else { "revolute" },
+            kind,
             axis,
             on: carrier,
             along,
@@ -78,6 +109,13 @@ impl Bodies {
             stops: Vec::new(),
             placed: joint,
         });
+        if kind == "floating" {
+            body.points.push(BodyPoint {
+                name: link.name.clone(),
+                axes: Some(Placed::HERE.axes()),
+                ..BodyPoint::at([0.0; 3])
+            });
+        }
         self.all.push(body);
         self.on.push((self.all.len() - 1, Placed::HERE));
     }

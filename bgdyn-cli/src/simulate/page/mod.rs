@@ -3,18 +3,16 @@
 mod bodies;
 mod body;
 mod curve;
+mod poses;
 mod stops;
 
-use bgdyn_codegen::bond_graph::SiteId;
-use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::SceneEquations;
 use serde::Serialize;
 
 use self::bodies::Bodies;
 use self::body::{Body, End};
 use self::curve::{Curve, LEVELS};
+use self::poses::{TURN, poses, turns};
 use super::difference::range;
 use super::report::{changes, short};
 use super::run_table::{Column, Record, Row};
@@ -23,8 +21,6 @@ use super::run_table::{Column, Record, Row};
 const POSES: usize = 36_000;
 /// Largest number of rows in a page.
 const ROWS: usize = 4_000;
-/// Scale of a quaternion's components.
-const TURN: f64 = 1e5;
 /// Digits of a time.
 const DIGITS: usize = 9;
 
@@ -174,9 +170,8 @@ fn instant(t: f64) -> f64 {
 /// Returns the bodies with their poses by the mechanism's own functions, and the unit of positions, m.
 fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
     let mechanism = &system.scene.mechanism;
-    let joints = mechanism.nv();
-    let travel: Vec<(f64, f64)> = (0..joints)
-        .map(|j| range(rows.iter().map(|row| row.y[j]).filter(|q| q.is_finite())))
+    let travel: Vec<(f64, f64)> = (0..mechanism.nq())
+        .map(|p| range(rows.iter().map(|row| row.y[p]).filter(|q| q.is_finite())))
         .map(
             |(low, high)| {
                 if low <= high { (low, high) } else { (0.0, 0.0) }
@@ -204,72 +199,6 @@ fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
         body.turn = Some(turns(&poses));
     }
     (bodies, grain)
-}
-
-/// Returns the poses of a link at all rows: its axes row by row, its origin. An undefined pose is replaced
-/// by the previous one.
-fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
-    let mechanism = &system.scene.mechanism;
-    let pose = function(mechanism, Method::Pose(SiteId(link)), &Options::default());
-    let pose = pose.expect("every formulation knows poses");
-    let mut last = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-    let at = |row: &&Row| {
-        let inputs = bgdyn_codegen::expr::Inputs {
-            q: row.y.as_slice()[..mechanism.nq()].to_vec(),
-            ..Default::default()
-        };
-        let (values, _) = pose.evaluate::<f64>(inputs);
-        if values.iter().all(|x| x.is_finite() && x.abs() < 1e9) {
-            last.copy_from_slice(&values);
-        }
-        last
-    };
-    rows.iter().map(at).collect()
-}
-
-/// Returns quaternions of rotation matrices, each with the sign nearest to the previous one.
-fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
-    let mut before = [1.0, 0.0, 0.0, 0.0];
-    let mut counts = Vec::with_capacity(4 * poses.len());
-    for pose in poses {
-        let mut q = quaternion(pose);
-        if q.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
-            q = q.map(|x| -x);
-        }
-        counts.extend(q.map(|x| (TURN * x).round() as i64));
-        before = q;
-    }
-    counts
-}
-
-/// Returns the unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd
-/// 1978).
-fn quaternion(r: &[f64; 12]) -> [f64; 4] {
-    let r = |i: usize, j: usize| r[3 * i + j];
-    let trace = r(0, 0) + r(1, 1) + r(2, 2);
-    let squares = [
-        1.0 + trace,
-        1.0 + 2.0 * r(0, 0) - trace,
-        1.0 + 2.0 * r(1, 1) - trace,
-        1.0 + 2.0 * r(2, 2) - trace,
-    ];
-    let largest = (1..4).fold(0, |k, i| if squares[i] > squares[k] { i } else { k });
-    let s = squares[largest].max(1e-300).sqrt();
-    let (half, k) = (0.5 * s, 0.5 / s);
-    let skew = [r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)];
-    if largest == 0 {
-        return [half, k * skew[0], k * skew[1], k * skew[2]];
-    }
-    let i = largest - 1;
-    let mut q = [k * skew[i], 0.0, 0.0, 0.0];
-    for j in 0..3 {
-        q[1 + j] = if i == j {
-            half
-        } else {
-            k * (r(i, j) + r(j, i))
-        };
-    }
-    q
 }
 
 /// Returns springs, dampers and cylinders between two points.
@@ -316,13 +245,13 @@ fn in_world(body: &Body, at: [f64; 3], grain: f64, row: usize) -> [f64; 3] {
 /// Returns inputs, coordinates other than joints and first-order states.
 fn states(system: &SceneEquations, rows: &[&Row]) -> Vec<Curve> {
     let layout = &system.scene.layout;
-    let joints = system.scene.mechanism.nv();
+    let (positions, velocities) = (system.scene.mechanism.nq(), system.scene.mechanism.nv());
     let inputs = layout.inputs.iter().enumerate().map(|(i, part)| {
         let column = column(&part.name, part.dimension.si());
         Curve::new(&column, rows.iter().map(|row| row.inputs[i]))
     });
     let parts = super::run_table::state_columns(system);
-    let beside = |i: usize| (i >= joints && i < layout.nq()) || i >= layout.nq() + joints;
+    let beside = |i: usize| (i >= positions && i < layout.nq()) || i >= layout.nq() + velocities;
     let own = parts.iter().enumerate().filter(|&(i, _)| beside(i));
     let own = own.map(|(i, column)| Curve::new(column, rows.iter().map(|row| row.y[i])));
     inputs.chain(own).collect()

@@ -88,6 +88,16 @@ const solids = (poses, t) => {
       const base = poses[joint.on], from = inWorld(base, joint.from), to = inWorld(base, joint.to), way = unit(turned(base, joint.along));
       beam(add(from, way, -2.5 * r), add(to, way, 2.5 * r), 0.55 * r, RAIL);
       faces.push(...prism(add(pose.o, axis, -2.2 * r), add(pose.o, axis, 2.2 * r), 2 * r, 4, body.points.length ? JOINT : colour, 2));
+    } else if (joint.type === "spherical") {
+      // A ball of five discs.
+      for (let k = -2; k <= 2; k++) {
+        const wide = 1.9 * r * Math.sqrt(1 - (k / 2.5) ** 2);
+        faces.push(...prism(add(pose.o, axis, (k - 0.5) * 0.76 * r), add(pose.o, axis, (k + 0.5) * 0.76 * r), wide, 16, JOINT, 1));
+      }
+    } else if (joint.type === "floating") {
+      faces.push(...prism(add(pose.o, axis, -1.4 * r), add(pose.o, axis, 1.4 * r), 1.4 * Math.SQRT2 * r, 4, body.points.length > 1 ? JOINT : colour, 2));
+    } else if (joint.type === "planar") {
+      faces.push(...prism(add(pose.o, axis, -0.5 * r), add(pose.o, axis, 0.5 * r), 2.6 * r, 16, JOINT, 1));
     } else {
       faces.push(...prism(add(pose.o, axis, -1.9 * r), add(pose.o, axis, 1.9 * r), 1.55 * r, 16, JOINT, 2));
     }

@@ -120,11 +120,16 @@ fn finish(
     };
     match role {
         SceneFunction::Derivative => {
+            let (values, coupled) = values.split_at(layout.nv() + layout.nx());
             let rates = rates_or_error(&vector(values));
             let names: Vec<_> = (0..values.len()).map(|i| format_ident!("r{i}")).collect();
-            let velocities = layout.coordinates.iter().filter(|c| c.stored).map(|c| {
-                let rate = ident(&c.rate_name);
-                quote! { state.#rate }
+            let mut coupled = coupled.iter();
+            let velocities = layout.positions.iter().map(|p| match p.coordinate {
+                Some(j) => {
+                    let rate = ident(&layout.coordinates[j].rate_name);
+                    quote! { state.#rate }
+                }
+                None => coupled.next().cloned().unwrap_or_default(),
             });
             let all: Vec<TokenStream> = velocities
                 .chain(names.iter().map(|n| quote! { #n }))
@@ -203,13 +208,16 @@ fn passed(
     (statement, names[..values.len()].to_vec())
 }
 
-/// Converts columns of v̇ and ẋ to columns of ẏ, with q̇ from the velocities.
+/// Converts columns of v̇, ẋ and the rates of coupled positions to columns of ẏ, with the rates of the other
+/// positions from the velocities.
 fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
     let (nq, rates) = (layout.nq(), layout.nv() + layout.nx());
-    let columns = values.chunks(rates.max(1)).enumerate();
+    let rows = rates + layout.coupled().len();
+    let columns = values.chunks(rows.max(1)).enumerate();
     let mut statements = TokenStream::new();
     let columns: Vec<TokenStream> = columns
         .map(|(k, column)| {
+            let (column, coupled) = column.split_at(rates);
             let (statement, names) = passed(
                 SceneFunction::Jacobian,
                 layout,
@@ -217,10 +225,14 @@ fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
                 column,
             );
             statements.extend(statement);
-            let of_positions = (0..nq).map(|i| {
-                let slope = if k == nq + i { 1.0 } else { 0.0 };
-                let slope = number(slope);
-                quote! { T::from_f64(#slope) }
+            let mut coupled = coupled.iter();
+            let of_positions = layout.positions.iter().map(|p| match p.coordinate {
+                Some(j) => {
+                    let slope = if k == nq + j { 1.0 } else { 0.0 };
+                    let slope = number(slope);
+                    quote! { T::from_f64(#slope) }
+                }
+                None => coupled.next().cloned().unwrap_or_default(),
             });
             quote! { [#(#of_positions,)* #(#names),*] }
         })
@@ -237,8 +249,7 @@ fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
 
 /// Returns the code for a state with momenta from its parts.
 fn to_canonical(layout: &StateLayout, momenta: &[TokenStream]) -> TokenStream {
-    let places = layout.coordinates.iter().filter(|c| c.stored);
-    let places = places.map(|c| &c.name);
+    let places = layout.positions.iter().map(|p| &p.name);
     let states = layout.states.iter().map(|s| &s.name);
     let field = |name: &String| {
         let name = ident(name);

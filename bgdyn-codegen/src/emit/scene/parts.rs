@@ -22,14 +22,24 @@ pub(super) fn field(name: impl Into<String>, about: impl Into<String>) -> Struct
 
 /// Returns positions, velocities and first-order states: the parts that have rates.
 pub(super) fn moving_parts(layout: &StateLayout) -> Vec<StructField> {
-    let stored = layout.coordinates.iter().filter(|c| c.stored);
-    let positions = stored.map(|c| {
-        let unit = c.dimensions[0].si();
-        field(&c.name, format!("position of `{}`, {unit}", c.name))
+    let positions = layout.positions.iter().map(|p| {
+        let about = match p.dimension.si() {
+            "" => format!("component `{}` of a unit quaternion", p.name),
+            unit => format!("position of `{}`, {unit}", p.name),
+        };
+        field(&p.name, about)
     });
     let velocities = layout.coordinates.iter().map(|c| {
         let unit = c.dimensions[1].si();
-        field(&c.rate_name, format!("velocity of `{}`, {unit}", c.name))
+        let axes = if c.is_quasi_velocity() {
+            " in link axes"
+        } else {
+            ""
+        };
+        field(
+            &c.rate_name,
+            format!("velocity of `{}`{axes}, {unit}", c.name),
+        )
     });
     let states = layout.states.iter().map(|part| {
         let unit = part.dimension.si();

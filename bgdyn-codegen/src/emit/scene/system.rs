@@ -4,9 +4,10 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::super::constants::size;
-use super::super::tokens::number;
+use super::super::tokens::{ident, number};
 use super::parts::{mode_parts, names_of, of_named};
 use crate::interface::SceneInterface;
+use crate::scene::StateLayout;
 
 /// The implementation of the trait by the named functions.
 pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream {
@@ -43,6 +44,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
     let count = size(entries.len());
     let velocities = &scene.mode_coordinates;
     let corners = corners(&scene.corners);
+    let quasi_joints = quasi_joints(layout);
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
         impl<T: __Scalar> __rt::HybridSystem<T> for #name<T> {
@@ -55,6 +57,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
             type Singular = T::Singular<{ NV + NX }>;
             fn state_names(&self) -> &'static [&'static str; N] { &STATE_NAMES }
             fn positions(&self) -> usize { NQ }
+            #quasi_joints
             fn mode_names(&self) -> &'static [&'static str; NM] { &MODE_NAMES }
             fn input_names(&self) -> &'static [&'static str; NU] { &INPUT_NAMES }
             fn event_names(&self) -> &'static [&'static str; NE] { &EVENT_NAMES }
@@ -141,6 +144,24 @@ fn corners(corners: &[f64]) -> TokenStream {
         quote! { #sign #size }
     });
     quote! { fn corners(&self) -> &'static [f64] { &[#(#instants),*] } }
+}
+
+/// Returns the method for the joints with quasi-velocities, if the scene has some.
+fn quasi_joints(layout: &StateLayout) -> TokenStream {
+    if layout.quasi_joints.is_empty() {
+        return TokenStream::new();
+    }
+    let joints = layout.quasi_joints.iter().map(|joint| {
+        let kind = ident(&format!("{:?}", joint.kind));
+        let position = size(joint.positions.start);
+        let velocity = size(layout.nq() + joint.coordinates.start);
+        quote! {
+            __rt::QuasiJoint {
+                kind: __rt::QuasiJointKind::#kind, position: #position, velocity: #velocity
+            }
+        }
+    });
+    quote! { fn quasi_joints(&self) -> &'static [__rt::QuasiJoint] { &[#(#joints),*] } }
 }
 
 /// The implementation of the trait `Slope`.

@@ -75,6 +75,30 @@ pub(crate) fn joint_is_locked(location: &Location, joint: &str) -> Fault {
         .with_help("leave this effect out of the scene, or do not lock the joint")
 }
 
+/// `kind` is the type of the joint.
+pub(crate) fn no_position(
+    location: &Location,
+    (effect, keyword): (&str, &str),
+    velocity: &str,
+    kind: &str,
+) -> Fault {
+    let message = format!(
+        "`{effect}` is a `{keyword}`, whose law reads a position; `{velocity}` is a velocity of a {kind} joint in link axes, and not the rate of any position"
+    );
+    Fault::new(location, "no-position", message).with_help(
+        "an effect `between` two links or frames acts on any joint; dampers, friction, motors and inputs act on such velocities",
+    )
+}
+
+pub(crate) fn effect_on_follower(location: &Location, joint: &str, leader: &str) -> Fault {
+    let message = format!(
+        "`{joint}` has `mimic`: it follows `{leader}` and has no velocity of its own to act on"
+    );
+    Fault::new(location, "follower", message).with_help(format!(
+        "write `joint: {leader}`: efforts times the ratio of `mimic`, dampings and stiffnesses times its square"
+    ))
+}
+
 /// `what` is the kind of name that `key` requires: a moving joint, a hydraulic node.
 pub(crate) fn unknown_reference(
     location: &Location,

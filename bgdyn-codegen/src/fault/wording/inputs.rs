@@ -35,6 +35,15 @@ pub(crate) fn controller_without_joint(location: &Location, word: &str) -> Fault
         .with_help("use `constant`, `harmonic`, `table` or `given`")
 }
 
+pub(crate) fn controller_of_quasi_velocity(location: &Location, velocity: &str) -> Fault {
+    let message = format!(
+        "a controller follows a position, and `{velocity}` is a velocity in link axes: no position has it as its rate"
+    );
+    Fault::new(location, "drive", message).with_help(
+        "write `given` and compute the effort in Rust code: `difference` of the mechanism is the error of a pose",
+    )
+}
+
 pub(crate) fn controller_without_target(location: &Location) -> Fault {
     Fault::new(location, "missing-key", "the controller has no `target`")
         .with_help("add `target: …`: a number, or a signal such as `{ ramp: … }`")

@@ -169,17 +169,3 @@ pub(crate) fn mimic_empty_range(
     Fault::new(location, "mimic-empty-range", message)
         .with_help("change `ratio`, `offset` or one of the limits")
 }
-
-pub(crate) fn joint_in_scene(location: &Location, joint: &str, why: &str) -> Fault {
-    let what = match why.contains(' ') {
-        true => why.to_owned(),
-        false => format!("is {why}"),
-    };
-    let message = format!(
-        "scenes do not support this joint yet: {} {what}",
-        quote(joint)
-    );
-    Fault::new(location, "joint-in-scene", message).with_help(
-        "use the mechanism's methods (`bgdyn eval`, `bgdyn!`), or a mechanism of revolute, continuous and prismatic joints",
-    )
-}

@@ -33,6 +33,14 @@ pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&s
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
+pub(crate) fn lock_of_several(location: &Location, joint: &str, kind: &str) -> Fault {
+    let message = format!(
+        "`{joint}` is a {kind} joint: `lock` takes joints of one degree of freedom, with their position"
+    );
+    Fault::new(location, "lock-of-several", message)
+        .with_help("for this scene write a mechanism in which the joint is `fixed`")
+}
+
 // The state and its start
 
 pub(crate) fn repeated_state_or_input(location: &Location, name: &str) -> Fault {
@@ -45,6 +53,52 @@ pub(crate) fn unknown_initial(location: &Location, name: &str, known: &[&str]) -
     let message = unknown_name("state variable", name, known, &known.join(", "));
     Fault::new(location, "unknown-name", message)
         .with_help("a position is called as its joint, a velocity `shoulder_rate`")
+}
+
+pub(crate) fn unknown_pose_key(location: &Location, key: &str, known: &[&str]) -> Fault {
+    let message = unknown_name("key of a pose", key, known, &known.join(", "));
+    Fault::new(location, "unknown-key", message)
+        .with_help("`xyz` is the origin of the link in the joint's origin; `rpy` or `quaternion` (x, y, z, w) turns its axes")
+}
+
+pub(crate) fn orientation_twice(location: &Location, joint: &str) -> Fault {
+    let message = format!("`rpy` and `quaternion` both give the orientation of `{joint}`");
+    Fault::new(location, "initial", message).with_help("leave one of them out")
+}
+
+pub(crate) fn not_so_many_numbers(
+    location: &Location,
+    found: usize,
+    wanted: usize,
+    example: &str,
+) -> Fault {
+    let message = format!("a list of {found} numbers; {wanted} are needed");
+    Fault::new(location, "initial", message).with_help(format!("for example {example}"))
+}
+
+pub(crate) fn quaternion_length(location: &Location, joint: &str, length: f64) -> Fault {
+    let message = format!(
+        "the quaternion of `{joint}` has the length {}; the length of an orientation is 1, within 1e-6",
+        six_digits(length)
+    );
+    Fault::new(location, "quaternion-length", message).with_help(format!(
+        "divide its components by the length, or write the angles: `{joint}: {{ rpy: [0, 0, 90 deg] }}`"
+    ))
+}
+
+/// `natural` is the same method on velocities.
+pub(crate) fn canonical_of_quasi_velocities(
+    location: &Location,
+    method: &str,
+    joint: &str,
+    natural: &str,
+) -> Fault {
+    let message = format!(
+        "`{method}` integrates momenta; those of the joint `{joint}` belong to quasi-velocities and are not canonical: their equations are Lie–Poisson, on which the method is not symplectic"
+    );
+    Fault::new(location, "canonical-form", message).with_help(format!(
+        "use `{natural}`, which conserves the length of quaternions"
+    ))
 }
 
 /// `value` and `least` with their units.

@@ -43,6 +43,21 @@ impl Motion {
         }
     }
 
+    /// Returns, for each velocity, the index of the position whose rate it is; `None` for a quasi-velocity.
+    pub fn velocity_positions(self) -> Vec<Option<usize>> {
+        match self {
+            Motion::Compound(motion) if !motion.manifold.is_empty() => {
+                // The angle of a planar joint is the only position of such joints with a velocity as rate.
+                let own = |suffix: &str| {
+                    let mut all = motion.positions.iter();
+                    all.position(|p| p.unit == "rad" && p.suffix == suffix)
+                };
+                motion.velocities.iter().map(|v| own(v.suffix)).collect()
+            }
+            _ => (0..self.nv()).map(Some).collect(),
+        }
+    }
+
     /// Returns whether the motion has an axis.
     pub fn has_axis(self) -> bool {
         match self {

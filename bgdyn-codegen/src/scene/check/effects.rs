@@ -33,7 +33,9 @@ pub(super) fn elements(
     }
     let free = reduced.joint_names();
     let free: Vec<&str> = free.iter().map(String::as_str).collect();
-    let wanted = wanted(spec, (whole, kinds, &free), &mut refused, faults);
+    let single = reduced.one_degree_names();
+    let single: Vec<&str> = single.iter().map(String::as_str).collect();
+    let wanted = wanted(spec, (whole, kinds, &single), &mut refused, faults);
     let all = whole.mechanism.joint_names();
     let locked = all
         .into_iter()
@@ -83,10 +85,10 @@ pub(super) fn alone(spec: &SceneSpec, kinds: &EffectKinds, faults: &mut Faults) 
 }
 
 /// Returns the effects of a scene, each once, with their values in this scene. An effect on several joints
-/// is expanded to one per joint; the word "all" means the `free` joints.
+/// is expanded to one per joint; the word "all" means the joints in `single`.
 fn wanted(
     spec: &SceneSpec,
-    (whole, kinds, free): (&Machine, &EffectKinds, &[&str]),
+    (whole, kinds, single): (&Machine, &EffectKinds, &[&str]),
     refused: &mut RejectedEffects,
     faults: &mut Faults,
 ) -> Vec<Declaration> {
@@ -94,7 +96,7 @@ fn wanted(
     for raw in given(&spec.effects) {
         let before = faults.count();
         let called = resolve_call(raw, &whole.effects, kinds, faults).into_iter();
-        let each = called.flat_map(|declared| declared.of_each_joint(free, faults));
+        let each = called.flat_map(|declared| declared.of_each_joint(single, faults));
         let each: Vec<Declaration> = each.collect();
         if each.is_empty() && faults.count() > before {
             refused.call(raw, &whole.effects, kinds);

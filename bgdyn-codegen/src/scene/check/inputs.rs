@@ -11,8 +11,8 @@ pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
     for raw in inputs {
         let name = &raw.name.value;
         let known = layout.inputs.iter().any(|input| input.name == *name);
-        let stored = |c: &&StateCoordinate| c.name == *name && c.stored;
-        if !known && layout.coordinates.iter().any(|c| stored(&c)) {
+        let own = |c: &StateCoordinate| c.name == *name && c.moves();
+        if !known && layout.coordinates.iter().any(own) {
             let about = format!("effort at `{name}`");
             layout.drive(name.clone(), name, name, about);
         }
@@ -31,7 +31,7 @@ pub(super) fn drives(
         let name = &raw.name.value;
         let Some(i) = layout.inputs.iter().position(|part| part.name == *name) else {
             let known: Vec<&str> = layout.inputs.iter().map(|p| p.name.as_str()).collect();
-            let efforts = layout.coordinates.iter().filter(|c| c.stored);
+            let efforts = layout.coordinates.iter().filter(|c| c.moves());
             let all: Vec<&str> = known
                 .into_iter()
                 .chain(efforts.map(|c| c.name.as_str()))
@@ -45,8 +45,18 @@ pub(super) fn drives(
         };
         let part = &layout.inputs[i];
         let follows = part.follows.as_ref().map(|name| layout.position_of(name));
-        let effort = part.drives.is_some_and(|j| layout.coordinates[j].stored);
+        let effort = part.drives.is_some_and(|j| layout.coordinates[j].moves());
         if let Some(drive) = signal::drive(raw, part.dimension, follows, effort, faults) {
+            let followed = part.follows.as_ref();
+            let quasi = followed.filter(|name| {
+                let found = layout.coordinate_named(name);
+                found.is_some_and(|j| layout.coordinates[j].is_quasi_velocity())
+            });
+            if let (Some(velocity), true) = (quasi, drive.is_controller()) {
+                let location = &raw.name.location;
+                faults.push(wording::controller_of_quasi_velocity(location, velocity));
+                continue;
+            }
             drives[i] = drive;
         }
     }

@@ -1,21 +1,23 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
+mod initial;
 mod inputs;
+mod joints;
+mod locks;
 mod outputs;
+mod pose;
 mod run;
 mod state;
 
 use bgdyn_runtime::Dd;
 
-use super::lock::locked_pose;
 use super::{FileEntries, Initial, Scene};
 use crate::declaration::{EffectKinds, RejectedEffects};
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Field, Located, SceneSpec};
 use crate::layout::StateLayout;
 use crate::machine::Machine;
-use crate::mechanism::{LinkId, Mechanism, Pose};
 use crate::name::is_identifier;
 
 /// The only version of the format.
@@ -83,17 +85,15 @@ fn scene(
 ) -> (Scene, bool) {
     version(spec, faults);
     let name = name(spec, stem, faults);
-    compound_joints(spec, &whole.mechanism, faults);
-    let locked = locks(spec, &whole.mechanism, faults);
+    let locked = locks::locks(spec, &whole.mechanism, faults);
     let mechanism = whole.mechanism.welded(&locked);
-    let plain = whole.mechanism.compound_joints().next().is_none();
     let before = faults.count();
     let effects::Called {
         elements,
         chains,
         refused,
     } = effects::elements(spec, (whole, kinds), &mechanism, faults);
-    let sound = faults.count() == before && refused.is_empty() && plain;
+    let sound = faults.count() == before && refused.is_empty();
     let integration = run::integration(&spec.integration, faults);
     let unloaded = mechanism.clone();
     let empty = Scene {
@@ -119,6 +119,7 @@ fn scene(
         },
     };
     let scene = assembled(empty, &refused, faults);
+    canonical(spec, &scene, faults);
     let drawn = sound && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
@@ -150,7 +151,7 @@ pub(in crate::scene) fn assembled(
     Scene {
         parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
         drives: inputs::drives(&layout, inputs, refused, faults),
-        initial: state::initial(&layout, &scene.written.initial, refused, faults),
+        initial: initial::initial(&layout, &scene.written.initial, refused, faults),
         layout,
         ..scene
     }
@@ -192,46 +193,20 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
     }
 }
 
-/// Refuses joints whose positions and velocities are not the same: the state of a scene has one velocity,
-/// the rate of the position, for each position.
-fn compound_joints(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) {
-    for joint in mechanism.compound_joints() {
-        let location = match spec.mechanism.given() {
-            Some(path) => &path.location,
-            None => &spec.location,
-        };
-        let why = match joint.degrees.mimic {
-            Some(_) => "has `mimic`",
-            None => joint.kind.keyword,
-        };
-        faults.push(wording::joint_in_scene(location, &joint.name, why));
+/// Refuses the canonical form of joints with quasi-velocities.
+fn canonical(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) {
+    let joint = scene.layout.quasi_joints.first();
+    let method = scene.integration.method;
+    if let (Some(joint), true, Some(raw)) =
+        (joint, method.needs_canonical(), spec.integration.value())
+    {
+        let natural = method.on_velocities().name();
+        let (location, name) = (&raw.location, method.name());
+        faults.push(wording::canonical_of_quasi_velocities(
+            location,
+            name,
+            &joint.name,
+            natural,
+        ));
     }
-}
-
-/// Returns the locked joints, with the poses of their links.
-fn locks(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Pose)> {
-    let mut locked = Vec::new();
-    for raw in effects::given(&spec.lock) {
-        let name = &raw.name.value;
-        let joints = mechanism.coordinates().iter();
-        let found = joints
-            .copied()
-            .find(|l| mechanism.links()[l.0].joint.name == *name);
-        let Some(link) = found else {
-            let known = mechanism.joint_names();
-            let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            faults.push(wording::unknown_locked_joint(
-                &raw.name.location,
-                name,
-                &known,
-            ));
-            continue;
-        };
-        let joint = &mechanism.links()[link.0].joint;
-        let [position, ..] = state::dimensions(joint.kind.motion);
-        if let Some(at) = raw.number(&[position], faults) {
-            locked.push((link, locked_pose(joint, at.value.value)));
-        }
-    }
-    locked
 }

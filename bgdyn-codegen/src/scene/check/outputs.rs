@@ -7,14 +7,9 @@ use crate::fault::{Faults, wording};
 /// Reports outputs that are no parts of the state, no sites, and no outputs of a refused effect.
 pub(super) fn names(scene: &Scene, refused: &RejectedEffects, faults: &mut Faults) {
     let (layout, mechanism) = (&scene.layout, &scene.mechanism);
-    let stored = layout.coordinates.iter().filter(|c| c.stored);
-    let positions = stored.map(|c| c.name.as_str());
-    let rates = layout.coordinates.iter().map(|c| c.rate_name.as_str());
-    let states = layout.states.iter().map(|s| s.name.as_str());
     let links = mechanism.links().iter().map(|l| l.name.as_str());
     let frames = mechanism.frames().iter().map(|f| f.name.as_str());
-    let known = positions.chain(rates).chain(states);
-    let known: Vec<&str> = known.chain(links).chain(frames).collect();
+    let known: Vec<&str> = layout.state_names().chain(links).chain(frames).collect();
     for output in &scene.outputs {
         let name = output.value.as_str();
         let reported = scene.elements.iter().any(|e| name.starts_with(&e.name));

@@ -1,34 +1,14 @@
-//! Builds the layout of a scene's state, and checks its parameters and initial values.
+//! Builds the layout of a scene's state, and checks its parameters.
 
-use std::collections::BTreeMap;
-
-use bgdyn_runtime::Dd;
-
-use super::super::Initial;
-use crate::declaration::{Element, RejectedEffects};
+use super::joints;
+use crate::declaration::Element;
 use crate::fault::{Faults, wording};
-use crate::format::{Dimension, Raw};
-use crate::layout::{MomentumStore, StateCoordinate, StateLayout};
-use crate::mechanism::{CoordinateId, Mechanism, Motion, Parameter};
+use crate::layout::StateLayout;
+use crate::mechanism::{Mechanism, Parameter};
 
 /// Returns the layout of the state: the joints, then the parts that the effects add.
 pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout {
-    let coordinate = |(j, name): (usize, String)| {
-        let joint = mechanism.joint(CoordinateId(j));
-        StateCoordinate {
-            store: MomentumStore::Links(CoordinateId(j)),
-            stored: true,
-            dimensions: dimensions(joint.kind.motion),
-            rate_name: format!("{name}_rate"),
-            starts_with: None,
-            name,
-        }
-    };
-    let names = mechanism.joint_names().into_iter();
-    let mut layout = StateLayout {
-        coordinates: names.enumerate().map(coordinate).collect(),
-        ..StateLayout::default()
-    };
+    let mut layout = joints::layout(mechanism);
     // Coordinates first: other effects may act on them.
     let (adding, rest): (Vec<&Element>, Vec<&Element>) =
         elements.iter().partition(|e| e.effect.adds_coordinate());
@@ -71,91 +51,4 @@ pub(super) fn parameters(
         }
     }
     all
-}
-
-/// Returns the initial state.
-pub(super) fn initial(
-    layout: &StateLayout,
-    entries: &[Raw],
-    refused: &RejectedEffects,
-    faults: &mut Faults,
-) -> Initial {
-    let mut initial = Initial {
-        q: vec![Dd::ZERO; layout.nq()],
-        v: vec![Dd::ZERO; layout.nv()],
-        x: vec![Dd::ZERO; layout.nx()],
-        modes: vec![Dd::ZERO; layout.modes.len()],
-    };
-    let mut places: BTreeMap<String, (usize, usize, Dimension)> = BTreeMap::new();
-    for (j, c) in layout.coordinates.iter().enumerate() {
-        if c.stored {
-            places.insert(c.name.clone(), (0, j, c.dimensions[0]));
-        }
-        places.insert(c.rate_name.clone(), (1, j, c.dimensions[1]));
-    }
-    for (i, part) in layout.states.iter().enumerate() {
-        let given = part.entered.map_or(part.dimension, |e| e.dimension);
-        places.insert(part.name.clone(), (2, i, given));
-    }
-    for (i, part) in layout.modes.iter().enumerate() {
-        places.insert(format!("{}_mode", part.name), (3, i, part.dimension));
-    }
-    let mut given: Vec<(usize, usize)> = Vec::new();
-    for raw in entries {
-        let name = &raw.name.value;
-        let Some(&(kind, i, dimension)) = places.get(name) else {
-            let known: Vec<&str> = places.keys().map(String::as_str).collect();
-            let fault = wording::unknown_initial(&raw.name.location, name, &known);
-            faults.push(match refused.may_bring(name) {
-                true => fault.following(),
-                false => fault,
-            });
-            continue;
-        };
-        if let Some(number) = raw.number(&[dimension], faults) {
-            let value = number.value.value;
-            given.push((kind, i));
-            let entered = layout.states.get(i).filter(|_| kind == 2);
-            if let Some(entered) = entered.and_then(|part| part.entered)
-                && value < entered.least
-            {
-                let least = format!("{} {}", entered.least.to_f64(), entered.dimension.si());
-                faults.push(wording::initial_below_least(
-                    &number.location,
-                    name,
-                    (&number.value.text, &least),
-                    entered.way_out,
-                ));
-            }
-            match kind {
-                0 => initial.q[i] = value,
-                1 => initial.v[i] = value,
-                2 => initial.x[i] = value,
-                _ => initial.modes[i] = value,
-            }
-        }
-    }
-    // The default initial position and velocity of a drive are those of its joint.
-    for (j, c) in layout.coordinates.iter().enumerate() {
-        let with = c
-            .starts_with
-            .as_ref()
-            .and_then(|name| layout.coordinate_named(name));
-        let Some(k) = with else { continue };
-        if !given.contains(&(0, j)) {
-            initial.q[j] = initial.q[k];
-        }
-        if !given.contains(&(1, j)) {
-            initial.v[j] = initial.v[k];
-        }
-    }
-    initial
-}
-
-/// Returns the dimensions of position, velocity and effort of a joint.
-pub(super) fn dimensions(motion: Motion) -> [Dimension; 3] {
-    match motion {
-        Motion::Translation => [Dimension::Length, Dimension::Speed, Dimension::Force],
-        _ => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
-    }
 }

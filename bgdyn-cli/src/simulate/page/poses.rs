@@ -1,0 +1,130 @@
+//! The poses of links at the rows of a page.
+
+use bgdyn_codegen::bond_graph::SiteId;
+use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
+use bgdyn_codegen::mechanism::Motion;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::function;
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::Dd;
+
+use super::body::Placed;
+use crate::simulate::run_table::Row;
+
+/// Scale of a quaternion's components.
+pub(super) const TURN: f64 = 1e5;
+
+/// Returns the poses of a link at all rows: its axes row by row, its origin. An undefined pose is replaced
+/// by the previous one.
+pub(super) fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
+    let mechanism = &system.scene.mechanism;
+    let links = mechanism.links();
+    if links[link].hidden {
+        return hidden_poses(system, link, rows);
+    }
+    // Hidden links are no sites.
+    let before = links[..link].iter().filter(|l| !l.hidden).count();
+    let pose = function(mechanism, Method::Pose(SiteId(before)), &Options::default());
+    let pose = pose.expect("every formulation knows poses");
+    let mut last = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+    let at = |row: &&Row| {
+        let inputs = bgdyn_codegen::expr::Inputs {
+            q: row.y.as_slice()[..mechanism.nq()].to_vec(),
+            ..Default::default()
+        };
+        let (values, _) = pose.evaluate::<f64>(inputs);
+        if values.iter().all(|x| x.is_finite() && x.abs() < 1e9) {
+            last.copy_from_slice(&values);
+        }
+        last
+    };
+    rows.iter().map(at).collect()
+}
+
+/// Returns the poses of the link between two joints that the file has as one, from its parent's.
+fn hidden_poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
+    let joint = &system.scene.mechanism.links()[link].joint;
+    let parent = system.scene.mechanism.links()[link].parent;
+    let parents = parent.map(|parent| poses(system, parent.0, rows));
+    let origin = Placed::of(&joint.origin);
+    let position = joint.degrees.positions.first().map(|p| p.0);
+    let axis = joint.axis.map(|x| x.to_f64());
+    let slides = joint.kind.motion == Motion::Translation;
+    let at = |(k, row): (usize, &&Row)| {
+        let q = position.map_or(0.0, |p| row.y[p]);
+        let moved = match slides {
+            true => Placed {
+                o: axis.scale(q).0,
+                ..Placed::HERE
+            },
+            false => Placed {
+                r: turned(joint.axis, q),
+                ..Placed::HERE
+            },
+        };
+        let on = parents.as_ref().map_or(Placed::HERE, |all| placed(&all[k]));
+        let Placed { r, o } = on.then(&origin).then(&moved);
+        std::array::from_fn(|i| if i < 9 { r.0[i / 3][i % 3] } else { o[i - 9] })
+    };
+    rows.iter().enumerate().map(at).collect()
+}
+
+/// Returns the rotation about an axis by an angle, rad.
+fn turned(axis: Vec3<Dd>, angle: f64) -> Mat3<f64> {
+    let (sin, cos) = Dd::from_f64(angle).sin_cos();
+    rodrigues(axis, (cos, sin), |x| x).map(|x| x.to_f64())
+}
+
+/// Returns a pose from its axes row by row and its origin.
+fn placed(pose: &[f64; 12]) -> Placed {
+    Placed {
+        r: Mat3::from_fn(|i, j| pose[3 * i + j]),
+        o: [pose[9], pose[10], pose[11]],
+    }
+}
+
+/// Returns quaternions of rotation matrices, each with the sign nearest to the previous one.
+pub(super) fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
+    let mut before = [1.0, 0.0, 0.0, 0.0];
+    let mut counts = Vec::with_capacity(4 * poses.len());
+    for pose in poses {
+        let mut q = quaternion(pose);
+        if q.iter().zip(before).map(|(a, b)| a * b).sum::<f64>() < 0.0 {
+            q = q.map(|x| -x);
+        }
+        counts.extend(q.map(|x| (TURN * x).round() as i64));
+        before = q;
+    }
+    counts
+}
+
+/// Returns the unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd
+/// 1978).
+fn quaternion(r: &[f64; 12]) -> [f64; 4] {
+    let r = |i: usize, j: usize| r[3 * i + j];
+    let trace = r(0, 0) + r(1, 1) + r(2, 2);
+    let squares = [
+        1.0 + trace,
+        1.0 + 2.0 * r(0, 0) - trace,
+        1.0 + 2.0 * r(1, 1) - trace,
+        1.0 + 2.0 * r(2, 2) - trace,
+    ];
+    let largest = (1..4).fold(0, |k, i| if squares[i] > squares[k] { i } else { k });
+    let s = squares[largest].max(1e-300).sqrt();
+    let (half, k) = (0.5 * s, 0.5 / s);
+    let skew = [r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)];
+    if largest == 0 {
+        return [half, k * skew[0], k * skew[1], k * skew[2]];
+    }
+    let i = largest - 1;
+    let mut q = [k * skew[i], 0.0, 0.0, 0.0];
+    for j in 0..3 {
+        q[1 + j] = if i == j {
+            half
+        } else {
+            k * (r(i, j) + r(j, i))
+        };
+    }
+    q
+}

@@ -1,0 +1,92 @@
+//! The functions of a scene that a run in the evaluator calls.
+
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::scene;
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::QuasiJoint;
+
+/// The variables in which a scene is integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// y: positions, velocities, first-order states.
+    Natural,
+    /// z: momenta in place of velocities, for which Gauss–Legendre integrators are symplectic.
+    Canonical,
+}
+
+/// The functions of a scene, the same for every start.
+#[derive(Debug)]
+pub(super) struct SceneFunctions {
+    pub(super) derivative: Function,
+    pub(super) inputs: Option<Function>,
+    pub(super) events: Option<Function>,
+    pub(super) contacts: Option<Function>,
+    pub(super) outputs: Option<Function>,
+    pub(super) power: Function,
+    pub(super) energy: Function,
+    pub(super) jacobian: Option<Function>,
+    pub(super) canonical: Option<Canonical>,
+    pub(super) event_modes: Vec<Option<usize>>,
+    /// The component of the state that is the velocity of each mode's coordinate.
+    pub(super) mode_velocities: Vec<usize>,
+    /// Instants at which an input bends, s.
+    pub(super) corners: Vec<f64>,
+    /// The joints with quasi-velocities, by their components in the state.
+    pub(super) quasi_joints: Vec<QuasiJoint>,
+}
+
+/// The functions of the canonical form.
+#[derive(Debug)]
+pub(super) struct Canonical {
+    pub(super) to: Function,
+    pub(super) from: Function,
+    pub(super) rates: Function,
+}
+
+impl SceneFunctions {
+    /// Returns those of a scene in these variables; `slopes` for integrators that need the slopes of the
+    /// rates.
+    pub(super) fn new(system: &SceneEquations, form: Form, slopes: bool) -> Self {
+        let roles = system.roles();
+        let if_there = |role| roles.contains(&role).then(|| system.function(role));
+        let canonical = || Canonical {
+            to: system.function(SceneFunction::ToCanonical),
+            from: system.function(SceneFunction::FromCanonical),
+            rates: system.function(SceneFunction::CanonicalRates),
+        };
+        let layout = &system.scene.layout;
+        let coordinates = system.mode_coordinates().into_iter();
+        let mode_velocities = coordinates.map(|j| layout.nq() + j);
+        SceneFunctions {
+            derivative: system.function(SceneFunction::Derivative),
+            inputs: if_there(SceneFunction::Inputs),
+            events: if_there(SceneFunction::Events),
+            contacts: if_there(SceneFunction::Contacts),
+            outputs: if_there(SceneFunction::Outputs),
+            power: system.function(SceneFunction::Power),
+            energy: system.function(SceneFunction::Energy),
+            // In canonical form the slopes are not available: stages are then solved without them.
+            jacobian: (slopes && form == Form::Natural)
+                .then(|| system.function(SceneFunction::Jacobian)),
+            canonical: (form == Form::Canonical).then(canonical),
+            event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
+            mode_velocities: mode_velocities.collect(),
+            corners: system.scene.corners(),
+            quasi_joints: layout
+                .quasi_joints
+                .iter()
+                .map(|j| quasi_joint(j, layout.nq()))
+                .collect(),
+        }
+    }
+}
+
+/// Returns a joint with quasi-velocities by its components in the state.
+fn quasi_joint(joint: &scene::QuasiJoint, positions: usize) -> QuasiJoint {
+    QuasiJoint {
+        kind: joint.kind,
+        position: joint.positions.start,
+        velocity: positions + joint.coordinates.start,
+    }
+}

@@ -1,0 +1,99 @@
+//! The part of a scene's state that belongs to the joints: positions, velocities, joints with
+//! quasi-velocities.
+
+use bgdyn_runtime::{Dd, QuasiJointKind};
+
+use crate::format::Dimension;
+use crate::layout::{MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition};
+use crate::mechanism::{Degrees, Joint, Mechanism, Motion};
+
+/// Returns the layout of the joints' positions and velocities.
+pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
+    let mut layout = StateLayout::default();
+    let position_names = mechanism.position_names();
+    let coordinate_names = mechanism.joint_names();
+    let links = mechanism.links().iter().map(|link| &link.joint);
+    for joint in links.filter(|joint| joint.degrees.mimic.is_none()) {
+        let Degrees {
+            positions,
+            velocities,
+            ..
+        } = &joint.degrees;
+        let own_rates = joint.kind.motion.velocity_positions();
+        for (k, p) in positions.iter().enumerate() {
+            let rate = own_rates.iter().position(|own| *own == Some(k));
+            layout.positions.push(StatePosition {
+                name: position_names[p.0].clone(),
+                dimension: position_dimension(joint.kind.motion, k),
+                coordinate: rate.map(|j| velocities[j].0),
+                neutral: neutral(joint.kind.motion, k),
+            });
+        }
+        for (k, j) in velocities.iter().enumerate() {
+            let name = coordinate_names[j.0].clone();
+            let position = own_rates[k].map(|own| positions[own].0);
+            let ending = if position.is_some() {
+                "rate"
+            } else {
+                "velocity"
+            };
+            layout.coordinates.push(StateCoordinate {
+                store: MomentumStore::Links(*j),
+                position,
+                dimensions: dimensions(mechanism.linear(*j)),
+                rate_name: format!("{name}_{ending}"),
+                starts_with: None,
+                name,
+            });
+        }
+        layout.quasi_joints.extend(quasi_joint(joint));
+    }
+    layout
+}
+
+/// Returns the joint as one with quasi-velocities, if it is one.
+fn quasi_joint(joint: &Joint) -> Option<QuasiJoint> {
+    let Motion::Compound(motion) = joint.kind.motion else {
+        return None;
+    };
+    let (q, v) = (
+        joint.degrees.positions.first()?.0,
+        joint.degrees.velocities.first()?.0,
+    );
+    QuasiJointKind::of_module(motion.manifold).map(|kind| QuasiJoint {
+        name: joint.name.clone(),
+        kind,
+        positions: q..q + motion.positions.len(),
+        coordinates: v..v + motion.velocities.len(),
+        quaternion: motion.quaternion().map(|first| q + first),
+        any_length: joint.degrees.any_length,
+    })
+}
+
+/// Returns the value of a joint's position where the joint is neutral.
+fn neutral(motion: Motion, k: usize) -> Dd {
+    match motion {
+        Motion::Compound(motion) => Dd::from_f64(motion.positions[k].neutral.into()),
+        _ => Dd::ZERO,
+    }
+}
+
+fn position_dimension(motion: Motion, k: usize) -> Dimension {
+    let unit = match motion {
+        Motion::Compound(motion) => motion.positions[k].unit,
+        motion => motion.unit(),
+    };
+    match unit {
+        "m" => Dimension::Length,
+        "rad" => Dimension::Angle,
+        _ => Dimension::One,
+    }
+}
+
+/// Returns the dimensions of position, velocity and effort of a coordinate.
+pub(super) fn dimensions(linear: bool) -> [Dimension; 3] {
+    match linear {
+        true => [Dimension::Length, Dimension::Speed, Dimension::Force],
+        false => [Dimension::Angle, Dimension::AngularSpeed, Dimension::Torque],
+    }
+}
