@@ -1,6 +1,7 @@
 //! Joints with several degrees of freedom in compiled code, in every scalar: motions keep what they must
 //! keep, integration undoes difference, and the laws between the methods hold along the tangent.
 
+mod access;
 mod laws;
 mod motions;
 

@@ -6,6 +6,7 @@ mod columns;
 mod constants;
 mod entries;
 mod explain;
+mod joint_access;
 mod legend;
 mod loops;
 mod module;

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
@@ -34,6 +35,8 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
         joints: Some(traits::segments(&model.bond_graph)),
     };
     let traits = traits.tokens();
+    let access = joint_access(&model.mechanism);
+    let (ranges, poses) = (access.constants, access.functions);
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*
@@ -51,9 +54,11 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             use __rt::Scalar as __Scalar;
             #rebuild
             #constants
+            #ranges
             #structure
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
+                #poses
                 #explainers
             }
             #traits
