@@ -86,57 +86,50 @@ impl BestPlan {
 }
 
 /// Returns the cheapest plans found.
+///
+/// With many bodies the initial plans are compared only. If a joint has several velocities, choices for all
+/// bodies at once and then one round over the positions of origins follow: humanoids need them.
 pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
-    let n = geometry.bodies.len();
-    let mut best = BestPlan::default();
-    let mut weigh = |plan: &Plan| {
-        let cost = cost(plan);
-        best.see(plan, cost);
-        cost.weighted()
+    let few = geometry.bodies.len() <= SEARCHED;
+    let free = geometry.bodies.iter().any(|body| !body.axial);
+    let (rounds, changes) = match (few, free) {
+        (true, _) => (ROUNDS, changes(geometry)),
+        (false, true) => (1, changes_of_all(geometry)),
+        (false, false) => (0, Vec::new()),
     };
+    let mut best = BestPlan::default();
     for start in starts(geometry) {
-        let mut plan = start;
-        let mut least = weigh(&plan);
-        let rounds = if n <= SEARCHED { ROUNDS } else { 0 };
-        let changes = changes(geometry);
-        // After a whole round without a gain, every choice was tried on the current plan.
-        let mut in_vain = 0;
-        for change in std::iter::repeat_n(&changes, rounds).flatten() {
-            in_vain += 1;
-            if in_vain > changes.len() {
-                break;
-            }
-            let mut tried = plan.clone();
-            change(&mut tried);
-            if tried == plan {
-                continue;
-            }
-            let c = weigh(&tried);
-            if c < least {
-                (least, plan, in_vain) = (c, tried, 0);
-            }
-        }
+        improve(&mut best, start, &changes, rounds, &cost);
+    }
+    if !few && free {
+        let start = best.taken().clone();
+        improve(&mut best, start, &places(geometry), 1, &cost);
     }
     best
 }
 
-/// Returns the cheapest of the plans that differ in one position of an origin or in the unit of length.
-pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
-    let mut plan = start.clone();
-    let mut best = BestPlan::default();
+/// Tries the changes in turn from a plan, and keeps each that costs less.
+fn improve(
+    best: &mut BestPlan,
+    start: Plan,
+    changes: &[PlanChange<'_>],
+    rounds: usize,
+    cost: impl Fn(&Plan) -> Cost,
+) {
     let mut weigh = |plan: &Plan| {
         let cost = cost(plan);
         best.see(plan, cost);
         cost.weighted()
     };
+    let mut plan = start;
     let mut least = weigh(&plan);
-    let searched = geometry.bodies.len() <= SEARCHED;
-    let changes = if searched {
-        places(geometry)
-    } else {
-        Vec::new()
-    };
-    for change in changes {
+    // After a whole round without a gain, every choice was tried on the current plan.
+    let mut in_vain = 0;
+    for change in std::iter::repeat_n(changes, rounds).flatten() {
+        in_vain += 1;
+        if in_vain > changes.len() {
+            break;
+        }
         let mut tried = plan.clone();
         change(&mut tried);
         if tried == plan {
@@ -144,9 +137,19 @@ pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) ->
         }
         let c = weigh(&tried);
         if c < least {
-            (least, plan) = (c, tried);
+            (least, plan, in_vain) = (c, tried, 0);
         }
     }
+}
+
+/// Returns the cheapest of the plans that differ in one position of an origin or in the unit of length.
+pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
+    let mut best = BestPlan::default();
+    let changes = match geometry.bodies.len() <= SEARCHED {
+        true => places(geometry),
+        false => Vec::new(),
+    };
+    improve(&mut best, start.clone(), &changes, 1, cost);
     best
 }
 
@@ -239,6 +242,20 @@ fn changes(geometry: &Geometry) -> Vec<PlanChange<'_>> {
     changes.push(Box::new(|plan| plan.short_moment ^= true));
     if geometry.bodies.iter().any(|body| !body.axial) {
         changes.push(Box::new(|plan| plan.linear_first ^= true));
+    }
+    changes
+}
+
+/// Returns choices for all bodies at once, for mechanisms with many bodies.
+fn changes_of_all(geometry: &Geometry) -> Vec<PlanChange<'_>> {
+    let mut changes: Vec<PlanChange<'_>> = vec![
+        Box::new(|plan| plan.short_moment ^= true),
+        Box::new(|plan| plan.linear_first ^= true),
+        Box::new(|plan| *plan = plan.unturned()),
+        Box::new(|plan| plan.in_basis.fill(false)),
+    ];
+    for unit in units(geometry) {
+        changes.push(Box::new(move |plan| plan.unit = unit));
     }
     changes
 }
