@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::Frames;
 use super::inertia::BodyInertia;
-use super::joint_columns::Direction;
+use super::joint_columns::ColumnDirection;
 use super::names::name_vector;
 use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
@@ -39,9 +39,9 @@ pub(super) fn kinetic_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g
         };
         if frame.axial {
             match frame.columns[0].direction {
-                Direction::About(_) => omega.0[2] = omega.0[2] + frame.rate,
-                Direction::Along(_) => u.0[2] = u.0[2] + frame.rate,
-                Direction::Screw(pitch) => {
+                ColumnDirection::About(_) => omega.0[2] = omega.0[2] + frame.rate,
+                ColumnDirection::Along(_) => u.0[2] = u.0[2] + frame.rate,
+                ColumnDirection::Screw(pitch) => {
                     omega.0[2] = omega.0[2] + frame.rate;
                     u.0[2] = u.0[2] + frame.rate * pitch;
                 }

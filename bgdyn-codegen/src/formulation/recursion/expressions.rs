@@ -2,7 +2,7 @@
 
 use super::frames::Frames;
 use super::geometry::Geometry;
-use super::motion::{Field, add_set_aside, motions};
+use super::motion::{GravityField, add_set_aside, motions};
 use super::plan::Plan;
 use super::{derivatives, energies, inverse_dynamics, mass_matrix};
 use crate::bond_graph::Multibody;
@@ -24,7 +24,7 @@ pub(super) fn outputs(
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let outputs = match method {
             Method::InverseDynamics | Method::Bias | Method::Gravity => {
-                let moving = motions(&b, &frames, Field::Gravity);
+                let moving = motions(&b, &frames, GravityField::Gravity);
                 inverse_dynamics::efforts(&b, &frames, plan, &moving)
             }
             Method::MassMatrix => mass_matrix::mass_matrix(&b, &frames)
@@ -61,7 +61,7 @@ fn forward_dynamics<'g>(
     plan: &Plan,
     tau: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    let moving = motions(b, frames, Field::SetAside);
+    let moving = motions(b, frames, GravityField::SetAside);
     let bias = inverse_dynamics::efforts(b, frames, plan, &moving);
     let drive = tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
     let mass = mass_matrix::mass_matrix(b, frames);
@@ -82,7 +82,7 @@ pub(crate) fn mass_and_bias(graph: &Multibody, geometry: &Geometry) -> (Graph, V
         let x = Arguments::new(&b, graph, Method::ForwardDynamics);
         let frames = Frames::new(&b, graph, geometry, plan, &x);
         let rows = mass_matrix::mass_matrix(&b, &frames).into_iter().flatten();
-        let moving = motions(&b, &frames, Field::Gravity);
+        let moving = motions(&b, &frames, GravityField::Gravity);
         let bias = inverse_dynamics::efforts(&b, &frames, plan, &moving);
         rows.chain(bias).map(|e| e.signed()).collect()
     };

@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 use super::base_parameters::{Parts, regrouped};
 use super::geometry::{Body, Geometry, angle_of};
 use super::inertia::{BodyInertia, Point};
-use super::joint_columns::{Direction, JointColumn, joint_columns};
+use super::joint_columns::{ColumnDirection, JointColumn, joint_columns};
 use super::names::{name_body, name_number};
 use super::plan::{Plan, origin_offset};
 use super::rotation::{JointPose, Rotation, joint_pose};
@@ -199,7 +199,7 @@ impl Frames<'_> {
             .iter()
             .filter(|f| f.parent.is_none() && !f.axial);
         let columns = roots.flat_map(|frame| &frame.columns);
-        let linear = columns.filter(|c| matches!(c.direction, Direction::Along(_)));
+        let linear = columns.filter(|c| matches!(c.direction, ColumnDirection::Along(_)));
         linear.map(|column| column.coordinate).collect()
     }
 }

@@ -11,7 +11,7 @@ use crate::mechanism::joint::Twist;
 
 /// The direction of a column of a motion subspace.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Direction {
+pub(super) enum ColumnDirection {
     /// About an axis of the frame.
     About(usize),
     /// Along an axis of the frame.
@@ -20,13 +20,13 @@ pub(super) enum Direction {
     Screw(Dd),
 }
 
-impl Direction {
+impl ColumnDirection {
     /// Returns the component of a moment and a force, or of an angular and a linear momentum.
     pub fn component<'g>(self, angular: Vec3<Expr<'g>>, linear: Vec3<Expr<'g>>) -> Expr<'g> {
         match self {
-            Direction::About(k) => angular.0[k],
-            Direction::Along(k) => linear.0[k],
-            Direction::Screw(pitch) => angular.0[2] + linear.0[2] * pitch,
+            ColumnDirection::About(k) => angular.0[k],
+            ColumnDirection::Along(k) => linear.0[k],
+            ColumnDirection::Screw(pitch) => angular.0[2] + linear.0[2] * pitch,
         }
     }
 }
@@ -40,7 +40,7 @@ pub(super) struct JointColumn {
     /// Name of the coordinate.
     pub name: String,
     /// Its direction.
-    pub direction: Direction,
+    pub direction: ColumnDirection,
     /// Factor from the component in that direction to the joint's effort, and from the velocity to the
     /// rate in that direction.
     pub effort: Dd,
@@ -59,15 +59,15 @@ pub(super) fn joint_columns(
     let ratio = frame.degrees.mimic.map_or(Dd::ONE, |mimic| mimic.ratio);
     let per_length = Dd::ONE / unit;
     let pitch = frame.degrees.advance * per_length;
-    let directions: Vec<(Direction, Dd)> = match body.motion {
+    let directions: Vec<(ColumnDirection, Dd)> = match body.motion {
         Motion::None => Vec::new(),
-        Motion::Rotation => vec![(Direction::About(2), sign * ratio)],
-        Motion::Translation => vec![(Direction::Along(2), sign * ratio * per_length)],
+        Motion::Rotation => vec![(ColumnDirection::About(2), sign * ratio)],
+        Motion::Translation => vec![(ColumnDirection::Along(2), sign * ratio * per_length)],
         Motion::Compound(motion) => (motion.velocities.iter())
             .map(|part| match part.twist {
-                Twist::Linear(k) => (Direction::Along(k), per_length),
-                Twist::Angular(k) => (Direction::About(k), Dd::ONE),
-                Twist::Screw => (Direction::Screw(pitch), sign * ratio),
+                Twist::Linear(k) => (ColumnDirection::Along(k), per_length),
+                Twist::Angular(k) => (ColumnDirection::About(k), Dd::ONE),
+                Twist::Screw => (ColumnDirection::Screw(pitch), sign * ratio),
             })
             .collect(),
     };

@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::Frames;
 use super::geometry::Geometry;
-use super::joint_columns::{Direction, JointColumn};
+use super::joint_columns::{ColumnDirection, JointColumn};
 use super::plan::Plan;
 use crate::bond_graph::{Multibody, SiteId};
 use crate::expr::{Builder, Expr, Graph, Signed, cost};
@@ -134,9 +134,9 @@ fn jacobian_column<'g>(
     };
     let about = |k: usize| (axis(k), axis(k).cross(origin - placed.origin));
     let (angular, linear) = match column.direction {
-        Direction::About(k) => about(k),
-        Direction::Along(k) => (Vec3([b.zero(); 3]), axis(k)),
-        Direction::Screw(pitch) => {
+        ColumnDirection::About(k) => about(k),
+        ColumnDirection::Along(k) => (Vec3([b.zero(); 3]), axis(k)),
+        ColumnDirection::Screw(pitch) => {
             let (angular, linear) = about(2);
             (angular, linear + axis(2).map(|x| x * pitch))
         }

@@ -10,7 +10,7 @@ use bgdyn_runtime::Dd;
 
 use super::frames::{BodyFrame, Frames};
 use super::inertia::BodyInertia;
-use super::joint_columns::{Direction, JointColumn};
+use super::joint_columns::{ColumnDirection, JointColumn};
 use super::names::{name_composite, name_vector};
 use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
@@ -300,9 +300,9 @@ pub(super) fn unit_momentum<'g>(
         (linear, -[h_x, h_y, h_z][k])
     };
     let (linear, angular) = match column.direction {
-        Direction::About(k) => about(k),
-        Direction::Along(k) => along(k),
-        Direction::Screw(pitch) => {
+        ColumnDirection::About(k) => about(k),
+        ColumnDirection::Along(k) => along(k),
+        ColumnDirection::Screw(pitch) => {
             let (turn, slide) = (about(2), along(2));
             let sum = |a: Vec3<Expr<'g>>, b: Vec3<Expr<'g>>| a + b.map(|x| x * pitch);
             (sum(turn.0, slide.0), sum(turn.1, slide.1))

@@ -6,9 +6,9 @@
 use bgdyn_runtime::Dd;
 
 use super::frames::{BodyFrame, Frames};
-use super::joint_columns::Direction;
+use super::joint_columns::ColumnDirection;
 use super::names::{name_matrix, name_vector};
-use super::rotation::Rotation;
+use super::rotation::{Rotation, permutation};
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
@@ -36,7 +36,7 @@ impl Spin<'_> {
 
 /// The gravity that accelerations include.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Field {
+pub(super) enum GravityField {
     /// None.
     Zero,
     /// That of the mechanism.
@@ -65,13 +65,17 @@ pub(super) struct Moving<'g> {
 }
 
 /// Returns the motion of every body with the rates and accelerations in `frames`.
-pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, field: Field) -> Vec<Moving<'g>> {
+pub(super) fn motions<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    field: GravityField,
+) -> Vec<Moving<'g>> {
     let mut moving: Vec<Moving<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         let parent = frame.parent.map(|p| &moving[p]);
         let gravity = match field {
-            Field::Zero => zero(b),
-            Field::Gravity | Field::SetAside => frames.gravity[j],
+            GravityField::Zero => zero(b),
+            GravityField::Gravity | GravityField::SetAside => frames.gravity[j],
         };
         b.section(|| {
             format!(
@@ -80,7 +84,7 @@ pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, field: Field) -> 
             )
         });
         let mut step = outwards(b, frame, parent, gravity);
-        if field == Field::SetAside && frame.parent.is_none() {
+        if field == GravityField::SetAside && frame.parent.is_none() {
             set_aside(b, frame, &mut step);
         }
         name(frame, &step);
@@ -93,7 +97,7 @@ pub(super) fn motions<'g>(b: &'g Builder, frames: &Frames<'g>, field: Field) -> 
 fn set_aside<'g>(b: &'g Builder, frame: &BodyFrame<'g>, step: &mut Moving<'g>) {
     let mut aside = zero(b);
     for column in frame.columns.iter().filter(|_| !frame.axial) {
-        if let Direction::Along(k) = column.direction {
+        if let ColumnDirection::Along(k) = column.direction {
             aside.0[k] = step.a_own.0[k];
             step.a_own.0[k] = b.zero();
             step.set_aside = Some(aside);
@@ -112,7 +116,7 @@ pub(super) fn add_set_aside<'g>(
             continue;
         };
         for column in &frame.columns {
-            if let Direction::Along(k) = column.direction {
+            if let ColumnDirection::Along(k) = column.direction {
                 let own = &mut accelerations[column.coordinate];
                 *own = *own - aside.0[k] * (Dd::ONE / column.effort);
             }
@@ -166,9 +170,9 @@ fn outwards<'g>(
         rate = (rate.0 + frame.rate, rate.1 + frame.acceleration);
     }
     match frame.columns[0].direction {
-        Direction::About(_) => {}
-        Direction::Along(_) => a_basis = a_basis + along(None),
-        Direction::Screw(pitch) => a_basis = a_basis + along(Some(pitch)),
+        ColumnDirection::About(_) => {}
+        ColumnDirection::Along(_) => a_basis = a_basis + along(None),
+        ColumnDirection::Screw(pitch) => a_basis = a_basis + along(Some(pitch)),
     }
     let in_basis = spun(&basis, rate);
     let own = own_spin(&basis, rate, frame.turn);
@@ -257,14 +261,6 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
         u,
         differences: Vec3(std::array::from_fn(difference)),
     }
-}
-
-/// Returns, for a rotation by quarter turns, the parent's axis parallel to each new one.
-pub(super) fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
-    // A rotation that differs by 1e-17 from a quarter turn has ones, but no zeros.
-    let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
-    let place = |k: usize| (0..3).find(|&i| only(k, i));
-    Some([place(0)?, place(1)?, place(2)?])
 }
 
 /// Returns the acceleration of the new origin in twisted axes, by the product U p if that costs less.

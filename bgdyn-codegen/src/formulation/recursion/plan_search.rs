@@ -210,9 +210,11 @@ fn places(geometry: &Geometry) -> Vec<PlanChange<'_>> {
         for h in slides(geometry, j) {
             changes.push(Box::new(move |plan| plan.slides[j] = h));
         }
-        changes.push(Box::new(move |plan| {
-            plan.slides[j] = next_to_parent(geometry, j, &plan.slides);
-        }));
+        if geometry.bodies.iter().any(|body| !body.axial) {
+            changes.push(Box::new(move |plan| {
+                plan.slides[j] = next_to_parent(geometry, j, &plan.slides);
+            }));
+        }
     }
     for unit in units(geometry) {
         changes.push(Box::new(move |plan| plan.unit = unit));

@@ -3,7 +3,6 @@
 use bgdyn_runtime::Dd;
 
 use super::geometry::{Body, identity};
-use super::motion::permutation;
 use crate::bond_graph::LinkFrame;
 use crate::expr::{Builder, Expr};
 use crate::formulation::joint_motion::joint_positions;
@@ -172,4 +171,12 @@ fn quaternion_of(r: Mat3<Dd>) -> [Dd; 4] {
         q[3] = (m[j][i] - m[i][j]) * half / twice;
     }
     q
+}
+
+/// Returns, for a rotation by quarter turns, the parent's axis parallel to each new one.
+pub(super) fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
+    // A rotation that differs by 1e-17 from a quarter turn has ones, but no zeros.
+    let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
+    let place = |k: usize| (0..3).find(|&i| only(k, i));
+    Some([place(0)?, place(1)?, place(2)?])
 }

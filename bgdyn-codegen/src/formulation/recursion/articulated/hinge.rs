@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use super::inertia::{ArticulatedInertia, InertiaColumn};
 use crate::expr::{Bound, Builder, ErrorBound, Expr};
 use crate::formulation::recursion::frames::{BodyFrame, Frames};
-use crate::formulation::recursion::joint_columns::Direction;
+use crate::formulation::recursion::joint_columns::ColumnDirection;
 
 /// A pivot's rounding error in units of eps/2, times this factor, is the magnitude that
 /// [`bgdyn_runtime::Scalar::checked_pivot`] compares with: the least accepted pivot is 64 eps times it, a
@@ -25,7 +25,7 @@ pub(super) struct HingeColumn<'g> {
     /// Its index among the columns of the frame.
     pub index: usize,
     /// Its direction.
-    pub direction: Direction,
+    pub direction: ColumnDirection,
     /// The wrench of a unit acceleration.
     pub column: InertiaColumn<'g>,
 }
@@ -95,7 +95,7 @@ pub(super) fn compound_hinge<'g>(
 ) -> (Hinge<'g>, ArticulatedInertia<'g>) {
     let mut order: Vec<usize> = (0..frame.columns.len()).collect();
     order.sort_by_key(|&k| {
-        let linear = matches!(frame.columns[k].direction, Direction::Along(_));
+        let linear = matches!(frame.columns[k].direction, ColumnDirection::Along(_));
         linear != linear_first
     });
     let mut rest = whole;

@@ -9,7 +9,7 @@ use bgdyn_runtime::Dd;
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::inertia::BodyInertia;
 use crate::formulation::recursion::inverse_dynamics::BodyWrench;
-use crate::formulation::recursion::joint_columns::Direction;
+use crate::formulation::recursion::joint_columns::ColumnDirection;
 use crate::formulation::recursion::names::name_matrix;
 use crate::formulation::recursion::rotation::Rotation;
 use crate::math::{Mat3, Vec3};
@@ -104,11 +104,11 @@ impl<'g> ArticulatedInertia<'g> {
     }
 
     /// Returns the component in a direction: sᵀ I s.
-    pub fn along(&self, direction: Direction) -> Expr<'g> {
+    pub fn along(&self, direction: ColumnDirection) -> Expr<'g> {
         match direction {
-            Direction::About(k) => self.angular.0[k][k],
-            Direction::Along(k) => self.linear.0[k][k],
-            Direction::Screw(_) => {
+            ColumnDirection::About(k) => self.angular.0[k][k],
+            ColumnDirection::Along(k) => self.linear.0[k][k],
+            ColumnDirection::Screw(_) => {
                 let wrench = self.wrench(direction);
                 direction.component(wrench.moment, wrench.force)
             }
@@ -116,7 +116,7 @@ impl<'g> ArticulatedInertia<'g> {
     }
 
     /// Returns I s, the wrench of a unit acceleration in a direction.
-    fn wrench(&self, direction: Direction) -> BodyWrench<'g> {
+    fn wrench(&self, direction: ColumnDirection) -> BodyWrench<'g> {
         let about = |k: usize| BodyWrench {
             moment: self.angular.row(k),
             force: self.coupling.row(k),
@@ -126,9 +126,9 @@ impl<'g> ArticulatedInertia<'g> {
             force: self.linear.row(k),
         };
         match direction {
-            Direction::About(k) => about(k),
-            Direction::Along(k) => along(k),
-            Direction::Screw(pitch) => about(2).plus(along(2).map(|v| v.map(|x| x * pitch))),
+            ColumnDirection::About(k) => about(k),
+            ColumnDirection::Along(k) => along(k),
+            ColumnDirection::Screw(pitch) => about(2).plus(along(2).map(|v| v.map(|x| x * pitch))),
         }
     }
 
@@ -137,7 +137,7 @@ impl<'g> ArticulatedInertia<'g> {
     pub fn column(
         &self,
         b: &'g Builder,
-        direction: Direction,
+        direction: ColumnDirection,
         pivot: Expr<'g>,
         armature: Expr<'g>,
     ) -> InertiaColumn<'g> {
@@ -170,7 +170,7 @@ impl<'g> ArticulatedInertia<'g> {
     pub fn projected(
         &self,
         b: &'g Builder,
-        direction: Direction,
+        direction: ColumnDirection,
         column: &InertiaColumn<'g>,
     ) -> Self {
         let InertiaColumn {
@@ -180,9 +180,9 @@ impl<'g> ArticulatedInertia<'g> {
             ..
         } = column;
         let (angular, linear) = match direction {
-            Direction::About(k) => (Some(k), None),
-            Direction::Along(k) => (None, Some(k)),
-            Direction::Screw(_) => (None, None),
+            ColumnDirection::About(k) => (Some(k), None),
+            ColumnDirection::Along(k) => (None, Some(k)),
+            ColumnDirection::Screw(_) => (None, None),
         };
         let less = |m: &Mat3<Expr<'g>>,
                     row: (Vec3<Expr<'g>>, Option<usize>),

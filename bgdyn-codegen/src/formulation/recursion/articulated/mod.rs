@@ -21,7 +21,7 @@ mod sweep;
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
-use super::motion::{Field, add_set_aside, motions};
+use super::motion::{GravityField, add_set_aside, motions};
 use super::plan::Plan;
 use super::plan_search::{self, BestPlan, SEARCHED};
 use super::plans::cheapest_plans;
@@ -194,7 +194,7 @@ impl Articulated {
             let x = Arguments::new(&b, graph, Method::ForwardDynamics);
             let frames = Frames::new(&b, graph, geometry, plan, &x);
             let sweep = Sweep::new(&b, &frames, careful, (guarded, plan.linear_first));
-            let moving = motions(&b, &frames, Field::SetAside);
+            let moving = motions(&b, &frames, GravityField::SetAside);
             let loads = inverse_dynamics::loads(&b, &frames, plan, &moving);
             let mut found = sweep.accelerations(&loads, &x.tau);
             add_set_aside(&frames, &moving, &mut found);

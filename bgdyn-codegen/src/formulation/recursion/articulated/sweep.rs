@@ -8,7 +8,7 @@ use super::inertia::ArticulatedInertia;
 use crate::expr::{Builder, ErrorBound, Expr};
 use crate::formulation::recursion::frames::{BodyFrame, Frames};
 use crate::formulation::recursion::inverse_dynamics::{BodyWrench, Load, name_wrenches};
-use crate::formulation::recursion::joint_columns::Direction;
+use crate::formulation::recursion::joint_columns::ColumnDirection;
 use crate::math::{Mat3, Vec3};
 
 /// The joints' columns, from the tips to the base (Featherstone 2008, ch. 7).
@@ -43,11 +43,11 @@ impl<'g> Acceleration<'g> {
     }
 
     /// Adds an acceleration of the joint.
-    fn with(mut self, direction: Direction, along: Expr<'g>) -> Self {
+    fn with(mut self, direction: ColumnDirection, along: Expr<'g>) -> Self {
         match direction {
-            Direction::About(k) => self.angular.0[k] = self.angular.0[k] + along,
-            Direction::Along(k) => self.linear.0[k] = self.linear.0[k] + along,
-            Direction::Screw(pitch) => {
+            ColumnDirection::About(k) => self.angular.0[k] = self.angular.0[k] + along,
+            ColumnDirection::Along(k) => self.linear.0[k] = self.linear.0[k] + along,
+            ColumnDirection::Screw(pitch) => {
                 self.angular.0[2] = self.angular.0[2] + along;
                 self.linear.0[2] = self.linear.0[2] + along * pitch;
             }

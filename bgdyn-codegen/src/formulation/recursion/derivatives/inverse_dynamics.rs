@@ -33,7 +33,7 @@ use super::joint_partials::{JointContext, JointPartials, Subtree};
 use super::outboard_joint::{OutboardJoint, PartialEntries};
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::{BodyFrame, Frames};
-use crate::formulation::recursion::motion::{Field, Moving, Spin, motions};
+use crate::formulation::recursion::motion::{GravityField, Moving, Spin, motions};
 use crate::formulation::recursion::plan::PartialsPlan;
 use crate::math::Vec3;
 use crate::mechanism::Motion;
@@ -51,7 +51,14 @@ pub(in crate::formulation::recursion) fn coriolis_matrix<'g>(
     frames: &Frames<'g>,
     views: &[PartialsPlan],
 ) -> Vec<Vec<Expr<'g>>> {
-    pass(b, frames, views, &motions(b, frames, Field::Zero), Dd::ONE).by_rate
+    pass(
+        b,
+        frames,
+        views,
+        &motions(b, frames, GravityField::Zero),
+        Dd::ONE,
+    )
+    .by_rate
 }
 
 /// Returns the derivatives with the rates and accelerations in `frames`; with gravity if `active`.
@@ -61,7 +68,11 @@ pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     views: &[PartialsPlan],
     active: bool,
 ) -> EffortDerivatives<'g> {
-    let field = if active { Field::Gravity } else { Field::Zero };
+    let field = if active {
+        GravityField::Gravity
+    } else {
+        GravityField::Zero
+    };
     let moving = motions(b, frames, field);
     pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
