@@ -6,6 +6,7 @@ reads the tables that `bgdyn simulate … --out runs` wrote, prints the facts of
 pictures next to it.
 """
 
+import re
 import sys
 from itertools import accumulate
 from math import acos, atan2, cos, degrees, pi, radians, sin, sqrt
@@ -188,7 +189,9 @@ def quadruped(_bgdyn, folder):
     rows = range(len(run.t))
     up = [sum(f[2] for f in springs(run, i).values()) for i in rows]
     weight, last = MASS * G, springs(run, rows[-1])
-    fact(f"weight {weight:.4f} N; vertical force of the settled springs {up[-1]:.4f} N; most {max(up):.0f} N, least {min(up):.1f} N")
+    fact(f"weight {weight:.4f} N; vertical force of the settled springs {up[-1]:.4f} N; most {max(up):.1f} N")
+    least = min(springs(run, i)[leg, "below"][2] for i in rows[1:] for leg in LEGS)
+    fact(f"no spring below a foot pulls: least force {least:.2f} N at the first point after the touch")
     fact("under the feet: " + ", ".join(f"{leg} {last[leg, 'below'][2]:.2f} N" for leg in LEGS))
     fact(f"horizontal forces at the end: sum {sum(f[0] for f in last.values()):.1e}, {sum(f[1] for f in last.values()):.1e} N")
     z = run["trunk_z"]
@@ -201,10 +204,10 @@ def quadruped(_bgdyn, folder):
         project = viewed(-65, 18, 300, (165 + 315 * k, 235))
         page.text(30 + 315 * k, 28, f"{run.t[i]:.2f} s: {title}", bold=True)
         standing(page, run, i, project)
-    plot = Plot(page, (60, 385, 450, 520), [0, 0.5, 1, 1.5, 2, 2.5, 3], range(0, 1001, 250), "Vertical force of the springs, N (dashed: the weight)")
+    plot = Plot(page, (60, 385, 450, 520), range(7), range(0, 601, 150), "Vertical force of the springs, N (dashed: the weight)")
     plot.curve(run.t, up, BLUE)
-    plot.curve([0, 3], [weight] * 2, RED, 1.5, "5 4")
-    plot = Plot(page, (540, 385, 930, 520), [0, 0.5, 1, 1.5, 2, 2.5, 3], [300, 350, 400, 450, 500], "Height of the trunk, mm")
+    plot.curve([0, 6], [weight] * 2, RED, 1.5, "5 4")
+    plot = Plot(page, (540, 385, 930, 520), range(7), range(420, 461, 10), "Height of the trunk, mm")
     plot.curve(run.t, [1000 * x for x in z], GREEN)
     page.write(HERE / "quadruped.svg")
 
@@ -213,7 +216,7 @@ def standing(page, run, i, project):
     """The quadruped in a row of the table, with the ends of its springs."""
     ground = [project([x, y, 0]) for x, y in ((-0.45, -0.38), (0.45, -0.38), (0.45, 0.38), (-0.45, 0.38))]
     page.area(ground, "#ffffff", PALE)
-    q, middle, places = run.quaternion("free", i), run.place("free", i), anchors()
+    q, middle, places = run.quaternion("free", i), run.place("trunk", i), anchors()
     for leg in ("front_left", "hind_left", "trunk", "front_right", "hind_right"):
         if leg == "trunk":
             corner = lambda x, y, z: project([a + b for a, b in zip(middle, turned(q, [x, y, z]))])
@@ -270,7 +273,7 @@ def quadrotor_arm(_bgdyn, folder):
         plot.curve(ts, u, colour)
     for k, (name, colour) in enumerate(zip(plan_flight.ROTORS, (BLUE, GREEN, BROWN, RED))):
         page.text(560 + 95 * k, 245, name.replace("_", " "), colour, 12)
-    plot = Plot(page, (560, 320, 930, 470), range(7), TICKS, "Distance of the body from the plan, mm")
+    plot = Plot(page, (560, 320, 930, 470), range(7), [0, 0.01, 0.02, 0.03], "Distance of the body from the plan, mm")
     plot.curve(run.t, away, BLUE)
     page.write(HERE / "quadrotor_arm.svg")
 
@@ -280,8 +283,8 @@ def thrusts():
     text = (HERE / "quadrotor_arm.scene.yaml").read_text()
     found = []
     for name in plan_flight.ROTORS:
-        rows = text.split(f"{name}_propeller_fz:")[1].split("]\n")[0].replace("table: [", "").split("], ")
-        found.append([[float(x) for x in row.strip(" []\n,").replace(" s", "").split(",")] for row in rows])
+        block = text.split(f"{name}_propeller_fz:")[1].split("_fz:")[0].split("drag_mz:")[0]
+        found.append([(float(t), float(u)) for t, u in re.findall(r"\[(\S+) s, (\S+)\]", block)])
     return [t for t, _ in found[0]], [[u for _, u in rows] for rows in found]
 
 
