@@ -56,8 +56,9 @@ def spherical_pendulum(bgdyn, folder):
     across = [sqrt(run["disc_x"][i] ** 2 + run["disc_y"][i] ** 2) for i in rows]
     tilt = [degrees(atan2(across[i], height[i])) for i in rows]
     passes = [i for i in rows[1:-1] if tilt[i - 1] > tilt[i] <= tilt[i + 1] and tilt[i] < 20]
-    fact(f"over the pole {len(passes)} times; lowest point {max(tilt):.3f}° from the pole")
-    fact(f"at the table's points nearest to the pole: {', '.join(f'{tilt[i]:.3f}°' for i in passes)}")
+    fact(f"over the pole {len(passes)} times; lowest point {max(tilt):.2f}° from the pole")
+    nearest = max(passing(run, i) for i in passes)
+    fact(f"path of the disc passes the pole at {nearest:.0e} m at most, by curves through the table's points")
     for what, list_, unit in (("energy", energy, "J"), ("momentum about gravity", about_gravity, "kg m²/s")):
         off = max(abs(x - list_[0]) for x in list_)
         fact(f"{what}: {list_[0]:.9f} {unit}, changes by at most {off:.1e}")
@@ -65,7 +66,7 @@ def spherical_pendulum(bgdyn, folder):
 
     page = Canvas(960, 430)
     page.text(20, 28, "Path of the disc, seen from above; the pole is in the middle", bold=True)
-    centre, scale = (220, 235), 340
+    centre, scale = (220, 228), 340
     spot = lambda i: (centre[0] + scale * run["disc_x"][i], centre[1] - scale * run["disc_y"][i])
     ring = [(centre[0] + scale * 0.5 * cos(a / 50 * pi), centre[1] - scale * 0.5 * sin(a / 50 * pi)) for a in range(101)]
     page.line(ring, PALE, 1.5)
@@ -77,15 +78,37 @@ def spherical_pendulum(bgdyn, folder):
             start = i
     page.disc(centre, 4, RED)
     page.text(centre[0] + 8, centre[1] - 6, "pole", RED)
-    page.text(20, 420, "dark: above the pivot   pale: below it", GREY, 12)
+    page.text(20, 424, "dark: above the pivot; pale: below it", GREY, 12)
     plot = Plot(page, (520, 60, 930, 200), range(0, 13, 2), range(0, 181, 45), "Angle from the pole, degrees")
     plot.curve(run.t, tilt, BLUE)
-    exponent = 1e-9
-    ticks = [-2, -1, 0, 1, 2]
-    plot = Plot(page, (520, 265, 930, 395), range(0, 13, 2), ticks, "Change of energy (blue) and momentum about gravity (brown), 10⁻⁹")
+    exponent = 1e-11
+    page.text(520, 242, "blue: energy, J; brown: momentum about gravity, kg m²/s", GREY, 12)
+    ticks = [-10, -5, 0, 5, 10]
+    plot = Plot(page, (520, 278, 930, 395), range(0, 13, 2), ticks, "Change since the start, times 10⁻¹¹")
     plot.curve(run.t, [(e - energy[0]) / exponent for e in energy], BLUE)
     plot.curve(run.t, [(h - about_gravity[0]) / exponent for h in about_gravity], BROWN)
     page.write(HERE / "spherical_pendulum.svg")
+
+
+def passing(run, i):
+    """The least distance from the vertical through the pivot, on the polynomials of degree 5 through six points."""
+    knots = range(i - 2, i + 4)
+
+    def at(u, name):
+        total = 0.0
+        for k in knots:
+            weight = 1.0
+            for j in knots:
+                weight *= (u - j) / (k - j) if j != k else 1.0
+            total += weight * run[name][k]
+        return total
+
+    away = lambda u: sqrt(at(u, "disc_x") ** 2 + at(u, "disc_y") ** 2)
+    low, high = i - 1, i + 1
+    while high - low > 1e-9:
+        left, right = low + (high - low) / 3, high - (high - low) / 3
+        low, high = (low, right) if away(left) < away(right) else (left, high)
+    return away(low)
 
 
 # The satellite ------------------------------------------------------------------------------------------
@@ -101,23 +124,24 @@ def satellite(bgdyn, folder):
     linear = max(norm(p[:3]) for p in ps)
     # The total is zero, so that the angular momentum is the same about every point.
     angular = max(norm(p[3:6]) for p in ps)
-    sizes = [abs(p[7]) for p in ps]
-    turn = [degrees(2 * atan2(q[4], q[6])) for q in qs]
-    fact(f"turn of the satellite after the cycle: {turn[-1]:.4f}°; on the way from {min(turn):.2f}° to {max(turn):.2f}°")
+    alone = max(abs(v[4]) for v in vs) * 80 * 0.8**2 / 6
+    # Anticlockwise in the picture, which looks along the y axis.
+    turn = [-degrees(2 * atan2(q[4], q[6])) for q in qs]
+    fact(f"turn of the satellite after the cycle: {turn[-1]:.4f}°; on the way up to {max(turn):.2f}°")
     fact(f"momentum at most {linear:.1e} kg m/s, angular momentum {angular:.1e} kg m²/s")
-    fact(f"beside that: momentum of the elbow up to {max(sizes):.2f} kg m²/s")
+    fact(f"the bus alone has up to {alone:.2f} kg m²/s")
     last = degrees(run["shoulder"][-1]), degrees(run["elbow"][-1])
     fact(f"arm at the end: shoulder {last[0]:.6f}°, elbow {last[1]:.6f}°; rates below {max(map(abs, vs[-1])):.1e}")
-    fact(f"turn by the integral over the closed path, without time: {around(bgdyn, run, positions):.4f}°")
+    fact(f"turn by the integral over the closed path, without time: {-around(bgdyn, run, positions):.4f}°")
 
-    page = Canvas(960, 500)
+    page = Canvas(960, 470)
     times = (0, 6.4, 12, 17.4, 28)
-    words = ("start", "shoulder out", "elbow bent", "shoulder back", "end: the arm as at the start")
+    words = ("start", "shoulder moved", "elbow bent", "shoulder back", "elbow back: end")
     for k, (t, title) in enumerate(zip(times, words)):
         i, middle = run.at(t), (90 + 188 * k, 165)
         spot = lambda r: (middle[0] + 62 * r[0], middle[1] - 62 * r[2])
         page.text(middle[0] - 70, 28, title, bold=True)
-        page.text(middle[0] - 70, 46, f"{t:g} s, turned by {turn[i]:.1f}°".replace("-", "−"), GREY, 12)
+        page.text(middle[0] - 70, 46, f"{t:g} s, turned by {abs(turn[i]):.1f}°", GREY, 12)
         pose = lambda r: spot([a + b for a, b in zip(run.place("free", i), turned(qs[i][3:7], r))])
         page.line([spot(run.place("tool", j)) for j in range(run.at(times[max(k - 1, 0)]), i + 1)], BROWN, 1.2, "2 3")
         page.line([(middle[0] - 70, middle[1]), (middle[0] + 70, middle[1])], PALE, 1)
@@ -127,10 +151,10 @@ def satellite(bgdyn, folder):
         page.line([spot(run.place(f, i)) for f in ("shoulder_place", "elbow_place", "tool")], INK, 4)
         for f in ("shoulder_place", "elbow_place"):
             page.disc(spot(run.place(f, i)), 4, BROWN)
-    plot = Plot(page, (60, 320, 450, 460), range(0, 29, 4), range(-60, 141, 40), "Shoulder (blue) and elbow (brown), degrees")
+    plot = Plot(page, (60, 300, 450, 435), range(0, 29, 4), range(-60, 141, 40), "Shoulder (blue) and elbow (brown), degrees")
     plot.curve(run.t, [degrees(x) for x in run["shoulder"]], BLUE)
     plot.curve(run.t, [degrees(x) for x in run["elbow"]], BROWN)
-    plot = Plot(page, (540, 320, 930, 460), range(0, 29, 4), range(-40, 41, 20), "Turn of the satellite, degrees")
+    plot = Plot(page, (540, 300, 930, 435), range(0, 29, 4), range(0, 81, 20), "Turn of the satellite, anticlockwise, degrees")
     plot.curve(run.t, turn, GREEN)
     page.write(HERE / "satellite.svg")
 
@@ -198,17 +222,19 @@ def quadruped(_bgdyn, folder):
     fact(f"trunk: {z[0]:.4f} m at the start, at least {min(z):.4f} m, {z[-1]:.4f} m at the end, at {abs(run['free_z_velocity'][-1]):.1e} m/s")
     fact("feet sink by " + ", ".join(f"{-1000 * run[f'{leg}_foot_z'][-1]:.2f} mm" for leg in LEGS))
 
-    page = Canvas(960, 560)
+    page = Canvas(960, 570)
     deepest = z.index(min(z))
-    for k, (i, title) in enumerate(((0, "the feet touch the ground, at 0.99 m/s"), (deepest, "lowest"), (rows[-1], "settled"))):
-        project = viewed(-65, 18, 300, (165 + 315 * k, 235))
-        page.text(30 + 315 * k, 28, f"{run.t[i]:.2f} s: {title}", bold=True)
+    for k, (i, title) in enumerate(((0, "touch, at 0.99 m/s"), (deepest, "lowest"), (rows[-1], "settled"))):
+        project = viewed(-65, 18, 270, (165 + 315 * k, 235))
+        page.text(60 + 315 * k, 28, f"{run.t[i]:.2f} s: {title}", bold=True)
         standing(page, run, i, project)
-    plot = Plot(page, (60, 385, 450, 520), range(7), range(0, 601, 150), "Vertical force of the springs, N (dashed: the weight)")
-    plot.curve(run.t, up, BLUE)
-    plot.curve([0, 6], [weight] * 2, RED, 1.5, "5 4")
-    plot = Plot(page, (540, 385, 930, 520), range(7), range(420, 461, 10), "Height of the trunk, mm")
-    plot.curve(run.t, [1000 * x for x in z], GREEN)
+    page.text(60, 340, "Green: springs and dampers to places a metre away, drawn shortened", GREY, 12)
+    early, ticks = run.at(1.5), [0, 0.5, 1, 1.5]
+    plot = Plot(page, (60, 400, 450, 535), ticks, range(0, 601, 150), "Vertical force of the springs, N (dashed: the weight)")
+    plot.curve(run.t[:early], up, BLUE)
+    plot.curve([0, 1.5], [weight] * 2, RED, 1.5, "5 4")
+    plot = Plot(page, (540, 400, 930, 535), ticks, range(420, 461, 10), "Height of the trunk, mm")
+    plot.curve(run.t[:early], [1000 * x for x in z], GREEN)
     page.write(HERE / "quadruped.svg")
 
 
@@ -220,10 +246,11 @@ def standing(page, run, i, project):
     for leg in ("front_left", "hind_left", "trunk", "front_right", "hind_right"):
         if leg == "trunk":
             corner = lambda x, y, z: project([a + b for a, b in zip(middle, turned(q, [x, y, z]))])
-            for z in (-0.07, 0.07):
-                page.area([corner(x, y, z) for x, y in ((0.3, 0.12), (-0.3, 0.12), (-0.3, -0.12), (0.3, -0.12))], SHADE, BLUE, 0.8)
+            top = [corner(x, y, 0.07) for x, y in ((0.3, 0.12), (-0.3, 0.12), (-0.3, -0.12), (0.3, -0.12))]
             side = [corner(x, -0.12, z) for x, z in ((0.3, 0.07), (-0.3, 0.07), (-0.3, -0.07), (0.3, -0.07))]
-            page.area(side, SHADE, BLUE)
+            front = [corner(0.3, y, z) for y, z in ((0.12, 0.07), (-0.12, 0.07), (-0.12, -0.07), (0.12, -0.07))]
+            for face in (top, side, front):
+                page.area(face, SHADE, BLUE)
             continue
         foot = run.place(f"{leg}_foot", i)
         page.line([project(run.place(f"{leg}_{part}", i)) for part in ("shoulder", "bend", "foot")], INK, 4)
@@ -261,12 +288,15 @@ def quadrotor_arm(_bgdyn, folder):
 
     page = Canvas(960, 520)
     page.text(20, 28, "One lap, drawn every 0.75 s; blue: path of the body, brown: of the arm's tip", bold=True)
-    project = viewed(-75, 28, 115, (240, 480))
+    project = viewed(-75, 28, 120, (260, 415))
     page.line([project([1.5 * sin(k / 50 * pi), -1.5 * cos(k / 50 * pi), 0]) for k in range(101)], PALE, 1.5)
     page.line([project(run.place("tool", i)) for i in rows], BROWN, 1)
     page.line([project(run.place("free", i)) for i in rows], BLUE, 1)
     for k in range(8):
         flying(page, run, run.at(0.75 * k), project)
+    page.text(20, 48, "green: the propellers in front; pale ring: the circle on the ground", GREY, 12)
+    start = project(run.place("free", 0))
+    page.text(start[0] + 12, start[1] + 46, "start and end", GREY, 12)
     ts, tables = thrusts()
     plot = Plot(page, (560, 60, 930, 200), range(7), range(0, 9, 2), "Thrust of each propeller, N")
     for u, colour in zip(tables, (BLUE, GREEN, BROWN, RED)):
