@@ -1,9 +1,9 @@
 """Measures the four runs and draws them.
 
-    python3 examples/free_machines/figures.py bgdyn runs
+    python3 examples/free_machines/figures.py bgdyn runs [--draw] [MACHINE …]
 
-reads the tables that `bgdyn simulate … --out runs` wrote, prints the facts of README.md, and writes the
-pictures next to it.
+reads the tables that `bgdyn simulate … --out runs` wrote and prints the facts of README.md. With `--draw`
+it also writes the pictures next to it.
 """
 
 import re
@@ -20,6 +20,11 @@ G = 9.81
 
 def fact(words):
     print(f"  {words}")
+
+
+def write(page, name):
+    if "--draw" in sys.argv:
+        page.write(HERE / name)
 
 
 def norm(r):
@@ -87,7 +92,7 @@ def spherical_pendulum(bgdyn, folder):
     plot = Plot(page, (520, 278, 930, 395), range(0, 13, 2), ticks, "Change since the start, times 10⁻¹¹")
     plot.curve(run.t, [(e - energy[0]) / exponent for e in energy], BLUE)
     plot.curve(run.t, [(h - about_gravity[0]) / exponent for h in about_gravity], BROWN)
-    page.write(HERE / "spherical_pendulum.svg")
+    write(page, "spherical_pendulum.svg")
 
 
 def passing(run, i):
@@ -156,11 +161,11 @@ def satellite(bgdyn, folder):
     plot.curve(run.t, [degrees(x) for x in run["elbow"]], BROWN)
     plot = Plot(page, (540, 300, 930, 435), range(0, 29, 4), range(0, 81, 20), "Turn of the satellite, anticlockwise, degrees")
     plot.curve(run.t, turn, GREEN)
-    page.write(HERE / "satellite.svg")
+    write(page, "satellite.svg")
 
 
 def around(bgdyn, run, names):
-    """The turn as an integral over the arm's path: base velocity = −M_bb⁻¹ M_ba · rates, from mass matrices alone."""
+    """The turn as an integral over the arm's path, from mass matrices alone: −M_bb⁻¹ M_ba times the arm's steps."""
     rows = range(len(run.t))
     shapes = [(run["shoulder"][i], run["elbow"][i]) for i in rows]
     middle = [[(a + b) / 2 for a, b in zip(*pair)] for pair in zip(shapes, shapes[1:])]
@@ -235,7 +240,7 @@ def quadruped(_bgdyn, folder):
     plot.curve([0, 1.5], [weight] * 2, RED, 1.5, "5 4")
     plot = Plot(page, (540, 400, 930, 535), ticks, range(420, 461, 10), "Height of the trunk, mm")
     plot.curve(run.t[:early], [1000 * x for x in z], GREEN)
-    page.write(HERE / "quadruped.svg")
+    write(page, "quadruped.svg")
 
 
 def standing(page, run, i, project):
@@ -305,7 +310,7 @@ def quadrotor_arm(_bgdyn, folder):
         page.text(560 + 95 * k, 245, name.replace("_", " "), colour, 12)
     plot = Plot(page, (560, 320, 930, 470), range(7), [0, 0.01, 0.02, 0.03], "Distance of the body from the plan, mm")
     plot.curve(run.t, away, BLUE)
-    page.write(HERE / "quadrotor_arm.svg")
+    write(page, "quadrotor_arm.svg")
 
 
 def thrusts():
@@ -333,7 +338,9 @@ def flying(page, run, i, project):
 MACHINES = (quadrotor_arm, quadruped, satellite, spherical_pendulum)
 
 if __name__ == "__main__":
+    bgdyn, folder, *others = sys.argv[1:]
+    names = [name for name in others if name != "--draw"]
     for machine in MACHINES:
-        if machine.__name__ in sys.argv[3:] or not sys.argv[3:]:
+        if machine.__name__ in names or not names:
             print(machine.__name__)
-            machine(*sys.argv[1:3])
+            machine(bgdyn, folder)
