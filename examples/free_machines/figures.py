@@ -218,13 +218,15 @@ def quadruped(_bgdyn, folder):
     rows = range(len(run.t))
     up = [sum(f[2] for f in springs(run, i).values()) for i in rows]
     weight, last = MASS * G, springs(run, rows[-1])
-    fact(f"weight {weight:.4f} N; vertical force of the settled springs {up[-1]:.4f} N; most {max(up):.1f} N")
+    fact(f"weight {weight:.6f} N; vertical force of the settled springs {up[-1]:.6f} N; most {max(up):.1f} N")
     least = min(springs(run, i)[leg, "below"][2] for i in rows[1:] for leg in LEGS)
     fact(f"no spring below a foot pulls: least force {least:.2f} N at the first point after the touch")
     fact("under the feet: " + ", ".join(f"{leg} {last[leg, 'below'][2]:.2f} N" for leg in LEGS))
-    fact(f"horizontal forces at the end: sum {sum(f[0] for f in last.values()):.1e}, {sum(f[1] for f in last.values()):.1e} N")
+    sideways = [sum(f[axis] for f in last.values()) for axis in (0, 1)]
+    fact(f"horizontal forces at the end: sum {sideways[0]:.1e} and {sideways[1]:.1e} N")
     z = run["trunk_z"]
-    fact(f"trunk: {z[0]:.4f} m at the start, at least {min(z):.4f} m, {z[-1]:.4f} m at the end, at {abs(run['free_z_velocity'][-1]):.1e} m/s")
+    fact(f"trunk: {z[0]:.4f} m at the start, at least {min(z):.4f} m, {z[-1]:.4f} m at the end")
+    fact(f"it then moves at {abs(run['free_z_velocity'][-1]):.1e} m/s")
     fact("feet sink by " + ", ".join(f"{-1000 * run[f'{leg}_foot_z'][-1]:.2f} mm" for leg in LEGS))
 
     page = Canvas(960, 570)
