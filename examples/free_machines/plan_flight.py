@@ -3,7 +3,7 @@
 The centre of mass flies once round a circle that rises and falls, the nose ahead, while the arm swings.
 A propeller pulls along the body's z only. The body is therefore tilted so that its z points along the sum
 of acceleration and -gravity; thrust and moments follow from inverse dynamics (Mellinger, Kumar 2011, for
-a quadrotor without an arm). They become the tables of the scene: nothing is fed back to the propellers.
+a quadrotor without an arm). They become the tables of the scene. Nothing is fed back to the propellers.
 
     python3 examples/free_machines/plan_flight.py bgdyn
 """
@@ -114,8 +114,8 @@ def inputs(effort):
     return thrusts | {"drag_mz": mz, "shoulder": effort[6], "elbow": effort[7]}
 
 
-HEAD = """# Written by plan_flight.py. The inputs of the propellers are tables and know nothing of the flight: no
-# controller holds the quadrotor. Only the arm's servos, springs and dampers against the planned angles, do.
+HEAD = """# Written by plan_flight.py. The inputs of the propellers are tables, without feedback. The arm follows its
+# plan by springs and dampers with a moving reference.
 scene: 1
 mechanism: quadrotor_arm.yaml
 description: A quadrotor flies a circle and swings its arm, by thrusts that were planned with inverse dynamics
