@@ -293,7 +293,7 @@ fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) 
         tell(&format!("bgdyn: {warning}"));
         return Ok(warning);
     }
-    let Some(found) = run.difference(&finer) else {
+    let Some(found) = run.difference(&finer, columns) else {
         return Ok(String::new());
     };
     let Column { name, unit } = &columns[found.column];

@@ -1,6 +1,10 @@
 //! Computes the distance between two runs of a scene.
 
-use super::run_table::Record;
+use super::run_table::{Column, Record};
+
+/// The part of the largest value of its unit below which a column's range counts as rounding error: the
+/// components of a quaternion that stay zero, beside the others.
+const ROUNDING: f64 = 1e-9;
 
 /// The distance between two runs.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,22 +22,32 @@ pub struct Difference {
 impl Record {
     /// Returns the largest distance to another run of the same scene at the output points, relative to the
     /// columns' ranges; `None` without columns.
-    pub fn difference(&self, other: &Record) -> Option<Difference> {
-        let columns = self.rows.first()?.values.len();
-        let of = |column| self.difference_in(column, other);
-        (0..columns).map(of).reduce(|most, one| {
+    pub fn difference(&self, other: &Record, columns: &[Column]) -> Option<Difference> {
+        self.rows.first()?;
+        let of = |column| {
+            let unit = columns[column].unit;
+            let like = (0..columns.len()).filter(|&k| columns[k].unit == unit);
+            let largest = like.map(|k| self.largest(k)).fold(0.0, f64::max);
+            self.difference_in(column, other, largest)
+        };
+        (0..columns.len()).map(of).reduce(|most, one| {
             let further = one.share > most.share || (one.share.is_nan() && !most.share.is_nan());
             if further { one } else { most }
         })
     }
 
-    fn difference_in(&self, column: usize, other: &Record) -> Difference {
+    /// Returns the largest absolute value of a column.
+    fn largest(&self, column: usize) -> f64 {
+        let values = self.rows.iter().map(|row| row.values[column].abs());
+        values.fold(0.0, f64::max)
+    }
+
+    /// Returns the largest distance in a column; `largest` is the largest value of its unit.
+    fn difference_in(&self, column: usize, other: &Record, largest: f64) -> Difference {
         let values = self.rows.iter().map(|row| row.values[column]);
         let (low, high) = range(values);
         // A range that is only the rounding error of a constant value does not count.
-        let scale = (high - low)
-            .max(1e-9 * high.abs().max(low.abs()))
-            .max(1e-15);
+        let scale = (high - low).max(ROUNDING * largest).max(1e-15);
         let points = |record: &'_ Record| {
             let rows = record.rows.iter().filter(|row| !row.extra);
             rows.map(|row| (row.t, row.values[column]))
