@@ -77,7 +77,7 @@ pub(in crate::formulation::recursion) fn effort_derivatives<'g>(
     pass(b, frames, views, &moving, Dd::from_f64(2.0))
 }
 
-/// Runs the pass from the tips to the base; `factor` is that of [`super::outboard_joint::JointAxis`].
+/// Runs the pass from the tips to the base; `factor` is that of [`super::axis_changes::JointAxis`].
 fn pass<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,

@@ -7,8 +7,9 @@
 
 use bgdyn_runtime::Dd;
 
+use super::axis_changes::JointAxis;
 use super::composite_flow::CompositeFlow;
-use super::outboard_joint::{GroupNeighbour, JointAxis, OutboardJoint};
+use super::outboard_joint::{GroupNeighbour, OutboardJoint};
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::BodyFrame;
 use crate::formulation::recursion::mass_matrix::{Momentum, unit_momentum};
