@@ -13,12 +13,12 @@ use super::composite_flow::CompositeFlow;
 use crate::expr::{Builder, Expr};
 use crate::formulation::recursion::frames::BodyFrame;
 use crate::formulation::recursion::inertia::BodyInertia;
-use crate::formulation::recursion::inverse_dynamics::{BodyWrench, dynamics};
+use crate::formulation::recursion::inverse_dynamics::BodyWrench;
 use crate::formulation::recursion::mass_matrix::Momentum;
 use crate::formulation::recursion::motion::Spin;
 use crate::formulation::recursion::rotation::Rotation;
 use crate::formulation::recursion::rotors::FullRotor;
-use crate::math::{Mat3, Vec3};
+use crate::math::Vec3;
 use crate::mechanism::Motion;
 
 /// A joint, expressed in the frame of an inboard body.
