@@ -24,7 +24,7 @@ impl Record {
     /// columns' ranges; `None` without columns.
     pub fn difference(&self, other: &Record, columns: &[Column]) -> Option<Difference> {
         self.rows.first()?;
-        let of = |column| {
+        let of = |column: usize| {
             let unit = columns[column].unit;
             let like = (0..columns.len()).filter(|&k| columns[k].unit == unit);
             let largest = like.map(|k| self.largest(k)).fold(0.0, f64::max);
