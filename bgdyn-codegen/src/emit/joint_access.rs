@@ -27,8 +27,10 @@ pub(super) fn joint_access(mechanism: &Mechanism) -> JointAccess {
             continue;
         }
         constants.extend(ranges(link, motion));
-        if let Some(first) = motion.quaternion() {
-            functions.extend(pose_functions(link, motion, first));
+        if let (Some(first), Some(names)) =
+            (motion.quaternion(), motion.access_names(&link.joint.name))
+        {
+            functions.extend(pose_functions(link, motion, first, &names));
         }
     }
     JointAccess {
@@ -63,7 +65,12 @@ fn first_position(link: &Link) -> usize {
 
 /// Returns the functions that read and write a joint with a quaternion, its position `first` and those
 /// after it.
-fn pose_functions(link: &Link, motion: &CompoundMotion, first: usize) -> TokenStream {
+fn pose_functions(
+    link: &Link,
+    motion: &CompoundMotion,
+    first: usize,
+    names: &[String; 2],
+) -> TokenStream {
     let joint = &link.joint.name;
     let at = first_position(link);
     let quaternion = at + first;
@@ -82,9 +89,9 @@ fn pose_functions(link: &Link, motion: &CompoundMotion, first: usize) -> TokenSt
         let each = each.map(|(k, p)| quote! { q[#p] = #of.coords[#k]; });
         quote! { #(#each)* }
     };
-    let kind = if place.is_empty() { "rotation" } else { "pose" };
-    let [get, set] = ["", "set_"].map(|verb| ident(&format!("{verb}{joint}_{kind}")));
-    let (value, body, written) = if motion.positions.len() == 4 {
+    let kind = motion.access_kind();
+    let [get, set] = names.each_ref().map(|name| ident(name));
+    let (value, body, written) = if place.is_empty() {
         let value = quote! { __na::UnitQuaternion<T> };
         (value, rotation, write(quote! { rotation }))
     } else {

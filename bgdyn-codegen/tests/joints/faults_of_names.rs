@@ -55,3 +55,37 @@ fn names_of_hidden_links_are_not_names_of_other_links() {
     );
     assert_eq!(one(&text).rule, "repeated-name");
 }
+
+/// The functions that read and set poses have names that no other function of the model has.
+#[test]
+fn names_of_pose_functions_are_unique() {
+    for (joint, other) in [
+        (
+            "name: pose, type: floating",
+            "name: pose, joint: { name: a, type: revolute }",
+        ),
+        (
+            "name: x, type: floating",
+            "name: b, joint: { name: set_x, type: floating }",
+        ),
+        (
+            "name: x, type: spherical",
+            "name: b, joint: { name: set_x, type: spherical }",
+        ),
+        (
+            "name: velocity_a, type: spherical",
+            "name: a_rotation, joint: { name: c, type: revolute }",
+        ),
+    ] {
+        let text = format!(
+            "{HEAD}  - {{ name: l, joint: {{ {joint} }}, {BODY} }}\n  - {{ {other}, {BODY} }}\n"
+        );
+        let fault = one(&text);
+        assert_eq!(fault.rule, "repeated-name", "{text}");
+        assert!(
+            fault.message.contains("functions of the model"),
+            "{}",
+            fault.message
+        );
+    }
+}

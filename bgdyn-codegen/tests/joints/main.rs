@@ -10,6 +10,7 @@ mod golden;
 mod invariance;
 mod laws;
 mod mimic;
+mod noisy;
 mod order;
 mod robot;
 mod same_motion;

@@ -8,6 +8,8 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
+use bgdyn_runtime::manifold::quaternion_of;
+use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::body::Placed;
 use crate::simulate::run_table::Row;
@@ -99,32 +101,8 @@ pub(super) fn turns(poses: &[[f64; 12]]) -> Vec<i64> {
     counts
 }
 
-/// Returns the unit quaternion w, x, y, z of a rotation matrix, from its largest component (Shepperd
-/// 1978).
-fn quaternion(r: &[f64; 12]) -> [f64; 4] {
-    let r = |i: usize, j: usize| r[3 * i + j];
-    let trace = r(0, 0) + r(1, 1) + r(2, 2);
-    let squares = [
-        1.0 + trace,
-        1.0 + 2.0 * r(0, 0) - trace,
-        1.0 + 2.0 * r(1, 1) - trace,
-        1.0 + 2.0 * r(2, 2) - trace,
-    ];
-    let largest = (1..4).fold(0, |k, i| if squares[i] > squares[k] { i } else { k });
-    let s = squares[largest].max(1e-300).sqrt();
-    let (half, k) = (0.5 * s, 0.5 / s);
-    let skew = [r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)];
-    if largest == 0 {
-        return [half, k * skew[0], k * skew[1], k * skew[2]];
-    }
-    let i = largest - 1;
-    let mut q = [k * skew[i], 0.0, 0.0, 0.0];
-    for j in 0..3 {
-        q[1 + j] = if i == j {
-            half
-        } else {
-            k * (r(i, j) + r(j, i))
-        };
-    }
-    q
+/// Returns the unit quaternion w, x, y, z of a pose's axes.
+fn quaternion(pose: &[f64; 12]) -> [f64; 4] {
+    let [x, y, z, w] = quaternion_of(&Matrix3::from_fn(|i, j| pose[3 * i + j]));
+    [w, x, y, z]
 }

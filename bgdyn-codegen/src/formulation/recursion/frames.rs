@@ -315,7 +315,8 @@ impl BodyJoint<'_> {
 /// joint that mimics no other.
 fn efforts(graph: &Multibody, bodies: &[BodyFrame<'_>]) -> Vec<Dd> {
     let mut efforts = vec![Dd::ONE; graph.coordinates.len()];
-    for column in bodies.iter().rev().flat_map(|frame| &frame.columns) {
+    let columns = bodies.iter().flat_map(|frame| &frame.columns);
+    for column in columns.filter(|column| !column.mimics) {
         efforts[column.coordinate] = column.effort;
     }
     efforts

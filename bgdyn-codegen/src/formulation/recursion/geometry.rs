@@ -76,11 +76,7 @@ impl Body {
         }
         let [_, sin, cos] = (self.twist.transpose() * unit(2)).0;
         let [_, y, z] = self.offset.0;
-        let size = self
-            .offset
-            .0
-            .iter()
-            .fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+        let size = largest(self.offset);
         if y.hi().abs() > FAR * size * sin.hi().abs() || sin == Dd::ZERO {
             return (Dd::ZERO, z);
         }
@@ -89,12 +85,15 @@ impl Body {
     }
 
     /// Returns the displacements of its origin along its axis for which the origin is closest to the
-    /// parent's, or for which a coordinate of the origin in the parent's axes is zero.
+    /// parent's, or for which a coordinate of the origin in the parent's axes is zero. Where the axis is
+    /// almost perpendicular to that coordinate's, the displacement is as far as in
+    /// [`Body::normal_feet`], and left out for the same reason.
     pub fn near_parent(&self) -> Vec<Dd> {
         let [place, z] = [self.twist * self.offset, self.twist.column(2)].map(|v| v.0);
-        let zeros = (0..3)
-            .filter(|&k| z[k] != Dd::ZERO)
-            .map(|k| -place[k] / z[k]);
+        let size = largest(self.offset);
+        let near =
+            |k: &usize| z[*k] != Dd::ZERO && place[*k].hi().abs() <= FAR * size * z[*k].hi().abs();
+        let zeros = (0..3).filter(near).map(|k| -place[k] / z[k]);
         [-self.offset.0[2]].into_iter().chain(zeros).collect()
     }
 }
@@ -262,7 +261,8 @@ fn normal_to_child(bodies: &[Body], placed: &[Pose], j: usize) -> Option<Vec3<Dd
         if normal != Vec3([Dd::ZERO; 3]) {
             return Some(perpendicular(normal, z));
         }
-        // Parallel axes, or a child without an axis: from one to the other. The remainder of a distance along z does not count.
+        // Parallel axes, or a child without an axis: from one to the other. The remainder of a distance
+        // along z does not count.
         let p = placed[c].translation;
         let across = p - z.scale(z.dot(p));
         let apart = across.dot(across) > p.dot(p) * Dd::from_f64(NOISE * NOISE);
@@ -366,9 +366,14 @@ fn clean_matrix(m: Mat3<Dd>) -> Mat3<Dd> {
     columns(x, y, z)
 }
 
+/// Returns the largest absolute component.
+pub(super) fn largest(v: Vec3<Dd>) -> f64 {
+    v.0.iter().fold(0.0, |m: f64, x| m.max(x.hi().abs()))
+}
+
 /// Returns a position with rounding errors removed from its zeros.
 fn clean_length(v: Vec3<Dd>) -> Vec3<Dd> {
-    let size = v.0.iter().fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+    let size = largest(v);
     v.map(|x| {
         if x.hi().abs() < NOISE * size {
             Dd::ZERO

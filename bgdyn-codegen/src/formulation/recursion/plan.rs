@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::geometry::Geometry;
+use super::geometry::{Geometry, largest};
 use crate::math::Vec3;
 
 /// The free choices of the recursion; they change the operation count, but not the result.
@@ -99,11 +99,7 @@ pub(super) fn origin_offset(geometry: &Geometry, plan: &Plan, j: usize) -> Vec3<
     let mut offset = body.offset - parent_z.scale(plan.slides[p]);
     offset.0[2] += plan.slides[j];
     // The rounding error of the difference of two equal lengths counts as zero.
-    let size = body
-        .offset
-        .0
-        .iter()
-        .fold(0.0, |m: f64, x| m.max(x.hi().abs()));
+    let size = largest(body.offset);
     offset.map(|x| {
         if x.hi().abs() < 1e-26 * size {
             Dd::ZERO

@@ -1,6 +1,8 @@
 //! The rotation of a body relative to its basis: about z, or about any axis.
 
 use bgdyn_runtime::Dd;
+use bgdyn_runtime::manifold::quaternion_of;
+use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::geometry::{Body, identity};
 use crate::bond_graph::LinkFrame;
@@ -102,7 +104,8 @@ pub(super) fn joint_pose<'g>(
     let folded = match motion.quaternion() {
         Some(first) if body.parent.is_some() && permutation(body.twist).is_none() => {
             let own = std::array::from_fn(|k| positions[first + k]);
-            let whole = product(quaternion_of(body.twist), own);
+            let twist = Matrix3::from_fn(|i, j| body.twist.0[i][j]);
+            let whole = product(quaternion_of(&twist), own);
             positions[first..first + 4].copy_from_slice(&whole);
             true
         }
@@ -139,38 +142,6 @@ fn product<'g>(first: [Dd; 4], second: [Expr<'g>; 4]) -> [Expr<'g>; 4] {
         z * d + w * c + (y * a - x * b),
         w * d - x * a - (y * b + z * c),
     ]
-}
-
-/// Returns the unit quaternion x, y, z, w of a rotation. Of the four formulas the one with the largest
-/// divisor is taken (Shepperd 1978).
-fn quaternion_of(r: Mat3<Dd>) -> [Dd; 4] {
-    let m = r.0;
-    let trace = m[0][0] + m[1][1] + m[2][2];
-    let squares = [m[0][0], m[1][1], m[2][2], trace];
-    let mut largest = 3;
-    for k in 0..3 {
-        if squares[k] > squares[largest] {
-            largest = k;
-        }
-    }
-    let mut q = [Dd::ZERO; 4];
-    let half = Dd::from_f64(0.5);
-    if largest == 3 {
-        let twice = (Dd::ONE + trace).sqrt();
-        q[3] = twice * half;
-        for k in 0..3 {
-            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-            q[k] = (m[j][i] - m[i][j]) * half / twice;
-        }
-    } else {
-        let (k, i, j) = (largest, (largest + 1) % 3, (largest + 2) % 3);
-        let twice = (Dd::ONE + m[k][k] - m[i][i] - m[j][j]).sqrt();
-        q[k] = twice * half;
-        q[i] = (m[i][k] + m[k][i]) * half / twice;
-        q[j] = (m[j][k] + m[k][j]) * half / twice;
-        q[3] = (m[j][i] - m[i][j]) * half / twice;
-    }
-    q
 }
 
 /// Returns, for a rotation by quarter turns, the parent's axis parallel to each new one.

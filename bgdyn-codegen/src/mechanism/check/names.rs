@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Field, FrameSpec, JointSpec, LinkSpec, Located, Spec};
-use crate::mechanism::joint::JOINT_TYPES;
+use crate::mechanism::joint::{JOINT_TYPES, Motion};
 use crate::name::{WORLD, is_identifier};
 
 /// The only name whose struct, `T`, would hide the type parameter of generated code.
@@ -63,9 +63,39 @@ pub(super) fn check(links: &[LinkSpec], frames: &[FrameSpec], faults: &mut Fault
     for link in links {
         parts(link, &mut carriers, &mut joints, faults);
     }
+    functions(links, frames, faults);
     for link in links.iter().filter(|link| named_after_link(link)) {
         if let Some(name) = link.name.given() {
             joints.add_mount(&mount_name(&name.value), &name.location, faults);
+        }
+    }
+}
+
+/// The names of a link's or frame's methods begin with these.
+const CARRIER_METHODS: [&str; 4] = ["pose", "velocity", "jacobian_world", "jacobian_dot_v_world"];
+
+/// Checks that no function of a joint's pose has the name of another function of the model.
+fn functions(links: &[LinkSpec], frames: &[FrameSpec], faults: &mut Faults) {
+    let mut seen = SeenNames::new("functions of the model");
+    let names = links.iter().map(|link| &link.name);
+    let names = names.chain(frames.iter().map(|frame| &frame.name));
+    for name in names.filter_map(Field::given) {
+        for method in CARRIER_METHODS {
+            let function = format!("{method}_{}", name.value);
+            // A name that is not unique is reported already.
+            seen.first.entry(function).or_insert(name.location.clone());
+        }
+    }
+    for joint in links.iter().filter_map(|link| link.joint.value()) {
+        let word = joint.kind.value().map(String::as_str);
+        let kind = JOINT_TYPES.iter().find(|kind| Some(kind.keyword) == word);
+        let (Some(kind), Some(name)) = (kind, joint.name.given()) else {
+            continue;
+        };
+        if let Motion::Compound(motion) = kind.motion {
+            for function in motion.access_names(&name.value).into_iter().flatten() {
+                seen.add(&function, &name.location, faults);
+            }
         }
     }
 }

@@ -218,6 +218,22 @@ impl CompoundMotion {
         rates
     }
 
+    /// Returns the names of the functions that read and set its pose, or its rotation if it does not
+    /// translate, for a joint of this name; `None` without a quaternion.
+    pub fn access_names(&self, joint: &str) -> Option<[String; 2]> {
+        self.quaternion()?;
+        let kind = self.access_kind();
+        Some([format!("{joint}_{kind}"), format!("set_{joint}_{kind}")])
+    }
+
+    /// Returns `pose`, or `rotation` if a quaternion is all of its positions.
+    pub fn access_kind(&self) -> &'static str {
+        match self.quaternion() {
+            Some(0) => "rotation",
+            _ => "pose",
+        }
+    }
+
     /// Returns the first position of its quaternion, if it has one.
     pub fn quaternion(&self) -> Option<usize> {
         let first = |step: &Step| match step {
