@@ -55,7 +55,7 @@ fn quaternions_keep_their_length() {
 }
 
 #[test]
-#[ignore = "long"]
+#[ignore = "long: part of .ci/long"]
 fn quaternions_keep_their_length_in_a_million_steps() {
     kept(1_000_000);
 }

@@ -6,6 +6,7 @@
 #
 #   tests/mutations/run.sh            every mutation
 #   tests/mutations/run.sh 3 7        those with these numbers
+#   tests/mutations/run.sh --check    only that each text to change is in its file once; seconds
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -15,14 +16,19 @@ log=$root/target/mutations/log
 export CARGO_TARGET_DIR=$root/target/mutations/target
 # An interrupted run must not leave half a cache behind.
 export CARGO_INCREMENTAL=0
-mkdir -p "$copy"
+check=
+if [[ ${1-} == --check ]]; then
+    check=1
+    shift
+fi
 wanted=" $* "
 number=0
 survivors=0
 
 # The tree as it is, the changes not yet committed with it. Contents only: what did not change is
 # not compiled again.
-(cd "$root" && git ls-files -z --cached --others --exclude-standard) |
+[[ $check ]] || mkdir -p "$copy"
+[[ $check ]] || (cd "$root" && git ls-files -z --cached --others --exclude-standard) |
     while IFS= read -r -d '' file; do
         if [[ -f $root/$file ]] && ! cmp --quiet "$root/$file" "$copy/$file"; then
             mkdir -p "$(dirname "$copy/$file")"
@@ -30,7 +36,7 @@ survivors=0
         fi
     done
 
-# mutate LAYER FILE OLD NEW TEST…: replaces OLD, which must stand in FILE once, and runs
+# mutate LAYER FILE OLD NEW TEST…: replaces OLD, which FILE must hold once, and runs
 # `cargo test TEST…`.
 mutate() {
     local layer=$1 file=$2 old=$3 new=$4
@@ -46,6 +52,7 @@ mutate() {
         survivors=$((survivors + 1))
         return
     fi
+    if [[ $check ]]; then return; fi
     printf '%s\n' "${text/"$old"/"$new"}" >"$copy/$file"
     local verdict
     if ! (cd "$copy" && cargo test --quiet --no-run "$@") >"$log" 2>&1; then
@@ -91,19 +98,19 @@ mutate "oracle of scenes: rotors" $recursion/rotors.rs \
 mutate "oracle of scenes: a law" $src/effect/lugre.rs \
     'stiffness * z + damping * rate' 'stiffness * z - damping * rate' "${codegen[@]}" oracle
 mutate "laws: formulations equal" $recursion/mass_matrix.rs \
-    'linear: Vec3([-y, x, b.zero()])' 'linear: Vec3([y, x, b.zero()])' "${codegen[@]}" laws
+    'Vec3([-y, x, b.zero()])' 'Vec3([y, x, b.zero()])' "${codegen[@]}" laws
 mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
     'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
 mutate "long chains: momenta meet axes" $recursion/common_axes.rs \
     'sum + w * l' 'sum - w * l' "${codegen[@]}" long_chains
 mutate "long chains: signs in tables" $src/inner_products.rs \
     'negative: negative ^ minus' 'negative' "${codegen[@]}" long_chains
-mutate "laws: gravity = dV/dq" $recursion/mass_matrix.rs \
+mutate "laws: gravity = dV/dq" $recursion/energies.rs \
     'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws
-mutate "properties: T" $recursion/mass_matrix.rs \
+mutate "properties: T" $recursion/energies.rs \
     '(squares - products)' '(squares + products)' "${codegen[@]}" properties
-mutate "properties: rates" $recursion/kinematics.rs \
-    '(y.scale(c) - x.scale(s))' '(y.scale(c) + x.scale(s))' "${codegen[@]}" properties rates
+mutate "properties: rates" $recursion/rotation.rs \
+    'y.scale(c) - x.scale(s)' 'y.scale(c) + x.scale(s)' "${codegen[@]}" properties rates
 mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
 mutate "derivatives, solved" $src/formulation/derivatives/forward_dynamics.rs \
@@ -128,7 +135,7 @@ once() {
     mutate "$topic" "$file" "$old" "$new" "${codegen[@]}" "$@"
 }
 once "a rotor its own joint carries" $recursion/mass_matrix.rs \
-    'Ordering::Equal => share + share' 'Ordering::Equal => *entry' scenes rotors::
+    'Ordering::Equal => *entry + (share + share)' 'Ordering::Equal => *entry' scenes rotors::
 once "a rotor beyond its joint" $recursion/mass_matrix.rs \
     'Ordering::Less => *entry + share' 'Ordering::Less => *entry' scenes rotors::
 once "rotors in derivatives" $recursion/derivatives/inverse_dynamics.rs \
@@ -141,6 +148,17 @@ once "axes that are almost z" $recursion/geometry.rs \
 once "axes almost parallel" $recursion/geometry.rs \
     'z.0[..2].iter().all(|x| x.hi().abs() < NOISE)' \
     '(z.0[2].abs() - Dd::ONE).hi().abs() < NOISE' noisy_axes
+mutate "origins far from a parent without an axis" $recursion/geometry.rs \
+    'place[*k].hi().abs() <= FAR * size * z[*k].hi().abs()' 'size < f64::MAX' \
+    "${codegen[@]}" joints noisy::
+
+# Joints with several velocities.
+mutate "uniform field set aside" $recursion/motion.rs \
+    '*own = *own - aside.0[k]' '*own = *own + aside.0[k]' "${codegen[@]}" joints golden::
+mutate "rotation folded into a quaternion" $recursion/rotation.rs \
+    'w * d - x * a - (y * b + z * c)' 'w * d + x * a - (y * b + z * c)' "${codegen[@]}" joints golden::
+mutate "followers in the mass matrix" $recursion/mass_matrix.rs \
+    'm.along(column) * column.effort * m.effort' 'm.along(column) * m.effort' "${codegen[@]}" joints mimic::
 
 if [[ $survivors -gt 0 ]]; then
     echo "$survivors mutations were not caught, or could not be made" >&2
