@@ -17,6 +17,10 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     fn jacobian(&self, t: Of<Y>, y: &Y, modes: &M) -> Option<Result<Jacobian<Y>, String>>;
     fn positions(&self) -> usize;
     fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
+    fn position_change(&self, t: Of<Y>, y: &Y, modes: &M, h: Of<Y>) -> Result<Y, String>;
+    fn project(&self, y: &mut Y) -> bool;
+    fn project_in_two(&self, y: &mut Y, low: &mut Y) -> bool;
+    fn strays(&self, y: &Y) -> bool;
     fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String>;
     fn changes_mode(&self, event: usize) -> bool;
     fn change(
@@ -71,6 +75,28 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         modes: &P::Modes,
     ) -> Result<P::State, String> {
         with_text_error(Plant::position_rates(self, t, y, modes))
+    }
+
+    fn position_change(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+        h: Of<P::State>,
+    ) -> Result<P::State, String> {
+        with_text_error(Plant::position_change(self, t, y, modes, h))
+    }
+
+    fn project(&self, y: &mut P::State) -> bool {
+        Plant::project(self, y)
+    }
+
+    fn project_in_two(&self, y: &mut P::State, low: &mut P::State) -> bool {
+        Plant::project_in_two(self, y, low)
+    }
+
+    fn strays(&self, y: &P::State) -> bool {
+        Plant::strays(self, y)
     }
 
     fn events(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Result<P::Values, String> {
@@ -146,6 +172,22 @@ where
 
     fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String> {
         self.0.position_rates(t, y, modes)
+    }
+
+    fn position_change(&self, t: Of<Y>, y: &Y, modes: &M, h: Of<Y>) -> Result<Y, String> {
+        self.0.position_change(t, y, modes, h)
+    }
+
+    fn project(&self, y: &mut Y) -> bool {
+        self.0.project(y)
+    }
+
+    fn project_in_two(&self, y: &mut Y, low: &mut Y) -> bool {
+        self.0.project_in_two(y, low)
+    }
+
+    fn strays(&self, y: &Y) -> bool {
+        self.0.strays(y)
     }
 
     fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String> {

@@ -34,9 +34,29 @@ impl StateCoordinate {
         self.position.is_some() || self.is_quasi_velocity()
     }
 
+    /// Returns what its velocity is, with its unit.
+    pub fn about_velocity(&self) -> String {
+        let axes = match self.is_quasi_velocity() {
+            true => " in link axes",
+            false => "",
+        };
+        let unit = self.dimensions[1].si();
+        format!("velocity of `{}`{axes}, {unit}", self.name)
+    }
+
     /// Returns whether it is a quasi-velocity: a velocity of a joint that is not the rate of a position.
     pub fn is_quasi_velocity(&self) -> bool {
         self.position.is_none() && matches!(self.store, MomentumStore::Links(_))
+    }
+}
+
+impl StatePosition {
+    /// Returns what it is, with its unit.
+    pub fn about(&self) -> String {
+        match self.dimension.si() {
+            "" => format!("component `{}` of a unit quaternion", self.name),
+            unit => format!("position of `{}`, {unit}", self.name),
+        }
     }
 }
 

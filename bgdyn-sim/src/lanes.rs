@@ -185,20 +185,10 @@ where
     }
 
     fn position_rates(&self, _: T, y: &SVector<T, Y>) -> Result<SVector<T, Y>, Infallible> {
-        Ok(following(N, y))
+        let mut rates = *y;
+        quasi_joints::position_rates(&[], N, y.entries(), rates.entries_mut());
+        Ok(rates)
     }
-}
-
-/// Returns the rates of the positions: the components that follow them.
-fn following<Y: FixedVector>(positions: usize, y: &Y) -> Y {
-    let y = y.entries();
-    Y::from_entries(|i| {
-        if i < positions {
-            y[positions + i]
-        } else {
-            y[i]
-        }
-    })
 }
 
 /// Returns the rates of a scene's positions.

@@ -68,7 +68,7 @@ pub fn position_rates<T: Scalar>(
 }
 
 /// Writes the change of the first `positions` components of the state `y` in the time `h` at the velocities
-/// of `y`, constant in link axes: `integrate(q, h v) − q`.
+/// of `y`, constant in link axes, to the last digits of the change: compensated sums keep them.
 pub fn position_change<T: Scalar>(
     joints: &[QuasiJoint],
     positions: usize,
@@ -84,26 +84,27 @@ pub fn position_change<T: Scalar>(
         let (q, v) = (joint.position, joint.velocity);
         match joint.kind {
             QuasiJointKind::Planar => {
-                let (from, rates): (_, [T; 3]) = (part(y, q), part(y, v));
-                let to = planar::integrate(from, rates.map(|v| h * v));
-                set(change, q, less(to, from));
+                let rates: [T; 3] = part(y, v);
+                set(change, q, planar::change(part(y, q), rates.map(|v| h * v)));
             }
             QuasiJointKind::Spherical => {
-                let (from, rates): (_, [T; 3]) = (part(y, q), part(y, v));
-                let to = spherical::integrate(from, rates.map(|v| h * v));
-                set(change, q, less(to, from));
+                let rates: [T; 3] = part(y, v);
+                set(
+                    change,
+                    q,
+                    spherical::change(part(y, q), rates.map(|v| h * v)),
+                );
             }
             QuasiJointKind::Floating => {
-                let (from, rates): (_, [T; 6]) = (part(y, q), part(y, v));
-                let to = floating::integrate(from, rates.map(|v| h * v));
-                set(change, q, less(to, from));
+                let rates: [T; 6] = part(y, v);
+                set(
+                    change,
+                    q,
+                    floating::change(part(y, q), rates.map(|v| h * v)),
+                );
             }
         }
     }
-}
-
-fn less<T: Scalar, const N: usize>(to: [T; N], from: [T; N]) -> [T; N] {
-    core::array::from_fn(|i| to[i] - from[i])
 }
 
 /// Returns |q|² − 1 of the quaternion at an index.

@@ -41,7 +41,7 @@ where
                 let off = (found.to_f64() - wanted).abs();
                 let row = scene.state_names().as_ref()[i];
                 assert!(
-                    off < 1e-12 * wanted.abs().max(1.0) + 1e-9 * off.min(1e-6),
+                    off < 1e-12 * wanted.abs().max(1.0),
                     "{name}, state {k}: the rate of {row} by {of}: {} instead of {wanted}",
                     found.to_f64()
                 );

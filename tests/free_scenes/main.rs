@@ -3,6 +3,7 @@
 
 mod balances;
 mod jacobians;
+mod lanes;
 mod lengths;
 mod references;
 mod rotations;
@@ -26,7 +27,7 @@ fn quaternion(y: &[f64], at: usize) -> [f64; 4] {
     std::array::from_fn(|i| y[at + i])
 }
 
-/// Returns the length of the quaternion at an index of a state, minus 1.
+/// Returns |q|² − 1 of the quaternion at an index of a state.
 fn excess(y: &[f64], at: usize) -> f64 {
     let [x, y, z, w] = quaternion(y, at);
     x * x + y * y + z * z + (w - 1.0) * (w + 1.0)

@@ -1,5 +1,7 @@
 //! Computes the distance between two runs of a scene.
 
+use std::collections::BTreeMap;
+
 use super::run_table::{Column, Record};
 
 /// The part of the largest value of its unit below which a column's range counts as rounding error: the
@@ -24,11 +26,14 @@ impl Record {
     /// columns' ranges; `None` without columns.
     pub fn difference(&self, other: &Record, columns: &[Column]) -> Option<Difference> {
         self.rows.first()?;
+        let mut of_unit: BTreeMap<&str, f64> = BTreeMap::new();
+        for (k, column) in columns.iter().enumerate() {
+            let largest = of_unit.entry(column.unit).or_default();
+            *largest = largest.max(self.largest(k));
+        }
         let of = |column: usize| {
-            let unit = columns[column].unit;
-            let like = (0..columns.len()).filter(|&k| columns[k].unit == unit);
-            let largest = like.map(|k| self.largest(k)).fold(0.0, f64::max);
-            self.difference_in(column, other, largest)
+            let largest = of_unit.get(columns[column].unit);
+            self.difference_in(column, other, largest.copied().unwrap_or_default())
         };
         (0..columns.len()).map(of).reduce(|most, one| {
             let further = one.share > most.share || (one.share.is_nan() && !most.share.is_nan());

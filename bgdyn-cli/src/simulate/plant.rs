@@ -266,12 +266,11 @@ impl Plant for Evaluated<'_> {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
         };
-        let layout = &self.system.scene.layout;
+        let rows = self.system.scene.layout.jacobian_rows(&values);
         let n = y.len();
-        let entry = |i: usize, k: usize| layout.jacobian_entry(&values, i, k);
         Some(Ok(Jacobian {
-            state: DMatrix::from_fn(n, n, entry),
-            time: DVector::from_fn(n, |i, _| entry(i, n)),
+            state: DMatrix::from_fn(n, n, |i, k| rows[i][k]),
+            time: DVector::from_fn(n, |i, _| rows[i][n]),
         }))
     }
 

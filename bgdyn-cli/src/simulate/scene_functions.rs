@@ -2,7 +2,6 @@
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
-use bgdyn_codegen::scene;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::QuasiJoint;
 
@@ -76,17 +75,8 @@ impl SceneFunctions {
             quasi_joints: layout
                 .quasi_joints
                 .iter()
-                .map(|j| quasi_joint(j, layout.nq()))
+                .map(|joint| joint.in_state(layout))
                 .collect(),
         }
-    }
-}
-
-/// Returns a joint with quasi-velocities by its components in the state.
-fn quasi_joint(joint: &scene::QuasiJoint, positions: usize) -> QuasiJoint {
-    QuasiJoint {
-        kind: joint.kind,
-        position: joint.positions.start,
-        velocity: positions + joint.coordinates.start,
     }
 }

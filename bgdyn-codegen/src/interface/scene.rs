@@ -86,7 +86,8 @@ impl SceneInterface {
         }
         let layout = &mut self.layout;
         for word in words(spec.initial.value()) {
-            let known = layout.state_names().any(|name| name == word);
+            let known = layout.state_names().any(|name| name == word)
+                || layout.quasi_joints.iter().any(|joint| joint.name == word);
             match word.strip_suffix("_mode") {
                 Some(mode) if layout.modes.iter().all(|m| m.name != mode) => {
                     layout.modes.push(part(mode));

@@ -1,7 +1,7 @@
 //! Positions of joints with quasi-velocities in a scene's state: which are coupled, rows of the Jacobian,
 //! lengths of quaternions.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{self as runtime, Dd};
 
 use super::{QuasiJoint, StateLayout};
 
@@ -15,23 +15,30 @@ impl StateLayout {
         (0..self.nq()).filter(own).collect()
     }
 
-    /// Returns the entry of row `i` and column `k` of (∂ẏ/∂y, ∂ẏ/∂t) from the columns of the function for the
-    /// Jacobian, which have the rates of velocities and states, then those of coupled positions.
-    pub fn jacobian_entry(&self, values: &[f64], i: usize, k: usize) -> f64 {
+    /// Returns (∂ẏ/∂y, ∂ẏ/∂t) row by row, from the columns of the function for the Jacobian, which have the
+    /// rates of velocities and states, then those of coupled positions.
+    pub fn jacobian_rows(&self, values: &[f64]) -> Vec<Vec<f64>> {
         let own = self.nv() + self.nx();
-        let column = k * (own + self.coupled().len());
-        match (i.checked_sub(self.nq()), self.positions.get(i)) {
-            (Some(i), _) => values[column + i],
-            (None, Some(position)) => match position.coordinate {
-                Some(j) => f64::from(u8::from(k == self.nq() + j)),
-                None => {
-                    let before = self.positions[..i].iter();
-                    let before = before.filter(|p| p.coordinate.is_none()).count();
-                    values[column + own + before]
+        let columns = self.nq() + own + 1;
+        let coupled = self.positions.iter().filter(|p| p.coordinate.is_none());
+        let length = own + coupled.count();
+        let row = |at: usize| (0..columns).map(|k| values[k * length + at]).collect();
+        let mut next = own;
+        let mut rows: Vec<Vec<f64>> = Vec::with_capacity(columns - 1);
+        for position in &self.positions {
+            rows.push(match position.coordinate {
+                Some(j) => {
+                    let unit = |k| f64::from(u8::from(k == self.nq() + j));
+                    (0..columns).map(unit).collect()
                 }
-            },
-            (None, None) => 0.0,
+                None => {
+                    next += 1;
+                    row(next - 1)
+                }
+            });
         }
+        rows.extend((0..own).map(row));
+        rows
     }
 
     /// Divides every quaternion by its length. Returns the joints whose quaternions are not orientations: of a
@@ -42,8 +49,7 @@ impl StateLayout {
             let Some(first) = joint.quaternion else {
                 continue;
             };
-            let squares = positions[first..first + 4].iter().map(|&x| x * x);
-            let length = squares.fold(Dd::ZERO, |sum, x| sum + x).sqrt().to_f64();
+            let length = length(&positions[first..first + 4]).to_f64();
             let sound = match joint.any_length {
                 true => length > 0.0 && length.is_finite(),
                 false => (length - 1.0).abs() <= LENGTH,
@@ -62,9 +68,24 @@ impl StateLayout {
     pub fn normalize(&self, positions: &mut [Dd]) {
         for first in self.quasi_joints.iter().filter_map(|j| j.quaternion) {
             let quaternion = &mut positions[first..first + 4];
-            let squares = quaternion.iter().map(|&x| x * x);
-            let length = squares.fold(Dd::ZERO, |sum, x| sum + x).sqrt();
+            let length = length(quaternion);
             quaternion.iter_mut().for_each(|x| *x /= length);
+        }
+    }
+}
+
+fn length(quaternion: &[Dd]) -> Dd {
+    let squares = quaternion.iter().map(|&x| x * x);
+    squares.fold(Dd::ZERO, |sum, x| sum + x).sqrt()
+}
+
+impl QuasiJoint {
+    /// Returns it by its components in the state: positions first, then velocities.
+    pub fn in_state(&self, layout: &StateLayout) -> runtime::QuasiJoint {
+        runtime::QuasiJoint {
+            kind: self.kind,
+            position: self.positions.start,
+            velocity: layout.nq() + self.coordinates.start,
         }
     }
 }

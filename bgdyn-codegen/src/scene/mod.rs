@@ -16,6 +16,7 @@ use bgdyn_runtime::Dd;
 pub use crate::declaration::Chain;
 use crate::declaration::Element;
 use crate::fault::Location;
+use crate::fault::wording;
 use crate::format::{Located, Raw};
 pub use crate::layout::{
     InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition,
@@ -108,6 +109,13 @@ pub struct Initial {
     pub x: Vec<Dd>,
     /// Modes.
     pub modes: Vec<Dd>,
+}
+
+impl QuasiJoint {
+    /// Returns what is wrong with a quaternion of this length.
+    pub fn wrong_length(&self, length: f64) -> String {
+        wording::length_of_quaternion(&self.name, self.any_length, length)
+    }
 }
 
 /// Returns the unit quaternion x, y, z, w of turns about the fixed axes x, then y, then z, rad.

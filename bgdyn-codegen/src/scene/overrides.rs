@@ -158,7 +158,7 @@ impl Scene {
         }
         let wrong = scene.layout.unit_quaternions(&mut scene.initial.q);
         faults.0.extend(wrong.into_iter().map(|(joint, length)| {
-            wording::quaternion_length(&Location::file(), &joint.name, length)
+            wording::quaternion_length(&Location::file(), &joint.name, joint.any_length, length)
         }));
         if faults.any_fault() {
             return Err(faults);

@@ -229,21 +229,21 @@ fn outputs<'g>(
 ) -> Vec<(Named, Expr<'g>)> {
     let layout = &system.scene.layout;
     let mut known: Vec<(Named, Expr<'g>)> = Vec::new();
-    let about = |c: &crate::scene::StateCoordinate| {
-        format!("velocity of `{}`, {}", c.name, c.dimensions[1].si())
-    };
-    let position_about =
-        |p: &crate::scene::StatePosition| format!("position of `{}`, {}", p.name, p.dimension.si());
     let mut add = |name: &str, unit: &'static str, about: &str, value: Expr<'g>| {
         let (name, about) = (name.to_owned(), about.to_owned());
         known.push((Named { name, unit, about }, value));
     };
     for (position, &q) in layout.positions.iter().zip(&sums.q) {
         let unit = position.dimension.si();
-        add(&position.name, unit, &position_about(position), q);
+        add(&position.name, unit, &position.about(), q);
     }
     for (j, c) in layout.coordinates.iter().enumerate() {
-        add(&c.rate_name, c.dimensions[1].si(), &about(c), sums.v[j]);
+        add(
+            &c.rate_name,
+            c.dimensions[1].si(),
+            &c.about_velocity(),
+            sums.v[j],
+        );
     }
     for reading in sums.readings() {
         add(&reading.name, reading.unit, &reading.about, reading.value);

@@ -1,6 +1,7 @@
 //! Checks the functions of a scene against its equations of motion and its balance of power.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::manifold::{floating, planar, spherical};
+use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, largest, minus, plus, turned};
@@ -10,6 +11,7 @@ use crate::expr::Inputs;
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 use crate::random::Random;
+use crate::scene::QuasiJoint;
 use crate::system::SceneEquations;
 
 /// Compares functions of a scene at two or three states, or at one for more than ten coordinates: the
@@ -126,9 +128,14 @@ impl CheckedScene<'_> {
                 self.compare(function, law, (first_order, expected), LEAST_RATE, at)
             })
             .or_else(|| {
-                let rates = self.system.graph.position_rates(&at.q, &at.v);
-                let own = self.system.scene.layout.coupled().into_iter();
-                let expected: Vec<Dd> = own.map(|p| rates[p]).collect();
+                let layout = &self.system.scene.layout;
+                let rates = layout
+                    .quasi_joints
+                    .iter()
+                    .flat_map(|joint| coupled_rates(joint, at));
+                let coupled_positions = layout.coupled();
+                let own = rates.filter(|(p, _)| coupled_positions.contains(p));
+                let expected: Vec<Dd> = own.map(|(_, rate)| rate).collect();
                 self.compare(
                     function,
                     ("q̇ = N(q) v", EXACT),
@@ -258,4 +265,22 @@ impl CheckedScene<'_> {
         let law = ("rates of q, p and x along the motion", SOLVED);
         self.compare(function, law, (&found, &expected), 0.0, at)
     }
+}
+
+/// Returns the positions of a joint and their rates, by the formulas of the runtime.
+fn coupled_rates(joint: &QuasiJoint, at: &Inputs<Dd>) -> Vec<(usize, Dd)> {
+    fn array<const N: usize>(values: &[Dd], from: usize) -> [Dd; N] {
+        std::array::from_fn(|k| values[from + k])
+    }
+    let (q, v) = (joint.positions.start, joint.coordinates.start);
+    let rates = match joint.kind {
+        QuasiJointKind::Planar => planar::position_rates(array(&at.q, q), array(&at.v, v)).to_vec(),
+        QuasiJointKind::Spherical => {
+            spherical::position_rates(array(&at.q, q), array(&at.v, v)).to_vec()
+        }
+        QuasiJointKind::Floating => {
+            floating::position_rates(array(&at.q, q), array(&at.v, v)).to_vec()
+        }
+    };
+    joint.positions.clone().zip(rates).collect()
 }

@@ -24,7 +24,7 @@ fn refused((joint, effects, keys): (&str, &str, &str), rule: &str, words: &[&str
         Err(Refusal::Spec(faults)) => faults,
         other => panic!("{joint}{effects}{keys}: {:?}", other.map(|_| "accepted")),
     };
-    let told: Vec<String> = faults
+    let messages: Vec<String> = faults
         .0
         .iter()
         .map(|f| {
@@ -36,10 +36,10 @@ fn refused((joint, effects, keys): (&str, &str, &str), rule: &str, words: &[&str
             )
         })
         .collect();
-    assert_eq!(faults.0.len(), 1, "{told:?}");
-    assert_eq!(faults.0[0].rule, rule, "{told:?}");
+    assert_eq!(faults.0.len(), 1, "{messages:?}");
+    assert_eq!(faults.0[0].rule, rule, "{messages:?}");
     for word in words {
-        assert!(told[0].contains(word), "{word}: {told:?}");
+        assert!(messages[0].contains(word), "{word}: {messages:?}");
     }
 }
 
@@ -202,6 +202,64 @@ fn poses_at_the_start_have_these_keys() {
         (BALL, "", "initial: { ball: { xyz: [0, 0, 0] } }"),
         "unknown-key",
         &["rpy"],
+    );
+}
+
+/// A pose and its components, the place and words of a wrong length, and names that are almost right.
+#[test]
+fn a_start_says_each_thing_once() {
+    for initial in [
+        "free: { xyz: [1, 2, 3] }, free_x: 5",
+        "free_x: 5, free: { xyz: [1, 2, 3] }",
+        "free: { rpy: [0, 0, 0] }, free_qx: 0.5",
+    ] {
+        let keys = format!("initial: {{ {initial} }}");
+        refused(
+            (FREE, "", &keys),
+            "initial",
+            &["also part of the pose of `free`"],
+        );
+    }
+    let keys = "initial: { free_rz_velocity: 1.5, free: { quaternion: [0, 0, 0.6, 0.9] } }";
+    let Err(Refusal::Spec(faults)) = read(FREE, "", keys) else {
+        panic!("accepted");
+    };
+    assert_eq!(faults.0[0].path, "initial.free");
+    // A component that is refused makes no length.
+    let keys = "initial: { ball_qz: 0.6 m, ball_qw: 0.8 }";
+    refused((BALL, "", keys), "unit-misfit", &[]);
+    let keys = "initial: { fre: { rpy: [0, 0, 0] } }";
+    refused(
+        (FREE, "", keys),
+        "unknown-name",
+        &["did you mean `free`", "begins with a pose"],
+    );
+    let any = "name: ball, type: spherical, quaternion: any";
+    let keys = "initial: { ball: { quaternion: [0, 0, 0, 0] } }";
+    refused(
+        (any, "", keys),
+        "quaternion-length",
+        &["every length but 0"],
+    );
+}
+
+#[test]
+fn lock_names_what_can_be_locked() {
+    refused(
+        (FREE, "", "lock: { free_x: 0 }"),
+        "lock-of-several",
+        &["`free` is a floating"],
+    );
+    let follower = "name: tail, type: prismatic, axis: y, mimic: { joint: grip }";
+    refused(
+        (follower, "", "lock: { tail: 0 }"),
+        "follower",
+        &["lock `grip`"],
+    );
+    refused(
+        (FREE, "", "lock: { girp: 0 }"),
+        "unknown-name",
+        &["did you mean `grip`"],
     );
 }
 

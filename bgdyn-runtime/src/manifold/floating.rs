@@ -23,17 +23,35 @@ pub fn position_rates<T: Scalar>(q: [T; 7], v: [T; 6]) -> [T; 7] {
 /// As `pinocchio::integrate` for its free-flyer joint.
 pub fn integrate<T: Scalar>(q: [T; 7], d: [T; 6]) -> [T; 7] {
     let (position, orientation) = parts(q);
+    let (path, step) = screw(d);
+    whole(
+        sum(position, turn(orientation, path)),
+        quaternion::normalize(quaternion::product(orientation, step)),
+    )
+}
+
+/// Returns the change of the coordinates by the twist `d` in link axes, m and rad, to the last digits of
+/// the change, which the difference of two positions has lost. It is not normalised.
+pub fn change<T: Scalar>(q: [T; 7], d: [T; 6]) -> [T; 7] {
+    let (_, orientation) = parts(q);
+    let (path, _) = screw(d);
+    let (_, angular) = halves(d);
+    whole(
+        turn(orientation, path),
+        quaternion::change(orientation, angular),
+    )
+}
+
+/// Returns the displacement by the twist `d`, in the link axes at its beginning, and the quaternion of its
+/// turn.
+fn screw<T: Scalar>(d: [T; 6]) -> ([T; 3], [T; 4]) {
     let (linear, angular) = halves(d);
     let (half, quarter) = (T::from_f64(0.5), T::from_f64(0.25));
     let (step, sines) = quaternion::exponential(angular);
     // (1 − cos)/x² and (x − sin)/x³ of the whole angle x, from those of its half.
     let versine = half * (sines.sine * sines.sine);
     let excess = quarter * (sines.excess + sines.sine * sines.versine);
-    let path = bent(linear, angular, versine, excess);
-    whole(
-        sum(position, turn(orientation, path)),
-        quaternion::normalize(quaternion::product(orientation, step)),
-    )
+    (bent(linear, angular, versine, excess), step)
 }
 
 /// Returns the twist from `q0` to `q1` in the link axes of `q0`, m and rad: `integrate(q0, d)` is the pose

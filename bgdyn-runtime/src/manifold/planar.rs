@@ -22,13 +22,21 @@ pub fn position_rates<T: Scalar>(q: [T; 3], v: [T; 3]) -> [T; 3] {
 /// arc of a circle. Angles add and are not wrapped.
 pub fn integrate<T: Scalar>(q: [T; 3], d: [T; 3]) -> [T; 3] {
     let [x, y, angle] = q;
+    let [dx, dy, turned] = change(q, d);
+    [x + dx, y + dy, angle + turned]
+}
+
+/// Returns the change of the coordinates by the twist `d` in link axes, m and rad, to the last digits of
+/// the change: [`integrate`] is its sum with `q`.
+pub fn change<T: Scalar>(q: [T; 3], d: [T; 3]) -> [T; 3] {
+    let [_, _, angle] = q;
     let [dx, dy, turned] = d;
     // The chord of an arc has the direction of its middle.
     let half = T::from_f64(0.5) * turned;
     let chord = sine_ratio(half);
     let middle = T::sin_cos_sum(&[angle, half], (0.0, 0.0));
     let [dx, dy] = turn(middle, [chord * dx, chord * dy]);
-    [x + dx, y + dy, angle + turned]
+    [dx, dy, turned]
 }
 
 /// Returns the twist from `q0` to `q1` in the link axes of `q0`, m and rad: `integrate(q0, d)` = `q1`.

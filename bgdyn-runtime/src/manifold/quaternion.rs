@@ -131,6 +131,16 @@ pub(super) fn exponential<T: Scalar>(vector: [T; 3]) -> ([T; 4], Sines<T>) {
     ([x, y, z, sines.cosine], sines)
 }
 
+/// Returns q∘(exp(d/2) − 1): the change of a quaternion by a rotation vector `d` (rad), to its own last
+/// digits.
+pub(super) fn change<T: Scalar>(q: [T; 4], d: [T; 3]) -> [T; 4] {
+    let half = T::from_f64(0.5);
+    let ([x, y, z, _], sines) = exponential(d);
+    let [hx, hy, hz] = d.map(|component| half * component);
+    let square = hx * hx + hy * hy + hz * hz;
+    product(q, [x, y, z, -(square * sines.versine)])
+}
+
 /// Returns the rotation vector, no longer than π (rad), of a quaternion whose length need not be exactly 1,
 /// and the square of half its length.
 pub(super) fn logarithm<T: Scalar>(q: [T; 4]) -> ([T; 3], T) {

@@ -16,6 +16,12 @@ pub fn integrate<T: Scalar>(q: [T; 4], d: [T; 3]) -> [T; 4] {
     quaternion::normalize(quaternion::product(q, turn))
 }
 
+/// Returns the change of the coordinates by the rotation vector `d` (rad, link axes): q∘(exp(d/2) − 1), to
+/// the last digits of the change, which the difference of two positions has lost. It is not normalised.
+pub fn change<T: Scalar>(q: [T; 4], d: [T; 3]) -> [T; 4] {
+    quaternion::change(q, d)
+}
+
 /// Returns the rotation vector (rad, link axes) from `q0` to `q1`, no longer than π: `integrate(q0, d)` is
 /// `q1` or −`q1`, which are the same orientation.
 ///

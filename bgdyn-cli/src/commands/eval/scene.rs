@@ -9,6 +9,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::options::Preference;
+use bgdyn_codegen::scene::QuasiJoint;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 use serde_json::{Value, json};
@@ -183,15 +184,10 @@ impl SceneCall<'_> {
         }
         let mut positions: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
         let wrong = layout.unit_quaternions(&mut positions);
-        let told: Vec<String> = wrong
-            .into_iter()
-            .map(|(joint, length)| {
-                let name = &joint.name;
-                format!("the quaternion of `{name}` has the length {length:?}, not 1 within 1e-6")
-            })
-            .collect();
-        if !told.is_empty() {
-            return Err(plain(told.join("; ")));
+        let message = |(joint, length): (&QuasiJoint, f64)| joint.wrong_length(length);
+        let messages: Vec<String> = wrong.into_iter().map(message).collect();
+        if !messages.is_empty() {
+            return Err(plain(messages.join("; ")));
         }
         for (q, unit) in q.iter_mut().zip(positions) {
             *q = unit.to_f64();
@@ -226,11 +222,10 @@ impl SceneCall<'_> {
     /// Returns ∂ẏ/∂y row by row, and ∂ẏ/∂t.
     fn jacobian(&self, values: &[f64]) -> Value {
         let n = self.names.state.len();
-        let entry = |i: usize, k: usize| self.system.scene.layout.jacobian_entry(values, i, k);
-        let row = |i: usize| (0..n).map(|k| entry(i, k)).collect::<Vec<f64>>();
+        let rows = self.system.scene.layout.jacobian_rows(values);
         json!({
-            "along_state": (0..n).map(row).collect::<Vec<_>>(),
-            "along_time": (0..n).map(|i| entry(i, n)).collect::<Vec<_>>(),
+            "along_state": rows.iter().map(|row| &row[..n]).collect::<Vec<_>>(),
+            "along_time": rows.iter().map(|row| row[n]).collect::<Vec<_>>(),
         })
     }
 }

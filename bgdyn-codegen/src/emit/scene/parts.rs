@@ -22,25 +22,9 @@ pub(super) fn field(name: impl Into<String>, about: impl Into<String>) -> Struct
 
 /// Returns positions, velocities and first-order states: the parts that have rates.
 pub(super) fn moving_parts(layout: &StateLayout) -> Vec<StructField> {
-    let positions = layout.positions.iter().map(|p| {
-        let about = match p.dimension.si() {
-            "" => format!("component `{}` of a unit quaternion", p.name),
-            unit => format!("position of `{}`, {unit}", p.name),
-        };
-        field(&p.name, about)
-    });
-    let velocities = layout.coordinates.iter().map(|c| {
-        let unit = c.dimensions[1].si();
-        let axes = if c.is_quasi_velocity() {
-            " in link axes"
-        } else {
-            ""
-        };
-        field(
-            &c.rate_name,
-            format!("velocity of `{}`{axes}, {unit}", c.name),
-        )
-    });
+    let positions = layout.positions.iter().map(|p| field(&p.name, p.about()));
+    let velocities = layout.coordinates.iter();
+    let velocities = velocities.map(|c| field(&c.rate_name, c.about_velocity()));
     let states = layout.states.iter().map(|part| {
         let unit = part.dimension.si();
         field(&part.name, format!("{}, {unit}", part.about))

@@ -152,9 +152,9 @@ fn quasi_joints(layout: &StateLayout) -> TokenStream {
         return TokenStream::new();
     }
     let joints = layout.quasi_joints.iter().map(|joint| {
+        let joint = joint.in_state(layout);
         let kind = ident(&format!("{:?}", joint.kind));
-        let position = size(joint.positions.start);
-        let velocity = size(layout.nq() + joint.coordinates.start);
+        let (position, velocity) = (size(joint.position), size(joint.velocity));
         quote! {
             __rt::QuasiJoint {
                 kind: __rt::QuasiJointKind::#kind, position: #position, velocity: #velocity

@@ -33,6 +33,12 @@ pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&s
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
+pub(crate) fn lock_of_follower(location: &Location, joint: &str, leader: &str) -> Fault {
+    let message = format!("`{joint}` has `mimic`: it follows `{leader}`");
+    Fault::new(location, "follower", message)
+        .with_help(format!("lock `{leader}`: its followers are locked with it"))
+}
+
 pub(crate) fn lock_of_several(location: &Location, joint: &str, kind: &str) -> Fault {
     let message = format!(
         "`{joint}` is a {kind} joint: `lock` takes joints of one degree of freedom, with their position"
@@ -49,10 +55,27 @@ pub(crate) fn repeated_state_or_input(location: &Location, name: &str) -> Fault 
         .with_help("give one of the effects or inputs another name")
 }
 
-pub(crate) fn unknown_initial(location: &Location, name: &str, known: &[&str]) -> Fault {
+/// `joint` is an example of a joint that begins with a pose, if there is one.
+pub(crate) fn unknown_initial(
+    location: &Location,
+    name: &str,
+    known: &[&str],
+    joint: Option<&str>,
+) -> Fault {
     let message = unknown_name("state variable", name, known, &known.join(", "));
-    Fault::new(location, "unknown-name", message)
-        .with_help("a position is called as its joint, a velocity `shoulder_rate`")
+    let fault = Fault::new(location, "unknown-name", message);
+    match joint {
+        None => fault.with_help("a position is called as its joint, a velocity `shoulder_rate`"),
+        Some(joint) => fault.with_help(format!(
+            "the position of a joint of one degree is called as the joint, its velocity `shoulder_rate`; a \
+             spherical or floating joint begins with a pose: `{joint}: {{ rpy: [0, 0, 90 deg] }}`"
+        )),
+    }
+}
+
+pub(crate) fn position_twice(location: &Location, position: &str, joint: &str) -> Fault {
+    let message = format!("`{position}` is also part of the pose of `{joint}`");
+    Fault::new(location, "initial", message).with_help("leave one of them out")
 }
 
 pub(crate) fn unknown_pose_key(location: &Location, key: &str, known: &[&str]) -> Fault {
@@ -76,13 +99,25 @@ pub(crate) fn not_so_many_numbers(
     Fault::new(location, "initial", message).with_help(format!("for example {example}"))
 }
 
-pub(crate) fn quaternion_length(location: &Location, joint: &str, length: f64) -> Fault {
-    let message = format!(
-        "the quaternion of `{joint}` has the length {}; the length of an orientation is 1, within 1e-6",
-        six_digits(length)
-    );
+/// Returns what is wrong with a quaternion of this length. `any` if every length but 0 is an orientation.
+pub(crate) fn length_of_quaternion(joint: &str, any: bool, length: f64) -> String {
+    let rule = match any {
+        true => "with `quaternion: any` every length but 0 is an orientation",
+        false => "the length of an orientation is 1, within 1e-6",
+    };
+    let length = six_digits(length);
+    format!("the quaternion of `{joint}` has the length {length}; {rule}")
+}
+
+pub(crate) fn quaternion_length(location: &Location, joint: &str, any: bool, length: f64) -> Fault {
+    let scaled = if any || length == 0.0 {
+        ""
+    } else {
+        "divide its components by the length, or "
+    };
+    let message = length_of_quaternion(joint, any, length);
     Fault::new(location, "quaternion-length", message).with_help(format!(
-        "divide its components by the length, or write the angles: `{joint}: {{ rpy: [0, 0, 90 deg] }}`"
+        "{scaled}write the angles: `{joint}: {{ rpy: [0, 0, 90 deg] }}`"
     ))
 }
 

@@ -9,7 +9,34 @@ use super::pose;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Raw};
-use crate::layout::{QuasiJoint, StateLayout};
+use crate::layout::StateLayout;
+
+/// The names of the joints that begin with a pose, and the positions that poses in the file set, each with
+/// its joint.
+type Poses<'a> = (Vec<&'a str>, Vec<(usize, &'a str)>);
+
+/// Reads the poses of spherical and floating joints.
+fn poses<'a>(
+    layout: &'a StateLayout,
+    entries: &[Raw],
+    initial: &mut Initial,
+    faults: &mut Faults,
+) -> Poses<'a> {
+    let joints = || {
+        layout
+            .quasi_joints
+            .iter()
+            .filter(|j| j.quaternion.is_some())
+    };
+    let mut set = Vec::new();
+    for joint in joints() {
+        for raw in entries.iter().filter(|raw| raw.name.value == joint.name) {
+            let own = pose::read(raw, joint, &mut initial.q, faults);
+            set.extend(own.into_iter().map(|p| (p, joint.name.as_str())));
+        }
+    }
+    (joints().map(|joint| joint.name.as_str()).collect(), set)
+}
 
 /// Returns the initial state.
 pub(super) fn initial(
@@ -38,25 +65,34 @@ pub(super) fn initial(
     for (i, part) in layout.modes.iter().enumerate() {
         places.insert(format!("{}_mode", part.name), (3, i, part.dimension));
     }
-    let mut given: Vec<(usize, usize)> = Vec::new();
+    let (poses, posed) = poses(layout, entries, &mut initial, faults);
+    let mut given: Vec<(usize, usize)> = posed.iter().map(|&(i, _)| (0, i)).collect();
+    let mut refused_values = Vec::new();
     for raw in entries {
         let name = &raw.name.value;
-        if let Some(joint) = layout.quasi_joints.iter().find(|j| j.name == *name)
-            && joint.quaternion.is_some()
-        {
-            pose::read(raw, joint, &mut initial.q, faults);
+        if poses.contains(&name.as_str()) {
             continue;
         }
         let Some(&(kind, i, dimension)) = places.get(name) else {
-            let known: Vec<&str> = places.keys().map(String::as_str).collect();
-            let fault = wording::unknown_initial(&raw.name.location, name, &known);
+            let mut known: Vec<&str> = places.keys().map(String::as_str).collect();
+            known.extend(&poses);
+            let fault =
+                wording::unknown_initial(&raw.name.location, name, &known, poses.first().copied());
             faults.push(match refused.may_bring(name) {
                 true => fault.following(),
                 false => fault,
             });
             continue;
         };
-        if let Some(number) = raw.number(&[dimension], faults) {
+        if let Some((_, joint)) = posed.iter().find(|&&(p, _)| (0, p) == (kind, i)) {
+            faults.push(wording::position_twice(&raw.name.location, name, joint));
+            continue;
+        }
+        let number = raw.number(&[dimension], faults);
+        if number.is_none() {
+            refused_values.push((kind, i));
+        }
+        if let Some(number) = number {
             let value = number.value.value;
             given.push((kind, i));
             let entered = layout.states.get(i).filter(|_| kind == 2);
@@ -79,18 +115,27 @@ pub(super) fn initial(
             }
         }
     }
-    let place = |joint: &QuasiJoint| {
-        let entry = entries
-            .iter()
-            .find(|raw| raw.name.value.starts_with(&joint.name));
-        entry.map_or_else(Location::file, |raw| raw.name.location.clone())
-    };
-    faults.0.extend(
-        layout
-            .unit_quaternions(&mut initial.q)
-            .into_iter()
-            .map(|(joint, length)| wording::quaternion_length(&place(joint), &joint.name, length)),
-    );
+    for (joint, length) in layout.unit_quaternions(&mut initial.q) {
+        // A component that was refused makes a length that nobody wrote.
+        if joint
+            .positions
+            .clone()
+            .any(|p| refused_values.contains(&(0, p)))
+        {
+            continue;
+        }
+        let of_joint = |raw: &&Raw| {
+            let name = &raw.name.value;
+            *name == joint.name
+                || layout.positions[joint.positions.clone()]
+                    .iter()
+                    .any(|p| p.name == *name)
+        };
+        let entry = entries.iter().find(of_joint);
+        let location = entry.map_or_else(Location::file, |raw| raw.name.location.clone());
+        let (name, any) = (&joint.name, joint.any_length);
+        faults.push(wording::quaternion_length(&location, name, any, length));
+    }
     // The default initial position and velocity of a drive are those of its joint.
     for (j, c) in layout.coordinates.iter().enumerate() {
         let with = c

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::super::lock::locked_pose;
 use super::{effects, joints};
-use crate::fault::{Faults, wording};
+use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::SceneSpec;
 use crate::mechanism::{LinkId, Mechanism, Pose};
 
@@ -22,13 +22,7 @@ pub(super) fn locks(
             .enumerate()
             .find(|(_, l)| mechanism.links()[l.0].joint.name == *name);
         let Some((j, link)) = found else {
-            let known = mechanism.joint_names();
-            let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            faults.push(wording::unknown_locked_joint(
-                &raw.name.location,
-                name,
-                &known,
-            ));
+            faults.push(not_lockable(mechanism, &raw.name.location, name));
             continue;
         };
         let joint = &mechanism.links()[link.0].joint;
@@ -46,6 +40,25 @@ pub(super) fn locks(
         }
     }
     locked
+}
+
+/// Returns the fault of a name that is not that of a joint with coordinates: a velocity of a joint with
+/// several, a follower, or unknown.
+fn not_lockable(mechanism: &Mechanism, location: &Location, name: &str) -> Fault {
+    let names = mechanism.joint_names();
+    if let Some(j) = names.iter().position(|own| own == name) {
+        let joint = &mechanism.links()[mechanism.coordinates()[j].0].joint;
+        return wording::lock_of_several(location, &joint.name, joint.kind.keyword);
+    }
+    let mut joints = mechanism.links().iter().map(|link| &link.joint);
+    let follower = joints.find(|joint| joint.name == name);
+    if let Some(mimic) = follower.and_then(|joint| joint.degrees.mimic) {
+        let leader = &mechanism.links()[mimic.leader.0].joint.name;
+        return wording::lock_of_follower(location, name, leader);
+    }
+    let known = mechanism.one_degree_names();
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    wording::unknown_locked_joint(location, name, &known)
 }
 
 /// Returns the links whose joints follow a locked one, with their poses.

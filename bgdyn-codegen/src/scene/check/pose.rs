@@ -8,10 +8,11 @@ use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::QuasiJoint;
 
-/// Writes the positions of a joint's initial pose.
-pub(super) fn read(raw: &Raw, joint: &QuasiJoint, q: &mut [Dd], faults: &mut Faults) {
+/// Writes the positions of a joint's initial pose. Returns those that the entry sets.
+pub(super) fn read(raw: &Raw, joint: &QuasiJoint, q: &mut [Dd], faults: &mut Faults) -> Vec<usize> {
+    let mut set = Vec::new();
     let Some(quaternion) = joint.quaternion else {
-        return;
+        return set;
     };
     let moves = quaternion > joint.positions.start;
     let example = match moves {
@@ -34,6 +35,10 @@ pub(super) fn read(raw: &Raw, joint: &QuasiJoint, q: &mut [Dd], faults: &mut Fau
             faults.push(wording::orientation_twice(location, &joint.name));
             continue;
         }
+        set.extend(match key {
+            "xyz" => joint.positions.start..quaternion,
+            _ => quaternion..quaternion + 4,
+        });
         match key {
             "xyz" => {
                 if let Some(xyz) = numbers::<3>(&entry, Dimension::Length, faults) {
@@ -52,6 +57,7 @@ pub(super) fn read(raw: &Raw, joint: &QuasiJoint, q: &mut [Dd], faults: &mut Fau
             }
         }
     }
+    set
 }
 
 /// Returns the numbers of a list of this length.
