@@ -5,7 +5,7 @@
 BGDYN is the command; every *.xml below FOLDER whose root is <mujoco> and that has a <worldbody> with bodies is
 taken. Compared are the mass matrix (mj_fullM, without armature) and the bias (mj_rne), in bgdyn's coordinates:
 docs/conventions.md has the conversion. Prints a line per file, writes a table if asked, and fails where a
-difference is above 1e-9.
+difference is above 1e-9, a result is not finite, or no file can be compared.
 """
 
 import json
@@ -26,7 +26,7 @@ MOST = 1e-9
 STILL = "no moving joint"
 
 
-def told(*command):
+def run(*command):
     return subprocess.run(command, capture_output=True, text=True)
 
 
@@ -105,6 +105,12 @@ def followers(model):
             continue
         if any(int(model.jnt_type[j]) not in scalar for j in (first, second)) or first in own or not model.eq_active0[e]:
             continue
+        leader = second
+        while leader in own and leader != first:
+            leader = own[leader][0]
+        if leader == first:
+            # It would close a circle.
+            continue
         y, x = (model.qpos0[model.jnt_qposadr[j]] for j in (first, second))
         own[first] = (second, data[1], data[0] + y - data[1] * x)
     for joint, (leader, ratio, offset) in list(own.items()):
@@ -115,11 +121,31 @@ def followers(model):
     return own
 
 
+def compiled(model):
+    """The model without armature, which is an effect of a scene and no part of a mechanism, with the conversion."""
+    model.dof_armature[:] = 0
+    mujoco.mj_setConst(model, mujoco.MjData(model))
+    return Conversion(model, followers(model))
+
+
+def reference(conversion, q, v):
+    """M and bias by MuJoCo in bgdyn's coordinates, with MuJoCo's data of the state."""
+    model = conversion.model
+    turn, rates = conversion.map(q, v)
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = q, turn @ v
+    mujoco.mj_forward(model, data)
+    full, h = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
+    mujoco.mj_fullM(model, data, full)
+    mujoco.mj_rne(model, data, 0, h)
+    return turn.T @ full @ turn, turn.T @ (full @ rates + h), data
+
+
 def results(bgdyn, spec, method, states):
-    run = told(bgdyn, "eval", str(spec), method, "--states", str(states))
-    if run.returncode:
-        raise RuntimeError(f"{method}: {run.stderr[:300]} {run.stdout[-500:]}")
-    return np.array(json.loads(run.stdout)["results"], dtype=float)
+    done = run(bgdyn, "eval", str(spec), method, "--states", str(states))
+    if done.returncode:
+        raise RuntimeError(f"{method}: {done.stderr[:300]} {done.stdout[-500:]}")
+    return np.array(json.loads(done.stdout)["results"], dtype=float)
 
 
 def with_inertials(file, folder):
@@ -136,8 +162,8 @@ def with_inertials(file, folder):
 
 
 def imported(bgdyn, file, spec):
-    run = told(bgdyn, "import", str(file), "-o", str(spec))
-    return None if run.returncode == 0 else run.stderr.splitlines()[-1].split(": ", 2)[-1]
+    done = run(bgdyn, "import", str(file), "-o", str(spec))
+    return None if done.returncode == 0 else done.stderr.splitlines()[-1].split(": ", 2)[-1]
 
 
 def compared(bgdyn, file, folder, rng):
@@ -155,15 +181,11 @@ def compared(bgdyn, file, folder, rng):
         refusal = imported(bgdyn, file, spec)
     if refusal:
         return "not imported: " + refusal
-    report = json.loads(told(bgdyn, "check", "--json", str(spec)).stdout)
+    report = json.loads(run(bgdyn, "check", "--json", str(spec)).stdout)
     if not report["ok"]:
         rules = {f["rule"] for f in report["findings"] if f["severity"] == "fault"}
         return "refused: " + ", ".join(sorted(rules))
-    model = mujoco.MjModel.from_xml_path(str(file))
-    # A rotor is an effect of a scene, not a part of the mechanism.
-    model.dof_armature[:] = 0
-    mujoco.mj_setConst(model, mujoco.MjData(model))
-    conversion = Conversion(model, followers(model))
+    conversion = compiled(mujoco.MjModel.from_xml_path(str(file)))
     count = report["model"]["nv"]
     if count == 0:
         return STILL
@@ -176,16 +198,11 @@ def compared(bgdyn, file, folder, rng):
     biases = results(bgdyn, spec, "bias", path)
     worst = [0.0, 0.0]
     for (q, _), v, ours, bias in zip(pairs, velocities, matrices, biases):
-        turn, rates = conversion.map(q, v)
-        data = mujoco.MjData(model)
-        data.qpos[:], data.qvel[:] = q, turn @ v
-        mujoco.mj_forward(model, data)
-        full, h = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
-        mujoco.mj_fullM(model, data, full)
-        mujoco.mj_rne(model, data, 0, h)
-        theirs = turn.T @ full @ turn
-        wanted = turn.T @ (full @ rates + h)
+        theirs, wanted, _ = reference(conversion, q, v)
         ours = ours.reshape(count, count)
+        # The largest of a NaN and a number is the number.
+        for numbers in (ours, bias, theirs, wanted):
+            assert np.isfinite(numbers).all(), f"{file}: a result is not finite"
         # Relative to the largest entry; the bias at least to the efforts of unit accelerations.
         size = np.abs(theirs).max()
         worst[0] = max(worst[0], np.abs(ours - theirs).max() / size)
@@ -225,7 +242,8 @@ def main(bgdyn, below, table=None):
     if table:
         head = "| file | velocities | M | bias | |\n|---|---|---|---|---|\n"
         table.write_text(head + "\n".join(rows) + "\n")
-    sys.exit(int(worst > MOST))
+    # Without a file that can be compared nothing was shown.
+    sys.exit(int(worst > MOST or equal == 0))
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 #
 #   benches/peers/urdfs.sh [TABLE.md]
 #
-# Needs a Rust toolchain and Python 3 with venv and pip. What it installs stands in $PEERS_DIR (target/peers).
+# Needs a Rust toolchain and Python 3 with venv and pip. What it installs is in $PEERS_DIR (target/peers).
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 dir=${PEERS_DIR:-target/peers}/urdfs

@@ -35,6 +35,17 @@ pub(super) fn free(model: &mut Model, tree: &Tree, base: Base) -> Result<()> {
              `--base floating` makes its motion part of the state"
         ),
     };
+    if !model.incomplete.is_empty() {
+        let names = model
+            .incomplete
+            .iter()
+            .map(|name| format!("`{}`", shown(name)));
+        bail!(
+            "--base: the inertia of {} is that of meshes or shells, which is not computed here, and they would \
+             move; give each an `<inertial>` (MuJoCo writes them into the file it saves with `saveinertial`)",
+            names.collect::<Vec<_>>().join(", ")
+        )
+    }
     let root = match tree.roots.as_slice() {
         [root] => *root,
         [] => bail!("--base: no link is fixed to the world, every one has a joint already"),

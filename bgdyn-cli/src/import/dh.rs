@@ -68,6 +68,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
         links: vec![base()],
         joints: Vec::new(),
         frames: Vec::new(),
+        incomplete: Vec::new(),
         warnings: Vec::new(),
     };
     // From the axes of the last link to those in which the next row begins.

@@ -52,7 +52,7 @@ pub(super) fn limits(
     let Some(limit) = element.child("limit") else {
         if !continuous {
             groups.add(
-                "joints without `<limit>`, taken over without limits",
+                "joints without `<limit>`, imported without limits",
                 label.to_string(),
             );
         }
@@ -64,7 +64,7 @@ pub(super) fn limits(
         if continuous {
             if given.is_some() {
                 let item = format!("{attribute} of {label}");
-                groups.add("position limits of continuous joints, not taken over", item);
+                groups.add("position limits of continuous joints, not imported", item);
             }
             continue;
         }
@@ -88,7 +88,7 @@ pub(super) fn limits(
             bound(limit, attribute)?.filter(|value| value.value.is_finite() || value.value < 0.0);
         if value.as_ref().is_some_and(|value| value.value < 0.0) {
             let item = format!("{attribute} of {label}");
-            groups.add("negative limits, not taken over", item);
+            groups.add("negative limits, not imported", item);
             continue;
         }
         let slot = if attribute == "velocity" {

@@ -17,9 +17,7 @@ use bgdyn_codegen::unit::UnitFactor;
 pub(super) fn lock(model: &mut Model, asked: &Lock) -> Result<Option<String>> {
     let Lock { joint, value, unit } = asked;
     let moves = |it: &Joint| it.kind != JointType::Fixed;
-    let exact = model.joints.iter().position(|it| it.name == *joint);
-    let called = |it: &Joint| is_called(&it.name, joint, "joint");
-    let Some(found) = exact.or_else(|| model.joints.iter().position(called)) else {
+    let Some(found) = find(model, joint) else {
         let known = model.joints.iter().filter(|it| moves(it));
         let known = listed(known.map(|it| it.name.as_str()));
         bail!(
@@ -45,6 +43,18 @@ pub(super) fn lock(model: &mut Model, asked: &Lock) -> Result<Option<String>> {
     }
     let told = (!told.is_empty()).then(|| told.join(", "));
     Ok(told.map(|told| format!("--lock: `{}` fixes its followers too: {told}", shown(joint))))
+}
+
+/// Returns the index of the joint of this name.
+fn find(model: &Model, name: &str) -> Option<usize> {
+    let exact = model.joints.iter().position(|it| it.name == name);
+    let called = |it: &Joint| is_called(&it.name, name, "joint");
+    exact.or_else(|| model.joints.iter().position(called))
+}
+
+/// Returns whether the joint to lock follows another one.
+pub(super) fn follows(model: &Model, asked: &Lock) -> bool {
+    find(model, &asked.joint).is_some_and(|index| model.joints[index].mimic.is_some())
 }
 
 /// Checks that a joint can be fixed at a value.

@@ -31,6 +31,9 @@ pub(super) fn followers(model: &Model, leader: usize, position: &Num) -> Vec<(us
     let name = &model.joints[leader].name;
     let follows = |(index, joint): (usize, &Joint)| {
         let mimic = joint.mimic.as_ref().filter(|it| it.joint == *name)?;
+        if index == leader {
+            return None;
+        }
         let value = mimic.ratio.exact() * position.exact() + mimic.offset.exact();
         Some((index, Num::computed(value.to_f64())))
     };

@@ -18,6 +18,8 @@ pub(super) struct Model {
     pub(super) joints: Vec<Joint>,
     /// Sites on links that are no bodies.
     pub(super) frames: Vec<Frame>,
+    /// Links that are fixed to the world and have a part whose inertia is not known: they must not move.
+    pub(super) incomplete: Vec<String>,
     pub(super) warnings: Vec<String>,
 }
 

@@ -33,6 +33,7 @@ pub(super) fn read(root: &Element) -> Result<Model> {
         links,
         joints,
         frames: Vec::new(),
+        incomplete: Vec::new(),
         warnings: groups.lines().chain(ignored).collect(),
     })
 }
@@ -184,7 +185,7 @@ fn dynamics(element: &Element, kind: JointType, label: &str, groups: &mut Groups
     }
     if !left.is_empty() {
         groups.add(
-            "of `<dynamics>`, not taken over",
+            "of `<dynamics>`, not imported",
             format!("{label} ({})", values(&left)),
         );
     }

@@ -3,7 +3,7 @@
 use super::joint_type::JointType;
 use super::model::{Frame, Link, Model};
 use super::naming::{is_called, listed, shown};
-use super::options::Options;
+use super::options::{Lock, Options};
 use super::placement::Placement;
 use super::tree::{Tree, order};
 use super::{locks, mimic};
@@ -15,7 +15,10 @@ const ALL: &str = "all";
 /// Applies the options to the robot, and returns messages about omitted parts.
 pub(super) fn rework(model: &mut Model, options: &Options) -> Result<Vec<String>> {
     let mut told = Vec::new();
-    for asked in &options.lock {
+    // Followers first: locked by themselves they follow no more.
+    let mut locks: Vec<&Lock> = options.lock.iter().collect();
+    locks.sort_by_key(|asked| !locks::follows(model, asked));
+    for asked in locks {
         told.extend(locks::lock(model, asked)?);
     }
     if let Some([base, tip]) = &options.chain {

@@ -21,9 +21,9 @@ impl Tally {
         self.0.into_iter().map(|(what, times, meshes)| {
             let times = plural(times, "time");
             match meshes {
-                0 => format!("not taken over: {what} ({times})"),
+                0 => format!("not imported: {what} ({times})"),
                 _ => format!(
-                    "not taken over: {what} ({times}, with {})",
+                    "not imported: {what} ({times}, with {})",
                     plural(meshes, "mesh file")
                 ),
             }

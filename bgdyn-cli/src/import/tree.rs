@@ -70,7 +70,7 @@ pub(super) fn order(model: &Model) -> Result<Tree> {
             let (link, other) = (shown(&joint.child), shown(&model.joints[other].name));
             let message = format!(
                 "link `{link}` is the child of joint `{other}` and of joint `{name}`: \
-                 closed loops cannot be taken over, cut the loop at one of them"
+                 closed loops cannot be imported, cut the loop at one of them"
             );
             return Err(fault(joint.at, message));
         }

@@ -2,6 +2,7 @@
 
 mod free;
 mod mjcf;
+mod mjcf_corners;
 mod mjcf_report;
 mod options;
 mod table;

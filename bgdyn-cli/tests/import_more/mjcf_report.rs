@@ -21,7 +21,7 @@ const WEIGHT: &str = "<inertial pos='0 0 0.1' mass='1' diaginertia='0.1 0.1 0.1'
 
 fn told(text: &str) -> String {
     match import(text) {
-        Ok(made) => panic!("taken over:\n{}", made.yaml),
+        Ok(made) => panic!("imported:\n{}", made.yaml),
         Err(error) => error.to_string(),
     }
 }
@@ -137,7 +137,7 @@ fn each_refusal_says_where_and_what() {
         ),
         (
             geom("type='mesh' mesh='skull'"),
-            "the inertia of a moving body is that of meshes or shells, which is not computed here: `b` (mesh `skull`); \
+            "the inertia of a body is that of meshes or shells, which is not computed here: `b` (mesh `skull`); \
              give each an `<inertial>`",
         ),
         (geom("size='1' shellinertia='true'"), "`b` (`shellinertia`)"),
@@ -260,30 +260,30 @@ fn what_is_not_taken_over_is_named_with_its_count() {
     let made = import(&text).expect("an import");
     for line in [
         "poses at the start, not a part of a mechanism: `a_free` at 0 0 1, rpy 0 0 0",
-        "compensation of gravity (gravcomp), not taken over: `a` (1)",
+        "compensation of gravity (gravcomp), not imported: `a` (1)",
         "bodies whose pose is an input (mocap), fixed here: `d`",
-        "of ball and free joints, not taken over: range 0 1 of `j`; damping 1 of `j`; armature 0.1 of `j`",
-        "polynomials, not taken over: damping 1 2 of `k`",
-        "sites without a name, not taken over: line 7",
-        "not taken over: the shapes of 2 geoms, for contacts and drawing; 0 of them gave bodies their inertia",
-        "not taken over: `<motor>` in `<default>` (1 time)",
-        "not taken over: `<mesh>` in `<asset>` (2 times)",
-        "not taken over: `<camera>` in `<body>` (1 time)",
-        "not taken over: `<light>` in `<worldbody>` (1 time)",
-        "not taken over: `<weld>` in `<equality>` (2 times)",
-        "not taken over: `<fixed>` in `<tendon>` (1 time)",
-        "not taken over: `<motor>` in `<actuator>` (2 times)",
-        "not taken over: `<position>` in `<actuator>` (1 time)",
-        "not taken over: `<gyro>` in `<sensor>` (1 time)",
-        "not taken over: `<exclude>` in `<contact>` (1 time)",
-        "not taken over: `<key>` in `<keyframe>` (1 time)",
-        "not taken over: `<visual>` in `<mujoco>` (1 time)",
-        "not taken over: attributes of `<compiler>`: meshdir (1)",
-        "not taken over: attributes of `<option>`: timestep (1), density (1)",
-        "not taken over: attributes of `<flag>`: contact (1)",
-        "not taken over: attributes of `<geom>`: rgba (2), friction (1)",
-        "not taken over: attributes of `<joint>`: margin (1), springdamper (1)",
-        "equality constraints that are no linear relation of two joints with one coordinate, not taken over: `k` \
+        "of ball and free joints, not imported: range 0 1 of `j`; damping 1 of `j`; armature 0.1 of `j`",
+        "polynomials, not imported: damping 1 2 of `k`",
+        "sites without a name, not imported: line 7",
+        "not imported: the shapes of 2 geoms, for contacts and drawing; 0 of them gave bodies their inertia",
+        "not imported: `<motor>` in `<default>` (1 time)",
+        "not imported: `<mesh>` in `<asset>` (2 times)",
+        "not imported: `<camera>` in `<body>` (1 time)",
+        "not imported: `<light>` in `<worldbody>` (1 time)",
+        "not imported: `<weld>` in `<equality>` (2 times)",
+        "not imported: `<fixed>` in `<tendon>` (1 time)",
+        "not imported: `<motor>` in `<actuator>` (2 times)",
+        "not imported: `<position>` in `<actuator>` (1 time)",
+        "not imported: `<gyro>` in `<sensor>` (1 time)",
+        "not imported: `<exclude>` in `<contact>` (1 time)",
+        "not imported: `<key>` in `<keyframe>` (1 time)",
+        "not imported: `<visual>` in `<mujoco>` (1 time)",
+        "not imported: attributes of `<compiler>`: meshdir (1)",
+        "not imported: attributes of `<option>`: timestep (1), density (1)",
+        "not imported: attributes of `<flag>`: contact (1)",
+        "not imported: attributes of `<geom>`: rgba (2), friction (1)",
+        "not imported: attributes of `<joint>`: margin (1), springdamper (1)",
+        "equality constraints that are no linear relation of two joints with one coordinate, not imported: `k` \
          (line 15); `k`, `j` (line 15)",
     ] {
         assert!(

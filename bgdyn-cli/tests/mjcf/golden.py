@@ -18,7 +18,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE / "../../../benches/peers"))
 
-from mjcf import Conversion, followers  # noqa: E402
+from mjcf import compiled, reference  # noqa: E402
 
 COMPILER = '<compiler angle="degree" eulerseq="xYz" inertiagrouprange="0 3"/>'
 VARIANTS = {
@@ -38,28 +38,20 @@ STATES = 2
 
 
 def golden(text, rng):
-    model = mujoco.MjModel.from_xml_string(text)
-    model.dof_armature[:] = 0
-    mujoco.mj_setConst(model, mujoco.MjData(model))
-    conversion = Conversion(model, followers(model))
+    conversion = compiled(mujoco.MjModel.from_xml_string(text))
+    model = conversion.model
     states = []
     for _ in range(STATES):
         q, own = conversion.random(rng)
         v = rng.uniform(-1, 1, model.nv - len(conversion.followers))
-        turn, rates = conversion.map(q, v)
-        data = mujoco.MjData(model)
-        data.qpos[:], data.qvel[:] = q, turn @ v
-        mujoco.mj_forward(model, data)
-        full, h = np.zeros((model.nv, model.nv)), np.zeros(model.nv)
-        mujoco.mj_fullM(model, data, full)
-        mujoco.mj_rne(model, data, 0, h)
+        mass, bias, data = reference(conversion, q, v)
         sites = {model.site(i).name: [*data.site_xmat[i], *data.site_xpos[i]] for i in range(model.nsite)}
         states.append(
             {
                 "q": list(own),
                 "v": v.tolist(),
-                "mass_matrix": (turn.T @ full @ turn).ravel().tolist(),
-                "bias": (turn.T @ (full @ rates + h)).tolist(),
+                "mass_matrix": mass.ravel().tolist(),
+                "bias": bias.tolist(),
                 "sites": sites,
             }
         )

@@ -5,7 +5,7 @@ use super::content::{Content, Item};
 use super::inertial;
 use super::joints::{self, MjcfJoint};
 use super::pose::{between, placement};
-use super::settings::FromGeoms;
+use super::settings::{FromGeoms, one_of};
 use super::solids::{self, Part};
 use crate::import::model::{Frame, Inertial, Link};
 use crate::import::naming::{free_name, shown};
@@ -104,7 +104,7 @@ impl Builder<'_> {
         let zero = |text: &str| text.parse() == Ok(0.0);
         if let Some(value) = compensation.filter(|text| !zero(text)) {
             let item = format!("`{name}` ({})", shown(value));
-            let kind = "compensation of gravity (gravcomp), not taken over";
+            let kind = "compensation of gravity (gravcomp), not imported";
             self.report.groups.add(kind, item);
         }
     }
@@ -112,10 +112,31 @@ impl Builder<'_> {
     fn joint(&mut self, item: &Item<'_>) -> Result<MjcfJoint> {
         self.report.known(item.element);
         let element = match item.element.name.as_str() {
-            "freejoint" => item.element.clone(),
+            "freejoint" => {
+                self.note_alignment(item.element)?;
+                item.element.clone()
+            }
             _ => self.defaults.apply(item.element, item.class)?,
         };
         joints::read(&element, &item.frame, self.settings, self.report)
+    }
+
+    /// Reports a free joint for which MuJoCo moves the body's frame.
+    fn note_alignment(&mut self, element: &Element) -> Result<()> {
+        let aligned = match element.get("align") {
+            None | Some("auto") => self.settings.align_free,
+            Some(_) => one_of(element, "align", &[("true", true), ("false", false)])?,
+        };
+        if aligned {
+            let kind = "free joints that MuJoCo aligns with the inertia of their body (`align`): here q is the \
+                        pose of the body's own frame, and v and M are about its origin";
+            let name = element.get("name").map_or_else(
+                || format!("line {}", element.at.0),
+                |name| format!("`{}`", shown(name)),
+            );
+            self.report.groups.add(kind, name);
+        }
+        Ok(())
     }
 
     /// Returns the inertia of a body, in its own axes.
@@ -146,7 +167,7 @@ impl Builder<'_> {
             self.report.geom(matches!(part, Part::Solid(_)));
             match part {
                 Part::Nothing => {}
-                Part::Unknown(what) => unknown.push(what),
+                Part::Unknown(what) => unknown.push((item.element.at, what)),
                 Part::Solid(solid) => {
                     let mut solid = *solid;
                     solid.pose = item.frame.pose().then(&solid.pose);
@@ -155,11 +176,14 @@ impl Builder<'_> {
             }
         }
         let label = shown(name);
-        if !unknown.is_empty() && (moves || self.settings.total_mass.is_some()) {
-            let at = content.geoms.first().map_or((1, 1), |it| it.element.at);
-            let item = format!("`{label}` ({})", unknown.join(", "));
-            self.report.shapes.push((at, item));
+        if let Some((at, _)) = unknown.first()
+            && (moves || self.settings.total_mass.is_some())
+        {
+            let what: Vec<&str> = unknown.iter().map(|(_, what)| what.as_str()).collect();
+            let item = format!("`{label}` ({})", what.join(", "));
+            self.report.shapes.push((*at, item));
         } else if !unknown.is_empty() {
+            self.model.incomplete.push(name.to_owned());
             let kind = "bodies that do not move, without the inertia of their meshes";
             self.report.groups.add(kind, format!("`{label}`"));
         }
@@ -180,7 +204,7 @@ impl Builder<'_> {
             let site = self.defaults.apply(item.element, item.class)?;
             let Some(name) = site.get("name") else {
                 self.report.groups.add(
-                    "sites without a name, not taken over",
+                    "sites without a name, not imported",
                     format!("line {}", site.at.0),
                 );
                 continue;

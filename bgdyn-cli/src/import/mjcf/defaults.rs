@@ -8,7 +8,7 @@ use anyhow::Result;
 use std::collections::HashMap;
 
 /// The elements whose defaults are read.
-const KINDS: [&str; 3] = ["joint", "geom", "site"];
+const KINDS: [&str; 4] = ["joint", "geom", "site", "equality"];
 
 /// The class of elements without one.
 const MAIN: &str = "main";
@@ -18,7 +18,7 @@ type ClassAttributes = Vec<(String, String)>;
 /// All classes with their attributes, those of outer classes included.
 pub(super) struct Defaults {
     /// By class: an element for each of [`KINDS`].
-    classes: HashMap<String, [ClassAttributes; 3]>,
+    classes: HashMap<String, [ClassAttributes; 4]>,
     main: String,
 }
 
@@ -46,7 +46,7 @@ impl Defaults {
         &mut self,
         name: &str,
         element: &Element,
-        outer: [ClassAttributes; 3],
+        outer: [ClassAttributes; 4],
         report: &mut Report,
     ) -> Result<()> {
         let mut own = outer;
@@ -56,13 +56,17 @@ impl Defaults {
                 overlay(attributes, &child.attributes);
             }
         }
-        report.children(element, &["default", "joint", "geom", "site"]);
+        report.children(element, &["default", "joint", "geom", "site", "equality"]);
         self.classes.insert(name.to_owned(), own.clone());
         for nested in element.all("default") {
             let Some(class) = nested.get("class") else {
                 let message = "this nested `<default>` names no class: `class=…` is missing";
                 return Err(fault(nested.at, message));
             };
+            if self.classes.contains_key(class) {
+                let message = format!("a second default class `{}`", shown(class));
+                return Err(fault(nested.at, message));
+            }
             self.add(class, nested, own.clone(), report)?;
         }
         Ok(())
@@ -71,12 +75,22 @@ impl Defaults {
     /// Returns an element with the attributes of its class: its own, else that of the nearest `childclass`,
     /// else the outermost one.
     pub(super) fn apply(&self, element: &Element, childclass: Option<&str>) -> Result<Element> {
+        self.apply_kind(element, &element.name, childclass)
+    }
+
+    /// Returns an element with the attributes of its class for elements of this kind.
+    pub(super) fn apply_kind(
+        &self,
+        element: &Element,
+        kind: &str,
+        childclass: Option<&str>,
+    ) -> Result<Element> {
         let class = element.get("class").or(childclass).unwrap_or(&self.main);
         let Some(attributes) = self.classes.get(class) else {
             let message = format!("there is no default class `{}`", shown(class));
             return Err(fault(element.at, message));
         };
-        let kind = KINDS.iter().position(|kind| *kind == element.name);
+        let kind = KINDS.iter().position(|known| *known == kind);
         let mut merged = kind.map_or(Vec::new(), |kind| attributes[kind].clone());
         overlay(&mut merged, &element.attributes);
         Ok(Element {

@@ -1,5 +1,6 @@
 //! Equality constraints: linear ones between two joints become followers.
 
+use super::defaults::Defaults;
 use super::report::Report;
 use super::settings::one_of;
 use crate::import::attributes::finite;
@@ -9,13 +10,15 @@ use crate::import::number::Num;
 use crate::import::xml::Element;
 use anyhow::Result;
 
-const NOT_LINEAR: &str = "equality constraints that are no linear relation of two joints with one coordinate, not taken over";
+const NOT_LINEAR: &str = "equality constraints that are no linear relation of two joints with one coordinate, not imported";
+const FOLLOWS: &str =
+    "equality constraints of joints that follow another one already, or in a circle, not imported";
 
 /// Reads all `<equality>` elements. `references` are those of the joints with one coordinate, by name.
 pub(super) fn read(
     root: &Element,
     model: &mut Model,
-    references: &[(String, Num)],
+    (references, defaults): (&[(String, Num)], &Defaults),
     report: &mut Report,
 ) -> Result<()> {
     for section in root.all("equality") {
@@ -35,10 +38,11 @@ pub(super) fn read(
                 },
                 element.at.0
             );
+            let element = &defaults.apply_kind(element, "equality", None)?;
             if element.get("active").is_some()
                 && !one_of(element, "active", &[("true", true), ("false", false)])?
             {
-                let kind = "equality constraints that are not active, not taken over";
+                let kind = "equality constraints that are not active, not imported";
                 report.groups.add(kind, label);
                 continue;
             }
@@ -48,7 +52,8 @@ pub(super) fn read(
                     let kind = "exact here, while MuJoCo holds them by a soft constraint";
                     report.groups.add(kind, item);
                 }
-                _ => report.groups.add(NOT_LINEAR, label),
+                Some(_) => report.groups.add(FOLLOWS, label),
+                None => report.groups.add(NOT_LINEAR, label),
             }
         }
     }
@@ -64,7 +69,10 @@ fn relation(element: &Element, references: &[(String, Num)]) -> Result<Option<(S
         single.attributes.push(("polycoef".into(), word.into()));
         coefficients.push(finite(&single, "polycoef")?);
     }
-    coefficients.resize(5, Num::zero());
+    // The defaults 0 1 0 0 0 hold for those that are not given.
+    let defaults = ["0", "1", "0", "0", "0"];
+    let missing = defaults.iter().skip(coefficients.len());
+    coefficients.extend(missing.filter_map(|text| Num::parse(text)));
     let [constant, ratio, rest @ ..] = coefficients.as_slice() else {
         return Ok(None);
     };

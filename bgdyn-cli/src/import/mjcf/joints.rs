@@ -96,7 +96,7 @@ pub(super) fn read(
             if acts(element, attribute) {
                 let value = shown(element.get(attribute).unwrap_or_default().trim());
                 let item = format!("{attribute} {value} of {label}");
-                let kind = "of ball and free joints, not taken over";
+                let kind = "of ball and free joints, not imported";
                 report.groups.add(kind, item);
             }
         }
@@ -117,7 +117,11 @@ fn acts(element: &Element, attribute: &str) -> bool {
 fn limits(element: &Element, settings: &Settings, angle: &impl Fn(Num) -> Num) -> Result<Limits> {
     let ranged = element.get("range").is_some();
     let limited = match element.get("limited") {
-        None | Some("auto") => ranged && settings.autolimits,
+        // A range that is empty limits nothing: so a joint undoes the range of its class.
+        None | Some("auto") => {
+            let wide = |[lower, upper]: [Num; 2]| lower.value < upper.value;
+            ranged && settings.autolimits && wide(numbers::<2>(element, "range")?)
+        }
         Some(_) => one_of(element, "limited", &[("true", true), ("false", false)])?,
     };
     if !limited {
@@ -150,14 +154,14 @@ fn effects(
         if text.split_whitespace().count() > 1 {
             // Coefficients of a polynomial.
             let item = format!("{attribute} {} of {label}", shown(text.trim()));
-            let kind = "polynomials, not taken over";
+            let kind = "polynomials, not imported";
             report.groups.add(kind, item);
             return Ok(None);
         }
         let number = finite(element, attribute)?;
         if number.value < 0.0 {
             let item = format!("{attribute} {} of {label}", number.text);
-            report.groups.add("negative, not taken over", item);
+            report.groups.add("negative, not imported", item);
             return Ok(None);
         }
         Ok(Some(number))

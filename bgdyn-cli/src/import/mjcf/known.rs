@@ -41,7 +41,8 @@ const INERTIAL: &[&str] = &["mass", "diaginertia", "fullinertia"];
 pub(super) fn known(element: &str) -> Vec<&'static str> {
     match element {
         "joint" => JOINT.to_vec(),
-        "freejoint" => vec!["name"],
+        "freejoint" => vec!["name", "align"],
+        "equality" => vec!["active"],
         "geom" => [POSE, GEOM].concat(),
         "site" => [POSE, &["name", "class", "fromto"]].concat(),
         "body" => [POSE, &["name", "childclass", "mocap", "gravcomp"]].concat(),

@@ -2,7 +2,7 @@
 //!
 //! Included files (`include`) → settings (`settings`) and default classes (`defaults`) → the tree of bodies
 //! (`builder`, `bodies`, `content`, `mount`), with poses (`pose`), joints (`joints`), inertia given
-//! (`inertial`) or that of geoms (`solids`) → followers (`equality`). `report` counts what is not taken over.
+//! (`inertial`) or that of geoms (`solids`) → followers (`equality`). `report` counts what is not imported.
 //!
 //! A body's link has its origin at the anchor of the body's last joint, since the axes of a link are those of
 //! its joint; MuJoCo's body frame may be anywhere.
@@ -77,6 +77,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
         links: Vec::new(),
         joints: Vec::new(),
         frames: Vec::new(),
+        incomplete: Vec::new(),
         warnings: Vec::new(),
     };
     let mut builder = Builder {
@@ -104,7 +105,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
         let item = format!("{} kg, by {factor}", total.text);
         report.groups.add("masses scaled to `settotalmass`", item);
     }
-    equality::read(&root, &mut model, &references, &mut report)?;
+    equality::read(&root, &mut model, (&references, &defaults), &mut report)?;
     for section in &root.children {
         let name = section.name.as_str();
         if SECTIONS.contains(&name) {

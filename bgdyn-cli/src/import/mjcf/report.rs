@@ -19,7 +19,7 @@ pub(super) struct Report {
     /// Elements with the attributes that are not read and their counts.
     attributes: Vec<(String, Vec<(String, usize)>)>,
     refused: Vec<(At, String)>,
-    /// Bodies that move and have their inertia from shapes whose inertia is not computed here.
+    /// Bodies that need their inertia and have it from shapes whose inertia is not computed here.
     pub(super) shapes: Vec<(At, String)>,
     geoms: usize,
     solid_geoms: usize,
@@ -66,7 +66,7 @@ impl Report {
         }
     }
 
-    /// Counts an element that is not taken over.
+    /// Counts an element that is not imported.
     pub(super) fn element(&mut self, element: &Element, inside: &str) {
         let what = format!("`<{}>` in `<{}>`", shown(&element.name), shown(inside));
         self.elements.count(what, 0);
@@ -104,8 +104,8 @@ impl Report {
             more => format!(", and {more} more"),
         };
         let bodies = match self.shapes.len() {
-            1 => "a moving body".to_owned(),
-            count => format!("{count} moving bodies"),
+            1 => "a body".to_owned(),
+            count => format!("{count} bodies"),
         };
         Some((
             *at,
@@ -122,7 +122,7 @@ impl Report {
         let mut lines: Vec<String> = self.groups.lines().collect();
         if self.geoms > 0 {
             lines.push(format!(
-                "not taken over: the shapes of {}, for contacts and drawing; {} of them gave bodies their inertia",
+                "not imported: the shapes of {}, for contacts and drawing; {} of them gave bodies their inertia",
                 plural(self.geoms, "geom"),
                 self.solid_geoms
             ));
@@ -134,7 +134,7 @@ impl Report {
                 .map(|(name, count)| format!("{} ({count})", shown(name)))
                 .collect();
             lines.push(format!(
-                "not taken over: attributes of `<{}>`: {}",
+                "not imported: attributes of `<{}>`: {}",
                 shown(&element),
                 attributes.join(", ")
             ));

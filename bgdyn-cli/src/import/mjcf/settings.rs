@@ -38,6 +38,8 @@ pub(super) struct Settings {
     /// Whether a tensor that breaks the triangle inequality is replaced by that of a ball.
     pub(super) balance: bool,
     pub(super) total_mass: Option<Num>,
+    /// Whether free joints are aligned with the inertia of their body unless they say otherwise.
+    pub(super) align_free: bool,
 }
 
 /// Attributes of `<compiler>` that change numbers or frames of the mechanism.
@@ -52,6 +54,7 @@ const READ: &[&str] = &[
     "boundinertia",
     "balanceinertia",
     "settotalmass",
+    "alignfree",
 ];
 
 impl Settings {
@@ -67,6 +70,7 @@ impl Settings {
             least_inertia: 0.0,
             balance: false,
             total_mass: None,
+            align_free: false,
         };
         for element in root.all("compiler") {
             report.attributes(element, READ);
@@ -112,6 +116,9 @@ impl Settings {
         let truth = [("false", false), ("true", true)];
         if element.get("autolimits").is_some() {
             self.autolimits = one_of(element, "autolimits", &truth)?;
+        }
+        if element.get("alignfree").is_some() {
+            self.align_free = one_of(element, "alignfree", &truth)?;
         }
         if element.get("balanceinertia").is_some() {
             self.balance = one_of(element, "balanceinertia", &truth)?;
