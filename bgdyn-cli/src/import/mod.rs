@@ -1,7 +1,8 @@
 //! `bgdyn import`: converts a URDF, an MJCF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
 //! Text → elements with their positions (`xml`) → the part that a mechanism can represent; the rest is
-//! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of a table `dh`) → changes by options (`rework`) →
+//! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of a table `dh`), with planes
+//! (`planar`), followers (`mimic`), `limits` and `effects` → changes by options (`rework`: `locks`, `base`) →
 //! their order (`tree`) and names (`naming`) → YAML (`writing`). `doubts` warns about suspicious data,
 //! `placement` computes poses.
 

@@ -129,7 +129,7 @@ fn each_refusal_says_where_and_what() {
         ),
         (
             geom("size='-1'"),
-            "`size` of this `<geom>` of type sphere needs 1 numbers above 0",
+            "`size` of this `<geom>` of type sphere needs 1 number above 0",
         ),
         (
             geom("type='capsule' size='1' fromto='1 1 1 1 1 1'"),

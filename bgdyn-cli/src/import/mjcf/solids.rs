@@ -7,6 +7,7 @@ use crate::import::model::Inertial;
 use crate::import::naming::shown;
 use crate::import::number::Num;
 use crate::import::placement::{Placement, Pose};
+use crate::import::tally::plural;
 use crate::import::xml::{Element, fault};
 use anyhow::Result;
 use bgdyn_codegen::math::{Mat3, Vec3};
@@ -117,9 +118,8 @@ fn shape(geom: &Element, kind: &str, settings: &Settings) -> Result<(Shape, Pose
         let given = sizes.get(index).map(Num::exact);
         let fits = given.filter(|size| size.to_f64() > 0.0);
         fits.ok_or_else(|| {
-            let count = index + 1;
-            let what =
-                format!("`size` of this `<geom>` of type {kind} needs {count} numbers above 0");
+            let count = plural(index + 1, "number");
+            let what = format!("`size` of this `<geom>` of type {kind} needs {count} above 0");
             fault(geom.at, what)
         })
     };
