@@ -1,7 +1,6 @@
 //! Runs in lanes: each lane is the run alone, bit for bit.
 
 use bgdyn::nalgebra::SVector;
-use bgdyn::runtime::HybridSystem;
 use bgdyn::runtime::wide::f64x4;
 use bgdyn_sim::lanes::{LaneRun, SmoothScene, packed, unpacked};
 use bgdyn_sim::{HybridState, Integrator, Rk4, Run, ScenePlant, SemiImplicitEuler};
