@@ -32,6 +32,7 @@
 
 mod argument;
 mod arrays;
+mod base_motion;
 mod dd;
 mod description;
 #[cfg(feature = "num-dual")]
@@ -59,6 +60,7 @@ mod two_sum;
 
 pub use argument::{Argument, Look};
 pub use arrays::{inner_products, matrix, mirror, vector};
+pub use base_motion::BaseMotion;
 pub use dd::{Dd, Digits, ParseDdError};
 pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
 #[cfg(feature = "num-dual")]

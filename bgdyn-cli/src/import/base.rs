@@ -1,4 +1,4 @@
-//! `--base`: a joint between the world and the robot.
+//! `--base`: a joint between the world and the robot, or a base whose motion is given.
 
 use super::joint_type::JointType;
 use super::model::{Joint, Model};
@@ -19,21 +19,21 @@ pub enum Base {
     Floating,
     /// On a planar joint: x and y of the world, and the turn about z
     Planar,
-    /// Moved by a given motion: not yet generated
+    /// On a base whose motion is given at run time
     Given,
 }
 
 /// Puts a joint between the world and the only link without a joint. At a neutral position the link is where
-/// it was fixed.
+/// it was fixed. A base whose motion is given takes the place of the world.
 pub(super) fn free(model: &mut Model, tree: &Tree, base: Base) -> Result<()> {
     let kind = match base {
         Base::Fixed => return Ok(()),
         Base::Floating => JointType::Floating,
         Base::Planar => JointType::Planar,
-        Base::Given => bail!(
-            "--base given: a base whose motion is an argument cannot be generated yet; \
-             `--base floating` makes its motion part of the state"
-        ),
+        Base::Given => {
+            model.moving_base = true;
+            return Ok(());
+        }
     };
     if !model.incomplete.is_empty() {
         let names = model

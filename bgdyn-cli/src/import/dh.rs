@@ -65,6 +65,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
         name: name.to_owned(),
         source: "a table of Denavit–Hartenberg parameters".into(),
         gravity: None,
+        moving_base: false,
         links: vec![base()],
         joints: Vec::new(),
         frames: Vec::new(),

@@ -13,6 +13,8 @@ pub(super) struct Model {
     pub(super) source: String,
     /// Acceleration of free fall in world axes, m/s²; `None` for the default of a mechanism.
     pub(super) gravity: Option<[Num; 3]>,
+    /// Whether the motion of the base is given at run time.
+    pub(super) moving_base: bool,
     pub(super) links: Vec<Link>,
     /// In the order of the file.
     pub(super) joints: Vec<Joint>,

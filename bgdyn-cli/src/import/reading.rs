@@ -30,6 +30,7 @@ pub(super) fn read(root: &Element) -> Result<Model> {
         name: root.get("name").unwrap_or_default().to_string(),
         source: "a URDF".into(),
         gravity: None,
+        moving_base: false,
         links,
         joints,
         frames: Vec::new(),

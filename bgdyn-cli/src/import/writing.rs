@@ -41,6 +41,9 @@ pub(super) fn head(model: &Model, snap: Option<&str>) -> String {
     if let Some(gravity) = &model.gravity {
         text += &format!("gravity: {}\n", list(gravity));
     }
+    if model.moving_base {
+        text += "base: given\n";
+    }
     text + "\nlinks:\n"
 }
 

@@ -18,6 +18,13 @@ pub fn mechanism() -> Value {
                 described("the name elsewhere (a URDF's, a drawing's)", text()),
             ),
             (
+                "base",
+                described(
+                    "whether the base is at rest, or its motion is given at run time; fixed without it",
+                    json!({ "enum": ["fixed", "given"] }),
+                ),
+            ),
+            (
                 "gravity",
                 described(
                     "acceleration of free fall in world axes; [0, 0, -9.81] m/s² without it",

@@ -94,6 +94,8 @@ fn a_base_moves_when_the_option_says_so() {
     let yaml = bgdyn(&["import", &file, "--base", "floating"]).good();
     let checked = bgdyn(&["check", &scratch("import_base", "made.yaml", &yaml)]).good();
     assert!(checked.contains("NQ 9, NV 8"), "{checked}");
-    let refused = bgdyn(&["import", &file, "--base", "given"]).bad_input();
-    assert!(refused.contains("--base given: "), "{refused}");
+    let given = bgdyn(&["import", &file, "--base", "given"]).good();
+    assert!(given.contains("\nbase: given\n"), "{given}");
+    let given = scratch("import_base", "given.yaml", &given);
+    assert!(bgdyn(&["check", &given]).good().contains("2 joints"));
 }

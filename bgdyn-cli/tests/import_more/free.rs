@@ -284,8 +284,6 @@ fn a_base_that_cannot_move_is_refused() {
         base: Some(base),
         ..Options::default()
     };
-    let told = error(&chain(["", ""]), &with(Base::Given));
-    assert!(told.starts_with("--base given: "), "{told}");
     let two = chain(["", ""]).replace(
         "<link name='ground'/>",
         "<link name='ground'/><link name='stone'/>",

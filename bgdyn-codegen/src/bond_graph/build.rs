@@ -21,6 +21,7 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
             frames: links.iter().map(frame).collect(),
             inertials: links.iter().map(|link| link.inertial).collect(),
             gravity: mechanism.gravity(),
+            base: mechanism.base().copied(),
             rotors: Vec::new(),
             velocity_products: true,
             parameters: mechanism.parameters().to_vec(),

@@ -4,7 +4,9 @@ use bgdyn_runtime::Dd;
 
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::joint::{Column, DoubleDouble, JointConstants};
-use crate::mechanism::{CoordinateId, Degrees, Inertial, LinkId, Motion, Parameter, Pose, Value};
+use crate::mechanism::{
+    BaseMotion, CoordinateId, Degrees, Inertial, LinkId, Motion, Parameter, Pose, Value,
+};
 
 /// An index into [`Multibody::sites`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -129,6 +131,8 @@ pub struct Multibody {
     pub inertials: Vec<Inertial>,
     /// Gravity, m/s², fixed axes.
     pub gravity: Vec3<Dd>,
+    /// The motion of the base, if it is given at run time; then the first frame is that of the base.
+    pub base: Option<BaseMotion>,
     /// Rotors behind gears.
     pub rotors: Vec<Rotor>,
     /// Whether the transformers' rates are included: Coriolis, centrifugal and gyroscopic efforts.
@@ -146,13 +150,14 @@ impl Multibody {
         found.map(CoordinateId)
     }
 
-    /// Returns whether every joint is a rotation or a translation with a position and a velocity of its own:
-    /// then q and v have the same components.
+    /// Returns whether every joint is a rotation or a translation with a position and a velocity of its own,
+    /// on a base at rest: then q and v have the same components, and the efforts depend on nothing else.
     pub fn plain(&self) -> bool {
         self.first_compound().is_none()
     }
 
-    /// Returns the first link whose joint has several degrees of freedom, a lead, or `mimic`.
+    /// Returns the first link whose joint has several degrees of freedom, a lead, or `mimic`; the base if its
+    /// motion is given.
     pub fn first_compound(&self) -> Option<&LinkFrame> {
         let plain = |f: &&LinkFrame| f.coordinate.is_some() || f.motion == Motion::None;
         self.frames.iter().find(|frame| !plain(frame))

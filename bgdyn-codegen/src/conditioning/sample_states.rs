@@ -14,7 +14,7 @@ use crate::bond_graph::{BondGraph, Multibody};
 use crate::expr::Inputs;
 use crate::formulation::geometry::{Body, angle_of, geometry};
 use crate::math::Vec3;
-use crate::mechanism::{Motion, Value};
+use crate::mechanism::{BaseMotion, Motion, ParameterId, Value};
 use crate::random::Random;
 
 /// Number of random states.
@@ -151,16 +151,25 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     };
     let mut q = all(nq, &turn);
     normalize(graph, &mut q);
+    let (v, a, u) = (
+        all(nv, &|_| 2.0 * fast),
+        all(nv, &|_| 5.0),
+        all(nv, &|_| 10.0 * forced),
+    );
+    let parameters = graph.parameters.iter();
+    let mut parameters: Vec<f64> = parameters.map(|p| p.default.to_f64()).collect();
+    let base = graph.base.iter().flat_map(BaseMotion::numbers);
+    for (value, size) in base.zip([2.0 * fast; 3].into_iter().chain([10.0; 6])) {
+        if let Value::Parameter(ParameterId(p)) = value {
+            parameters[p] = random.signed() * size;
+        }
+    }
     Inputs {
         q,
-        v: all(nv, &|_| 2.0 * fast),
-        a: all(nv, &|_| 5.0),
-        u: all(nv, &|_| 10.0 * forced),
-        parameters: graph
-            .parameters
-            .iter()
-            .map(|p| p.default.to_f64())
-            .collect(),
+        v,
+        a,
+        u,
+        parameters,
         ..Inputs::default()
     }
 }

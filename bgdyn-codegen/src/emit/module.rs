@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::base_access::base_access;
 use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
@@ -37,6 +38,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let traits = traits.tokens();
     let access = joint_access(&model.mechanism);
     let (ranges, poses) = (access.constants, access.functions);
+    let base = base_access(model.mechanism.base().is_some());
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*
@@ -59,6 +61,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
                 #poses
+                #base
                 #explainers
             }
             #traits

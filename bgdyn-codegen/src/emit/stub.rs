@@ -7,6 +7,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::base_access::base_access;
 use super::constants::{operations, size};
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
@@ -45,6 +46,7 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
         joints: (interface.certain).then(|| vec![JointSegment::PLAIN; interface.joints.len()]),
     };
     let traits = traits.tokens();
+    let base = base_access(interface.base);
     let serde = serde(&model, interface.parameters.iter().map(String::as_str));
     quote! {
         #[doc = #doc]
@@ -66,6 +68,7 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
             #serde
             impl<T: __Scalar> #model<T> {
                 #(#methods)*
+                #base
             }
             #traits
             #operations

@@ -20,6 +20,8 @@ pub struct Spec {
     pub description: Field<String>,
     /// Acceleration of free fall, world axes.
     pub gravity: Field<Vector>,
+    /// `fixed`, `given`, or an invalid word.
+    pub base: Field<String>,
     /// Angle below which a direction is rounded to the exact one.
     pub snap: Field<Number>,
     /// The links; entries that are no mapping are omitted.

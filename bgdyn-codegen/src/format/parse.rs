@@ -28,6 +28,7 @@ impl Reader {
             "label",
             "description",
             "gravity",
+            "base",
             "snap",
             "links",
             "frames",
@@ -45,6 +46,7 @@ impl Reader {
             label: self.text_field(&map, "label"),
             description: self.text_field(&map, "description"),
             gravity: self.vector_field(&map, "gravity", &[Dimension::Acceleration]),
+            base: self.text_field(&map, "base"),
             snap: self.number_field(&map, "snap", &[Dimension::Angle]),
             links: self.needed(&map, "links", "`links: …`, the list of links", |r, at| {
                 Some(

@@ -2,8 +2,20 @@
 
 use crate::bond_graph::{Multibody, Rotor};
 use crate::expr::{Builder, Expr, Leaf};
-use crate::mechanism::{ParameterId, Value};
+use crate::math::Vec3;
+use crate::mechanism::{BaseMotion, ParameterId, Value};
 use crate::method::{Argument, Method};
+
+/// The motion of a base that is given at run time, in base axes.
+#[derive(Clone, Copy)]
+pub(super) struct BaseState<'g> {
+    /// ω, rad/s.
+    pub omega: Vec3<Expr<'g>>,
+    /// ω̇, rad/s².
+    pub omega_dot: Vec3<Expr<'g>>,
+    /// Acceleration of the base's origin less gravity, m/s².
+    pub acceleration: Vec3<Expr<'g>>,
+}
 
 /// The arguments of a method as expressions; quantities that are no arguments are zero.
 pub(super) struct Arguments<'g> {
@@ -17,6 +29,8 @@ pub(super) struct Arguments<'g> {
     pub tau: Vec<Expr<'g>>,
     /// Whether the active efforts are included.
     pub active: bool,
+    /// The motion of the base, for methods that depend on it.
+    pub base: Option<BaseState<'g>>,
 }
 
 impl<'g> Arguments<'g> {
@@ -39,7 +53,35 @@ impl<'g> Arguments<'g> {
             a: read(takes(Argument::A), Leaf::Acceleration),
             tau: read(takes(Argument::Tau), Leaf::Input),
             active: true,
+            base: graph
+                .base
+                .filter(|_| moves_with_base(method))
+                .map(|motion| base_state(b, &motion)),
         }
+    }
+}
+
+/// Returns whether a method depends on the motion of the base: efforts and accelerations do; poses,
+/// velocities and energies are relative to the base.
+fn moves_with_base(method: Method) -> bool {
+    matches!(
+        method,
+        Method::InverseDynamics
+            | Method::Bias
+            | Method::Gravity
+            | Method::ForwardDynamics
+            | Method::CoriolisMatrix
+            | Method::InverseDynamicsDerivatives
+            | Method::ForwardDynamicsDerivatives
+    )
+}
+
+fn base_state<'g>(b: &'g Builder, motion: &BaseMotion) -> BaseState<'g> {
+    let read = |v: Vec3<Value>| v.map(|x| value(b, x));
+    BaseState {
+        omega: read(motion.angular_velocity),
+        omega_dot: read(motion.angular_acceleration),
+        acceleration: read(motion.specific_force),
     }
 }
 

@@ -3,6 +3,7 @@
 mod scene;
 
 use crate::format::{Field, LinkSpec, Spec};
+use crate::mechanism::base_parameter_names;
 use crate::mechanism::joint::{JOINT_TYPES, JointType, Motion};
 use crate::name::is_identifier;
 pub use scene::SceneInterface;
@@ -20,6 +21,8 @@ pub struct Interface {
     pub frames: Vec<String>,
     /// Names of the run-time parameters.
     pub parameters: Vec<String>,
+    /// Whether the motion of the base is given at run time.
+    pub base: bool,
     /// Whether the corrected spec will certainly have this number of joints.
     pub certain: bool,
 }
@@ -41,9 +44,14 @@ impl Interface {
                 links: vec![],
                 frames: vec![],
                 parameters: parameter_words(text),
+                base: false,
                 certain: false,
             });
         };
+        let word = spec.as_ref().and_then(|spec| spec.base.value());
+        let base = word.is_some_and(|word| word == "given");
+        let mut parameters = parameter_words(text);
+        parameters.extend(base.then(base_parameter_names).into_iter().flatten());
         Some(Interface {
             name: stem.into(),
             joints: links.iter().filter_map(moving_joint).collect(),
@@ -52,7 +60,8 @@ impl Interface {
                 .map(|l| l.name.value().cloned().unwrap_or_default())
                 .collect(),
             frames: spec.as_ref().map(frames).unwrap_or_default(),
-            parameters: parameter_words(text),
+            parameters,
+            base,
             certain: links.iter().all(is_plain)
                 && !faults.0.iter().any(|f| shapes_the_tree(&f.path)),
         })

@@ -12,7 +12,8 @@ mod solid;
 
 use bgdyn_runtime::Dd;
 
-use super::{Frame, Inertial, Link, LinkId, Mechanism, Tensor, Value};
+use super::base_motion::{BaseMotion, base_link};
+use super::{BASE_PARAMETERS, Frame, Inertial, Link, LinkId, Mechanism, Tensor, Value};
 use crate::fault::{Faults, wording};
 use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
@@ -56,20 +57,29 @@ pub(crate) fn check(
         .map(|f| frame(f, &tree, &directions, faults))
         .collect();
     let gravity = direction::vector_or(&spec.gravity, standard_gravity());
+    let given = base_is_given(spec, &parameters, faults);
     let whole = || {
-        let (links, places) = assemble(bodies, &tree, faults)?;
+        let (links, places) = assemble(bodies, &tree, given, faults)?;
         let mut frames = all(frames)?;
         for frame in &mut frames {
             frame.link = frame.link.and_then(|LinkId(i)| places.get(i).copied());
         }
+        let gravity = gravity?;
+        let mut parameters = parameters.into_all();
+        let base = given.then(|| {
+            let (motion, own) = BaseMotion::at_rest(gravity, parameters.len());
+            parameters.extend(own);
+            motion
+        });
         let mut mechanism = Mechanism {
             name: name?,
             label: text(&spec.label),
             description: text(&spec.description),
-            gravity: gravity?,
+            gravity,
             links,
             frames,
-            parameters: parameters.into_all(),
+            parameters,
+            base,
             coordinates: Vec::new(),
             positions: Vec::new(),
             snapped: directions.into_snapped(),
@@ -89,6 +99,29 @@ fn format(spec: &Spec, faults: &mut Faults) {
             &format.value.text,
             FORMAT,
         ));
+    }
+}
+
+/// Returns whether the motion of the base is given at run time. Its parameters are fields of their own.
+fn base_is_given(spec: &Spec, parameters: &Parameters<'_>, faults: &mut Faults) -> bool {
+    let Some(base) = spec.base.given() else {
+        return false;
+    };
+    match base.value.as_str() {
+        "fixed" => false,
+        "given" => {
+            for (name, location) in parameters.names() {
+                let taken = |(own, ..): &(&str, &str, &str)| name.starts_with(own);
+                if BASE_PARAMETERS.iter().any(taken) {
+                    faults.push(wording::parameter_of_base(location, name));
+                }
+            }
+            true
+        }
+        other => {
+            faults.push(wording::unknown_base(&base.location, other));
+            false
+        }
     }
 }
 
@@ -176,14 +209,20 @@ fn frame(
 }
 
 /// Returns the links in their order, each after the massless links of its chain of joints, and the place
-/// of each link of the tree among them.
+/// of each link of the tree among them. If the motion of the base is given, the first is the base.
 fn assemble(
     mut bodies: Vec<Option<CheckedLink>>,
     tree: &LinkTree<'_>,
+    given: bool,
     faults: &mut Faults,
 ) -> Option<(Vec<Link>, Vec<LinkId>)> {
-    let mut links: Vec<Link> = Vec::with_capacity(bodies.len());
+    let mut links: Vec<Link> = Vec::with_capacity(bodies.len() + 1);
     let mut mimics: Vec<mimic::Given> = Vec::new();
+    let base = given.then_some(LinkId(0));
+    if given {
+        links.push(base_link(massless()));
+        mimics.push(None);
+    }
     // The place of each link of the tree among all links.
     let mut places: Vec<LinkId> = Vec::with_capacity(bodies.len());
     for &index in &tree.sequence {
@@ -194,7 +233,7 @@ fn assemble(
             inertial,
         } = bodies.get_mut(index)?.take()?;
         let mut parent = match tree.parent_id(index)? {
-            None => None,
+            None => base,
             // In a circle a parent has no place yet.
             Some(LinkId(p)) => Some(*places.get(p)?),
         };

@@ -3,6 +3,7 @@
 //! Only [`crate::machine::check`] can construct a [`Mechanism`]; no later step checks again or fails
 //! because of the user's input. PoseNumbers are double-double, parsed from the spec's decimals.
 
+mod base_motion;
 mod check;
 mod degrees;
 mod id;
@@ -17,6 +18,7 @@ use bgdyn_runtime::Dd;
 
 use crate::fault::Location;
 use crate::math::{Mat3, Vec3};
+pub use base_motion::{BASE_PARAMETERS, BaseMotion, base_parameter_names};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
 pub use degrees::{Degrees, Mimic};
@@ -198,6 +200,7 @@ pub struct Mechanism {
     links: Vec<Link>,
     frames: Vec<Frame>,
     parameters: Vec<Parameter>,
+    base: Option<BaseMotion>,
     coordinates: Vec<LinkId>,
     positions: Vec<LinkId>,
     snapped: Option<Snapped>,
@@ -237,6 +240,11 @@ impl Mechanism {
     /// Returns the run-time parameters, in the file's order.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
+    }
+
+    /// Returns the motion of the base, if it is given at run time.
+    pub fn base(&self) -> Option<&BaseMotion> {
+        self.base.as_ref()
     }
 
     /// Returns, for each coordinate, the link of its joint.

@@ -10,6 +10,7 @@ mod golden;
 mod invariance;
 mod laws;
 mod mimic;
+mod moving_base;
 mod noisy;
 mod order;
 mod robot;

@@ -74,6 +74,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
         name: root.get("model").unwrap_or_default().to_owned(),
         source: "an MJCF".into(),
         gravity: settings::gravity(&root, &mut report)?,
+        moving_base: false,
         links: Vec::new(),
         joints: Vec::new(),
         frames: Vec::new(),

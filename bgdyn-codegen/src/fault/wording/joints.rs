@@ -169,3 +169,18 @@ pub(crate) fn mimic_empty_range(
     Fault::new(location, "mimic-empty-range", message)
         .with_help("change `ratio`, `offset` or one of the limits")
 }
+
+pub(crate) fn unknown_base(location: &Location, word: &str) -> Fault {
+    let message = format!("`base` is `fixed` or `given`, not {}", quote(word));
+    Fault::new(location, "unknown-base", message).with_help(
+        "`fixed` is the default; with `given` the motion of the base is given at run time",
+    )
+}
+
+pub(crate) fn parameter_of_base(location: &Location, name: &str) -> Fault {
+    let message = format!(
+        "the parameter {} has a name that `base: given` uses for the motion of the base",
+        quote(name)
+    );
+    Fault::new(location, "parameter-of-base", message).with_help("choose another name")
+}

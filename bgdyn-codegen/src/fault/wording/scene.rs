@@ -16,6 +16,15 @@ pub(crate) fn mechanism_unreadable(location: &Location, path: &str, why: &str) -
         .with_help("write its path relative to the scene's folder")
 }
 
+pub(crate) fn moving_base(location: &Location, path: &str) -> Fault {
+    let message = format!(
+        "`{path}` has `base: given`: a scene computes the motion of its mechanism, the base included"
+    );
+    Fault::new(location, "moving-base", message).with_help(
+        "take a mechanism without `base: given`; for a base that moves, a root with a joint (`floating`, `planar`, …)",
+    )
+}
+
 pub(crate) fn no_inertia_in_scene(location: &Location, joint: &str) -> Fault {
     let message = format!(
         "in this scene the joint `{joint}` moves nothing that has inertia: its acceleration is undetermined"

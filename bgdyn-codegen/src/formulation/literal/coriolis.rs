@@ -4,6 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::sum::LiteralSum;
 use crate::expr::{Expr, Tangent};
+use crate::formulation::arguments::{Arguments, BaseState};
 use crate::formulation::joint_motion::{along, tangents};
 use crate::math::{Mat3, Vec3, skew};
 
@@ -14,7 +15,8 @@ impl<'g> LiteralSum<'_, 'g> {
     /// B = ½ ([ω]× J − J [ω]× − [J ω]×).
     ///
     /// For joints with q̇ = v it is the matrix of Christoffel's symbols.
-    pub(super) fn coriolis_matrix(&self, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(super) fn coriolis_matrix(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
+        let v = &x.v;
         let n = self.graph.coordinates.len();
         let mut matrix = vec![self.b.zero(); n * n];
         let mut rate = Tangent::new(along(tangents(self.b, self.graph, v)));
@@ -66,7 +68,43 @@ impl<'g> LiteralSum<'_, 'g> {
                 }
             }
         }
+        if let Some(base) = &x.base {
+            self.add_base(base, &mut matrix);
+        }
         matrix
+    }
+
+    /// Adds the gyroscopic efforts of a turning base, a skew matrix:
+    ///
+    /// G_jk = Σ_i [ ∂r_i/∂q_j · 2 m_i ω × ∂r_i/∂q_k + ρ_j · (J_i (ω × ρ_k) + ω × J_i ρ_k + ρ_k × J_i ω) ].
+    fn add_base(&self, base: &BaseState<'g>, matrix: &mut [Expr<'g>]) {
+        let n = self.graph.coordinates.len();
+        let mut add = |j: usize, k: usize, more: Expr<'g>| {
+            matrix[j * n + k] = matrix[j * n + k] + more;
+        };
+        let omega = base.omega;
+        for (i, moduli) in self.moduli.iter().enumerate() {
+            let (mass, tensor) = (self.mass(i), self.tensor(i));
+            for (k, y) in &moduli.linear {
+                let force = omega.cross(*y).scale(mass + mass);
+                let linear = moduli.linear.iter();
+                linear.for_each(|(j, x)| add(*j, *k, x.dot(force)));
+            }
+            for (k, y) in &moduli.angular {
+                let moment =
+                    tensor * omega.cross(*y) + omega.cross(tensor * *y) + y.cross(tensor * omega);
+                let angular = moduli.angular.iter();
+                angular.for_each(|(j, x)| add(*j, *k, x.dot(moment)));
+            }
+            for (l, h) in self.spinning(i) {
+                let moment = omega.cross(h);
+                for (j, x) in &moduli.angular {
+                    let effort = x.dot(moment);
+                    add(*j, l, effort);
+                    add(l, *j, -effort);
+                }
+            }
+        }
     }
 
     /// Returns B = ½ ([ω]× J − J [ω]× − [J ω]×).

@@ -59,7 +59,7 @@ impl Formulation for Literal {
                         .collect();
                     solve::ltdl(&b, mass, drive)
                 }
-                Method::CoriolisMatrix => sum.coriolis_matrix(&arguments.v),
+                Method::CoriolisMatrix => sum.coriolis_matrix(&arguments),
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => placed_sites::outputs(&b, graph, method, &arguments)?,

@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{BondGraph, Effort, JunctionId, LinkFrame, Modulus, Transformer};
 use crate::expr::{Builder, Expr, Tangent};
-use crate::formulation::arguments::{Arguments, reflected, spin, value};
+use crate::formulation::arguments::{Arguments, BaseState, reflected, spin, value};
 use crate::formulation::joint_motion::{along, tangents};
 use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
@@ -28,7 +28,7 @@ pub(super) struct LiteralSum<'a, 'g> {
     /// A_i, and the poses of the joints.
     placement: Placement<'g>,
     /// r_i: centres of mass.
-    positions: Vec<Vec3<Expr<'g>>>,
+    pub(super) positions: Vec<Vec3<Expr<'g>>>,
     pub(super) moduli: Vec<Moduli<'g>>,
 }
 
@@ -161,13 +161,22 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
                 let rates: Vec<_> = moduli.iter().map(|(k, m)| (*k, rate_of(m))).collect();
                 self.combine(moduli, &x.a) + self.combine(&rates, &x.v)
             };
-            let mut force = second(&moduli.linear).scale(self.mass(i));
-            if x.active {
+            let mut acceleration = second(&moduli.linear);
+            let mut omega = self.combine(&moduli.angular, &x.v);
+            let mut omega_dot = second(&moduli.angular);
+            if let Some(base) = &x.base {
+                let velocity = self.combine(&moduli.linear, &x.v);
+                acceleration =
+                    carried_acceleration(base, self.positions[i], velocity) + acceleration;
+                omega_dot = omega_dot + base.omega_dot + base.omega.cross(omega);
+                omega = omega + base.omega;
+            }
+            let mut force = acceleration.scale(self.mass(i));
+            if x.active && x.base.is_none() {
                 force = force - self.active_force(i);
             }
             // K̇_i = J_i ω̇_i + ω_i × (J_i ω_i)
-            let (omega, tensor) = (self.combine(&moduli.angular, &x.v), self.tensor(i));
-            let omega_dot = second(&moduli.angular);
+            let tensor = self.tensor(i);
             let mut moment = tensor * omega_dot + omega.cross(tensor * omega);
             // Adds K̇ of the rotors on the link, whose momentum is h_i = N J q̇_j e.
             for (j, h) in self.spinning(i) {
@@ -262,6 +271,17 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             sum - self.active_force(i).dot(self.positions[i])
         })
     }
+}
+
+/// Returns what the motion of the base adds to the acceleration of a point with this position and velocity
+/// relative to it, in base axes: f + ω̇ × r + ω × (ω × r) + 2 ω × ṙ. f contains gravity.
+fn carried_acceleration<'g>(
+    base: &BaseState<'g>,
+    position: Vec3<Expr<'g>>,
+    velocity: Vec3<Expr<'g>>,
+) -> Vec3<Expr<'g>> {
+    let around = base.omega.cross(position) + velocity + velocity;
+    base.acceleration + base.omega_dot.cross(position) + base.omega.cross(around)
 }
 
 // A coordinate's index is that of its junction: `Transformer::from` relies on it.

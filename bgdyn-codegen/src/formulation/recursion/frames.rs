@@ -31,6 +31,8 @@ pub(super) struct BodyFrame<'g> {
     pub motion: Motion,
     /// Whether its joint has one velocity, about or along z.
     pub axial: bool,
+    /// Whether it is a base whose motion is given: gravity is part of its acceleration.
+    pub given: bool,
     /// The columns of its joint's motion subspace.
     pub columns: Vec<JointColumn>,
     /// Whether it continues the basis of the parent: parallel axes, grouped.
@@ -61,8 +63,11 @@ pub(super) struct BodyFrame<'g> {
 }
 
 impl BodyFrame<'_> {
-    /// Returns whether the joint does not move.
+    /// Returns whether the joint does not move; a base whose motion is given counts as at rest.
     pub fn at_rest(&self, accelerated: bool) -> bool {
+        if self.given {
+            return true;
+        }
         let zero = |column: &Column<Expr<'_>>| {
             let mut all = column.angular.0.iter().chain(&column.linear.0);
             all.all(|x| x.is_zero())
@@ -154,6 +159,7 @@ impl<'g> Frames<'g> {
                 parent: body.parent,
                 motion: body.motion,
                 axial: body.axial,
+                given: body.motion.is_given(),
                 continues,
                 twist,
                 position,
@@ -294,6 +300,9 @@ impl BodyJoint<'_> {
         if self.body.axial {
             return None;
         }
+        if self.body.motion.is_given() {
+            return Some(self.base_motion(b, x));
+        }
         let of = |rates: &[Expr<'g>]| {
             let still = Vec3([b.zero(); 3]);
             let start = Column {
@@ -308,6 +317,28 @@ impl BodyJoint<'_> {
             })
         };
         Some([of(&x.v), of(&x.a)])
+    }
+
+    /// Returns angular velocity, and accelerations, of a base whose motion is given; zero for methods that
+    /// do not depend on them. The velocity of its origin changes no effort.
+    fn base_motion<'g>(&self, b: &'g Builder, x: &Arguments<'g>) -> [Column<Expr<'g>>; 2] {
+        let still = Vec3([b.zero(); 3]);
+        let zero = Column {
+            angular: still,
+            linear: still,
+        };
+        let Some(base) = &x.base else {
+            return [zero, zero];
+        };
+        let velocity = Column {
+            angular: base.omega,
+            linear: still,
+        };
+        let acceleration = Column {
+            angular: base.omega_dot,
+            linear: base.acceleration.map(|f| f * (Dd::ONE / self.unit)),
+        };
+        [velocity, acceleration]
     }
 }
 

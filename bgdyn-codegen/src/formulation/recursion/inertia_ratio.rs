@@ -18,7 +18,7 @@ const TRAVEL: f64 = 1.0;
 /// Returns, for each joint, its own body's inertia about the axis (its mass along it) over a bound for
 /// that of everything outboard of the joint, in any position. A pivot is between the two. Run-time
 /// parameters have their default values. The first of two joints in series, whose link is hidden, has the
-/// inertia of the next body.
+/// inertia of the next body. A base whose motion is given has no pivot: 1.
 pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<f64> {
     let bodies = &geometry.bodies;
     let mut lumps: Vec<LumpedBody> = bodies
@@ -37,6 +37,9 @@ pub(super) fn own_inertia_ratios(graph: &Multibody, geometry: &Geometry) -> Vec<
     }
     (0..bodies.len())
         .map(|j| {
+            if bodies[j].motion.is_given() {
+                return 1.0;
+            }
             let beyond: f64 = (j..bodies.len())
                 .filter_map(|i| Some(lumps[i].at_most(bodies[j].motion, distance(bodies, j, i)?)))
                 .sum();

@@ -75,6 +75,7 @@ pub(super) fn motions<'g>(
         let parent = frame.parent.map(|p| &moving[p]);
         let gravity = match field {
             GravityField::Zero => zero(b),
+            _ if frame.given => zero(b),
             GravityField::Gravity | GravityField::SetAside => frames.gravity[j],
         };
         b.section(|| {

@@ -25,6 +25,8 @@ pub(super) struct SubspaceBody<'g> {
     pub(super) columns: Vec<(usize, Column<Expr<'g>>)>,
     /// Whether all columns have one axis.
     pub(super) axial: bool,
+    /// Whether it is a base whose motion is given.
+    pub(super) given: bool,
     /// Inertia about the origin.
     pub(super) inertia: Inertia<'g>,
     /// The full rotors that it carries: their joint, and N J e in the body's axes.
@@ -142,6 +144,7 @@ fn body<'g>(
         position: b.vector(place.translation) + fixed * shift,
         columns: frame.columns().into_iter().map(column).collect(),
         axial: frame.motion.has_axis(),
+        given: frame.motion.is_given(),
         inertia: Inertia::zero(b),
         rotors: Vec::new(),
     }

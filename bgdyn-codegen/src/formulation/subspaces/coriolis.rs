@@ -10,11 +10,14 @@ use bgdyn_runtime::Dd;
 use super::bodies::Bodies;
 use super::spatial::{Spatial, SpatialMatrix, diagonal};
 use crate::expr::Expr;
+use crate::formulation::arguments::{Arguments, BaseState};
 use crate::math::{Mat3, Vec3, skew};
 
 impl<'g> Bodies<'_, 'g> {
     /// Returns C(q, v), row by row.
-    pub(super) fn coriolis_matrix(&self, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(super) fn coriolis_matrix(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
+        let v = &x.v;
+        let carried = x.base.map(|base| self.carried_twists(&base));
         let n = self.graph.coordinates.len();
         let mut matrix = vec![self.b.zero(); n * n];
         let twists = self.twists(v);
@@ -26,6 +29,9 @@ impl<'g> Bodies<'_, 'g> {
             for &(j, h) in &self.bodies[i].rotors {
                 let half = v[j] * Dd::from_f64(-0.5);
                 *angular = *angular + skew(h, self.b.zero()).map(|x| x * half);
+            }
+            if let Some(carried) = &carried {
+                coupling = coupling.plus(&self.gyroscopic(&inertia, carried[i]));
             }
             couplings.push(coupling);
             inertias.push(inertia);
@@ -46,7 +52,59 @@ impl<'g> Bodies<'_, 'g> {
             }
         }
         self.add_rotors(&twists, &mut matrix);
+        if let Some(carried) = &carried {
+            self.add_carried_rotors(carried, &mut matrix);
+        }
         matrix
+    }
+
+    /// Returns the twist of each body for the angular velocity of the base alone, in the body's axes.
+    fn carried_twists(&self, base: &BaseState<'g>) -> Vec<Spatial<'g>> {
+        let zero = Vec3([self.b.zero(); 3]);
+        let mut twists: Vec<Spatial<'g>> = Vec::new();
+        for body in &self.bodies {
+            let (angular, linear) = match body.parent {
+                None if body.given => (base.omega, zero),
+                None => (zero, zero),
+                Some(p) => (twists[p].0, twists[p].1 + twists[p].0.cross(body.position)),
+            };
+            twists.push((body.outward(self.b, angular), body.outward(self.b, linear)));
+        }
+        twists
+    }
+
+    /// Returns 2 B(v) + 2 I [v]× = [v]×* I + [I v] + I [v]× for the twist of a body with the base: a skew
+    /// matrix, that of the gyroscopic wrenches.
+    fn gyroscopic(&self, inertia: &SpatialMatrix<'g>, twist: Spatial<'g>) -> SpatialMatrix<'g> {
+        let half = self.coupling(inertia, twist);
+        let [[a, c], [d, e]] = inertia.0;
+        let (w, v) = (skew(twist.0, self.b.zero()), skew(twist.1, self.b.zero()));
+        let moved = SpatialMatrix([[a * w + c * v, c * w], [d * w + e * v, e * w]]);
+        let whole = half.plus(&moved);
+        whole.plus(&whole)
+    }
+
+    /// Adds the full rotors on a turning base: ω × h along the columns that move the carrier, against the
+    /// effort of the rotor's joint.
+    fn add_carried_rotors(&self, carried: &[Spatial<'g>], matrix: &mut [Expr<'g>]) {
+        let n = self.graph.coordinates.len();
+        for (i, carrier) in self.bodies.iter().enumerate() {
+            for &(j, h) in &carrier.rotors {
+                let mut moment = carried[i].0.cross(h);
+                let mut at = i;
+                loop {
+                    let body = &self.bodies[at];
+                    for (k, column) in &body.columns {
+                        let effort = column.angular.dot(moment);
+                        add(matrix, k * n + j, effort);
+                        add(matrix, j * n + k, -effort);
+                    }
+                    let Some(p) = body.parent else { break };
+                    moment = body.inward(self.b, moment);
+                    at = p;
+                }
+            }
+        }
     }
 
     /// Returns the entries of body i's columns with themselves and with those of the bodies that carry it.

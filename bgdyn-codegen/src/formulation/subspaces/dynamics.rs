@@ -73,10 +73,15 @@ impl<'g> Bodies<'_, 'g> {
                         body.outward(b, origin),
                     )
                 }
+                None if body.given => (zero, zero, zero),
                 None if x.active => (zero, zero, body.outward(b, -b.vector(self.graph.gravity))),
                 None => (zero, zero, zero),
             };
-            let (own, rate) = (body.twist(b, &x.v), body.twist(b, &x.a));
+            let (mut own, mut rate) = (body.twist(b, &x.v), body.twist(b, &x.a));
+            if let (true, Some(base)) = (body.given, &x.base) {
+                own.angular = base.omega;
+                (rate.angular, rate.linear) = (base.omega_dot, base.acceleration);
+            }
             let angular = carried + own.angular;
             let turning = turning + carried.cross(own.angular) + rate.angular;
             // The columns are constant in axes that turn relative to the parent's.
@@ -94,7 +99,7 @@ impl<'g> Bodies<'_, 'g> {
         motions
     }
 
-    /// Returns the twist of each body, in its own axes.
+    /// Returns the twist of each body relative to the base, in its own axes.
     pub(super) fn twists(&self, v: &[Expr<'g>]) -> Vec<Spatial<'g>> {
         let b = self.b;
         let mut twists: Vec<Spatial<'g>> = Vec::new();

@@ -94,7 +94,7 @@ fn outputs<'g>(
         }
         Method::KineticEnergy => vec![bodies.kinetic_energy(&x.v)],
         Method::PotentialEnergy => vec![bodies.potential_energy()],
-        Method::CoriolisMatrix => bodies.coriolis_matrix(&x.v),
+        Method::CoriolisMatrix => bodies.coriolis_matrix(x),
         _ => return None,
     })
 }

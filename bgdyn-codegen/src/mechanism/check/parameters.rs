@@ -80,6 +80,12 @@ impl<'a> Parameters<'a> {
         }
     }
 
+    /// Returns the names, each with its first location.
+    pub(super) fn names(&self) -> impl Iterator<Item = (&str, &Location)> {
+        let all = self.found.iter();
+        all.map(|found| (found.parameter.name.as_str(), &found.first))
+    }
+
     /// Returns all parameters.
     pub(super) fn into_all(self) -> Vec<Parameter> {
         self.found.into_iter().map(|f| f.parameter).collect()

@@ -58,6 +58,11 @@ impl Motion {
         }
     }
 
+    /// Returns whether it is the motion of a base that is given at run time.
+    pub fn is_given(self) -> bool {
+        matches!(self, Motion::Compound(motion) if motion.velocities.is_empty())
+    }
+
     /// Returns whether the motion has an axis.
     pub fn has_axis(self) -> bool {
         match self {

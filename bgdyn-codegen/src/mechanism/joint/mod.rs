@@ -5,6 +5,7 @@ mod continuous;
 mod cylindrical;
 mod fixed;
 mod floating;
+mod given;
 mod helical;
 mod joint_type;
 mod planar;
@@ -24,12 +25,17 @@ pub(crate) fn fixed() -> &'static JointType {
     &fixed::FIXED
 }
 
+/// Returns the joint of a base whose motion is given.
+pub(crate) fn given() -> &'static JointType {
+    &given::GIVEN
+}
+
 /// Returns the prismatic joint.
 pub(crate) fn prismatic() -> &'static JointType {
     &prismatic::PRISMATIC
 }
 
-/// All joint types.
+/// All joint types that a link can have.
 pub static JOINT_TYPES: [&JointType; 10] = [
     &revolute::REVOLUTE,
     &continuous::CONTINUOUS,

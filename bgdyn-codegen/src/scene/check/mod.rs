@@ -120,7 +120,8 @@ fn scene(
     };
     let scene = assembled(empty, &refused, faults);
     canonical(spec, &scene, faults);
-    let drawn = sound && scene.layout.repeated().is_none();
+    let moving = moving_base(spec, &scene, faults);
+    let drawn = sound && !moving && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
     }
@@ -191,6 +192,15 @@ fn name(spec: &SceneSpec, stem: Option<&str>, faults: &mut Faults) -> Option<Str
             Some(name.value.clone())
         }
     }
+}
+
+/// Refuses a base whose motion is given: its power is not in the balance of a scene. Returns whether it is.
+fn moving_base(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
+    let moving = scene.mechanism.base().is_some();
+    if let (true, Some(path)) = (moving, spec.mechanism.given()) {
+        faults.push(wording::moving_base(&path.location, &path.value));
+    }
+    moving
 }
 
 /// Refuses the canonical form of joints with quasi-velocities.
