@@ -157,6 +157,11 @@ mutate "uniform field set aside" $recursion/motion.rs \
     '*own = *own - aside.0[k]' '*own = *own + aside.0[k]' "${codegen[@]}" joints golden::
 mutate "rotation folded into a quaternion" $recursion/rotation.rs \
     'w * d - x * a - (y * b + z * c)' 'w * d + x * a - (y * b + z * c)' "${codegen[@]}" joints golden::
+mutate "round bodies at a ball" $recursion/inertia.rs \
+    'Rotation::AboutZ(_) if self.round() => *self,' '_ if self.round() => *self,' \
+    "${codegen[@]}" joints tidy::
+mutate "moving base" $recursion/frames.rs \
+    'angular: base.omega_dot,' 'angular: base.omega,' "${codegen[@]}" joints moving_base::
 mutate "followers in the mass matrix" $recursion/mass_matrix.rs \
     'm.along(column) * column.effort * m.effort' 'm.along(column) * m.effort' "${codegen[@]}" joints mimic::
 

@@ -97,5 +97,5 @@ fn a_base_moves_when_the_option_says_so() {
     let given = bgdyn(&["import", &file, "--base", "given"]).good();
     assert!(given.contains("\nbase: given\n"), "{given}");
     let given = scratch("import_base", "given.yaml", &given);
-    assert!(bgdyn(&["check", &given]).good().contains("2 joints"));
+    assert!(bgdyn(&["check", &given]).good().contains("NQ 2, NV 2"));
 }

@@ -57,6 +57,9 @@ const PRODUCTS: usize = 250;
 /// If the equations, or intermediate sums, are longer, or if a joint is neither a rotation nor a
 /// translation of its own.
 pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, NoClosedForm> {
+    if mechanism.base().is_some() {
+        return Err(NoClosedForm::MovingBase);
+    }
     if let Some(joint) = mechanism.compound_joints().next() {
         let joint = joint.name.clone();
         return Err(NoClosedForm::Joint { joint });

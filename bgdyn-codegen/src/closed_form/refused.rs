@@ -22,6 +22,8 @@ pub enum NoClosedForm {
     },
     /// The equations have operations other than sines, cosines, products and sums.
     NotTrigonometric,
+    /// The motion of the base is given.
+    MovingBase,
     /// A joint is neither a rotation nor a translation, or mimics another.
     Joint {
         /// Its name.
@@ -40,6 +42,9 @@ impl fmt::Display for NoClosedForm {
                 f,
                 "the way to its equations takes {products} products of two terms and more"
             ),
+            NoClosedForm::MovingBase => {
+                write!(f, "the motion of its base is given (`base: given`)")
+            }
             NoClosedForm::Joint { joint } => write!(
                 f,
                 "the joint `{joint}` has several degrees of freedom, a lead or `mimic`; equations are printed \

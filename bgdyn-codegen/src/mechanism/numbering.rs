@@ -90,7 +90,8 @@ impl Mechanism {
         kept.map(|j| names[j].clone()).collect()
     }
 
-    /// Returns the joints that are not plain: more than one degree, a screw, or `mimic`.
+    /// Returns the joints that are not plain: more than one degree, a screw, or `mimic`; that of a base whose
+    /// motion is given, too.
     pub fn compound_joints(&self) -> impl Iterator<Item = &Joint> {
         let joints = self.links.iter().map(|link| &link.joint);
         joints.filter(|joint| joint.coordinate.is_none() && joint.kind.motion != Motion::None)

@@ -17,4 +17,5 @@ mod robot;
 mod same_motion;
 mod scenes;
 mod specs;
+mod tidy;
 mod verified;

@@ -142,9 +142,10 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Returns it rotated.
+    /// Returns it rotated. A rotation about z does not change a round body.
     pub fn turned(&self, turn: Rotation<'g>) -> Self {
         match turn {
+            Rotation::AboutZ(_) if self.round() => *self,
             Rotation::AboutZ(angle) => self.turned_about_z(angle),
             Rotation::General(r) => self.turned_by(r),
         }

@@ -117,11 +117,7 @@ fn load<'g>(
     let j_zz = rest.d(0, 0) + rest.d(1, 1);
     let points = frame.points.iter();
     if in_basis {
-        let inertia = if rest.round() {
-            *rest
-        } else {
-            rest.turned(frame.turn)
-        };
+        let inertia = rest.turned(frame.turn);
         let (spin, a) = (&motion.in_basis, motion.a_basis);
         let load = dynamics(&inertia, j_zz, spin, a, short);
         let turned = points.map(|p| dynamics_of_point(&p.turned(frame.turn), spin, a));

@@ -102,12 +102,7 @@ impl<'g> CompositeInertia<'g> {
         if outer.is_zero() {
             name_composite(&composite, &frame.name);
         }
-        let turned = if composite.round() {
-            composite
-        } else {
-            composite.turned(frame.turn)
-        };
-        let whole = turned.plus(outer);
+        let whole = composite.turned(frame.turn).plus(outer);
         name_composite(&whole, &format!("at_{}", frame.joint));
         // A rotation about z does not change J_zz.
         let j_zz = (composite.d(0, 0) + composite.d(1, 1)) + (outer.d(0, 0) + outer.d(1, 1));

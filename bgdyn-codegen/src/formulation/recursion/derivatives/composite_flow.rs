@@ -56,13 +56,8 @@ impl<'g> CompositeFlow<'g> {
 
     /// Returns it rotated by Rz.
     pub fn turned(&self, angle: (Expr<'g>, Expr<'g>)) -> Self {
-        let round = self.inertia.round();
         CompositeFlow {
-            inertia: if round {
-                self.inertia
-            } else {
-                self.inertia.turned(angle.into())
-            },
+            inertia: self.inertia.turned(angle.into()),
             flow: self.flow.turned(angle),
             rest: self.rest.map(|v| Rotation::AboutZ(angle).apply(v)),
         }
