@@ -88,12 +88,12 @@ fn well_made(made: anyhow::Result<import::Import>) {
             ];
             let broken = faults.0.iter().find(|fault| unread.contains(&fault.rule));
             assert!(broken.is_none(), "{broken:?} in\n{}", made.yaml);
-            let told = made
+            let lines = made
                 .notes
                 .iter()
                 .chain(&made.warnings)
                 .chain([&made.written]);
-            assert!(told.into_iter().all(|line| !line.contains('\n')));
+            assert!(lines.into_iter().all(|line| !line.contains('\n')));
         }
         Err(error) => {
             let error = error.to_string();

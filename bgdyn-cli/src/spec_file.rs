@@ -112,8 +112,8 @@ impl SpecFile {
         if let Refusal::Options(names) = refusal {
             return unknown(names).into();
         }
-        let (told, why) = self.refusal(refusal);
-        tell(&told);
+        let (message, why) = self.refusal(refusal);
+        tell(&message);
         anyhow!(why)
     }
 
@@ -134,13 +134,13 @@ impl SpecFile {
                 let file = beside(&self.path, &path).display().to_string();
                 let own = self.render(&scene);
                 let parts = [own, faults.render(&file, &text)];
-                let told: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
+                let messages: Vec<String> = parts.into_iter().filter(|p| !p.is_empty()).collect();
                 let its = format!("{file} has {}", faults.tally());
                 let why = match scene.any_fault() {
                     true => format!("{shown} has {}, {its}", scene.tally()),
                     false => its,
                 };
-                (told.join("\n"), why)
+                (messages.join("\n"), why)
             }
             Refusal::Unequal(differences) => {
                 (String::new(), format!("{shown}: {}", explain(&differences)))

@@ -34,7 +34,7 @@ struct CheckedFile {
     /// Lines for stdout without `--json`.
     lines: Vec<String>,
     /// Text for stderr without `--json`.
-    told: String,
+    message: String,
     /// Text for stderr in both cases.
     tally: Option<String>,
     /// Whether that text names the file.
@@ -61,7 +61,7 @@ impl Check {
                 report[kind] = model;
                 reports.push(report);
             } else {
-                tell(&found.told);
+                tell(&found.message);
                 for line in found.lines {
                     print(&format!("{line}\n"))?;
                 }
@@ -94,7 +94,7 @@ fn check(path: &Path) -> CheckedFile {
             let error = format!("{error:#}");
             let fault = Fault::new(&Location::file(), "unreadable", error.clone());
             return CheckedFile {
-                told: format!("bgdyn: {error}\n"),
+                message: format!("bgdyn: {error}\n"),
                 findings: vec![finding(&fault)],
                 ..CheckedFile::default()
             };
@@ -102,7 +102,7 @@ fn check(path: &Path) -> CheckedFile {
     };
     if let Some(fault) = spec.urdf() {
         return CheckedFile {
-            told: format!("bgdyn: {}\n", fault.headline(&shown(path))),
+            message: format!("bgdyn: {}\n", fault.headline(&shown(path))),
             findings: vec![finding(&fault)],
             ..CheckedFile::default()
         };
@@ -117,7 +117,7 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
     let (mechanism, faults) = spec.read();
     let mut found = CheckedFile {
         ok: mechanism.is_some(),
-        told: spec.render(&faults),
+        message: spec.render(&faults),
         tally: mechanism.is_none().then(|| faults.tally()),
         model: Some(("model", mechanism.as_ref().map_or(Value::Null, model))),
         findings: faults.0.iter().map(finding).collect(),
@@ -143,9 +143,9 @@ fn scene(spec: &SpecFile) -> CheckedFile {
         Ok(read) => read,
         Err(refusal) => {
             let findings = spec.findings(&refusal);
-            let (told, why) = spec.refusal(refusal);
+            let (message, why) = spec.refusal(refusal);
             return CheckedFile {
-                told,
+                message,
                 tally: Some(why),
                 names_its_file: true,
                 model: null,
@@ -178,7 +178,7 @@ fn scene(spec: &SpecFile) -> CheckedFile {
     CheckedFile {
         ok: true,
         lines: std::iter::once(ok).chain(solved).collect(),
-        told: spec.render(&faults),
+        message: spec.render(&faults),
         tally: None,
         model: Some(("scene", scene_model(&system))),
         findings: faults.0.iter().map(finding).collect(),

@@ -124,8 +124,8 @@ impl Simulate {
             "{}\n{files}\n",
             summary(&file.stem, &way.integration)
         ))?;
-        let mut told = report::report(&system, &run);
-        print(&told)?;
+        let mut report = report::report(&system, &run);
+        print(&report)?;
         let closed = report::drift(&run);
         // A drift that is NaN is not small.
         if closed.is_nan() || closed > DRIFT {
@@ -135,12 +135,12 @@ impl Simulate {
             ));
         }
         if let Some(reason) = &run.failure {
-            self.page(&file.stem, (&system, &way), &columns, &run, told)?;
+            self.page(&file.stem, (&system, &way), &columns, &run, report)?;
             let (t, place) = (short(run.t), report::place(&system, &run));
             bail!("the run ends early at t = {t} s, {place}: {reason}");
         }
-        told += &estimate(&plant, &way, &columns, &run)?;
-        self.page(&file.stem, (&system, &way), &columns, &run, told)
+        report += &estimate(&plant, &way, &columns, &run)?;
+        self.page(&file.stem, (&system, &way), &columns, &run, report)
     }
 
     /// Writes the page that replays the run.
@@ -303,12 +303,12 @@ fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) 
         number(found.share),
         short(found.t)
     );
-    let told = format!("a run with {against} differs most in {text}\n");
-    print(&told)?;
+    let report = format!("a run with {against} differs most in {text}\n");
+    print(&report)?;
     if found.share.is_nan() || found.share > ERROR {
         tell(&format!(
             "bgdyn: warning: a run with {against} differs in {text}: the result means little there; take a smaller step or tolerance\n"
         ));
     }
-    Ok(told)
+    Ok(report)
 }

@@ -52,14 +52,14 @@ fn complete_inertial(inertial: &mut Element) -> Vec<String> {
             all_missing.push(format!("<{part}>"));
             inertial.children.len() - 1
         });
-        let told = all_missing
+        let reported = all_missing
             .last()
             .is_some_and(|last| *last == format!("<{part}>"));
         let element = &mut inertial.children[index];
         for attribute in attributes {
             if element.get(attribute).is_none() {
                 element.attributes.push((attribute.to_string(), "0".into()));
-                if !told {
+                if !reported {
                     all_missing.push(format!("{attribute} of <{part}>"));
                 }
             }

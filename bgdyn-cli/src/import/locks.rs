@@ -26,14 +26,14 @@ pub(super) fn lock(model: &mut Model, asked: &Lock) -> Result<Option<String>> {
         );
     };
     check(&model.joints[found], value, *unit)?;
-    let mut told = Vec::new();
+    let mut fixed = Vec::new();
     let mut waiting = vec![(found, value.clone())];
     while let Some((index, value)) = waiting.pop() {
         let followers = followers(model, index, &value);
         fix(&mut model.joints[index], &value);
         // One that is fixed by now follows no more.
         for (index, value) in followers {
-            told.push(format!(
+            fixed.push(format!(
                 "`{}` at {}",
                 shown(&model.joints[index].name),
                 value.text
@@ -41,8 +41,13 @@ pub(super) fn lock(model: &mut Model, asked: &Lock) -> Result<Option<String>> {
             waiting.push((index, value));
         }
     }
-    let told = (!told.is_empty()).then(|| told.join(", "));
-    Ok(told.map(|told| format!("--lock: `{}` fixes its followers too: {told}", shown(joint))))
+    let fixed = (!fixed.is_empty()).then(|| fixed.join(", "));
+    Ok(fixed.map(|fixed| {
+        format!(
+            "--lock: `{}` fixes its followers too: {fixed}",
+            shown(joint)
+        )
+    }))
 }
 
 /// Returns the index of the joint of this name.

@@ -106,8 +106,8 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
     let dusty = doubts::without_dust(&mut model);
     // Errors of the file are reported first.
     tree::order(&model)?;
-    let mut told: Vec<String> = planar::turn_links(&mut model).into_iter().collect();
-    told.extend(rework::rework(&mut model, options)?);
+    let mut messages: Vec<String> = planar::turn_links(&mut model).into_iter().collect();
+    messages.extend(rework::rework(&mut model, options)?);
     if let Some(base) = options.base {
         let tree = tree::order(&model)?;
         base::free(&mut model, &tree, base)?;
@@ -116,7 +116,7 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
     let named = Identifiers::new(&model);
 
     let mut warnings = doubts::doubtful(&model, &tree);
-    warnings.extend(told);
+    warnings.extend(messages);
     warnings.extend(dusty);
     let mut allowed = vec![false; model.links.len()];
     for (link, allowed) in model.links.iter().zip(&mut allowed) {

@@ -14,21 +14,21 @@ const ALL: &str = "all";
 
 /// Applies the options to the robot, and returns messages about omitted parts.
 pub(super) fn rework(model: &mut Model, options: &Options) -> Result<Vec<String>> {
-    let mut told = Vec::new();
+    let mut messages = Vec::new();
     // Followers first: locked by themselves they follow no more.
     let mut locks: Vec<&Lock> = options.lock.iter().collect();
     locks.sort_by_key(|asked| !locks::follows(model, asked));
     for asked in locks {
-        told.extend(locks::lock(model, asked)?);
+        messages.extend(locks::lock(model, asked)?);
     }
     if let Some([base, tip]) = &options.chain {
-        told.extend(chain(model, base, tip)?);
+        messages.extend(chain(model, base, tip)?);
     }
     mimic::check(model)?;
     if !options.frames.is_empty() {
         frames(model, &options.frames)?;
     }
-    Ok(told)
+    Ok(messages)
 }
 
 /// Returns the only link of this name; the names in the file have priority.
@@ -79,10 +79,10 @@ fn chain(model: &mut Model, base: &str, tip: &str) -> Result<Vec<String>> {
         below = joint.and_then(|joint| tree.ends[joint].0);
     }
     keep_fixed(model, &tree, &mut kept);
-    let mut told = without(model, &tree, &kept);
+    let mut messages = without(model, &tree, &kept);
     if tree.joint_of(base).is_some() {
         let name = shown(&model.links[base].name);
-        told.push(format!(
+        messages.push(format!(
             "--chain: `{name}` is fixed to the world where it is with every joint at 0"
         ));
     }
@@ -106,7 +106,7 @@ fn chain(model: &mut Model, base: &str, tip: &str) -> Result<Vec<String>> {
     };
     let mut joints = tree.ends.iter().map(inside);
     model.joints.retain(|_| joints.next().unwrap_or(false));
-    Ok(told)
+    Ok(messages)
 }
 
 /// Retains everything that fixed joints connect to a retained link, away from the base.

@@ -127,10 +127,10 @@ mod tests {
             assert!((2..=7).contains(&ticks.len()), "{range:?}: {ticks:?}");
             for (x, text) in &ticks {
                 assert!(*x >= axis.low - 1e-9 && *x <= axis.high + 1e-9);
-                let told: f64 = text.replace('−', "-").parse().expect("a number");
+                let shown: f64 = text.replace('−', "-").parse().expect("a number");
                 assert!(
-                    (told - x).abs() <= 1e-9 * x.abs().max(1e-3),
-                    "{x} is told as {text}"
+                    (shown - x).abs() <= 1e-9 * x.abs().max(1e-3),
+                    "{x} is shown as {text}"
                 );
             }
             let words: std::collections::BTreeSet<_> = ticks.iter().map(|t| &t.1).collect();

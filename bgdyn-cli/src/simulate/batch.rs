@@ -68,7 +68,7 @@ fn refused(faults: &bgdyn_codegen::fault::Faults) -> RunSummary {
 }
 
 /// Returns the runs as comma-separated values.
-pub(crate) fn csv(columns: &[Column], varied: &BatchValues, told: &[RunSummary]) -> String {
+pub(crate) fn csv(columns: &[Column], varied: &BatchValues, summaries: &[RunSummary]) -> String {
     let mut header = vec!["run".to_owned()];
     header.extend(varied.quantities.iter().map(|q| headed(&q.name, q.unit)));
     for column in columns {
@@ -76,7 +76,7 @@ pub(crate) fn csv(columns: &[Column], varied: &BatchValues, told: &[RunSummary])
         header.extend(parts.map(|part| headed(&format!("{} {part}", column.name), column.unit)));
     }
     header.extend(["drift [1]", "t end [s]", "status", "reason"].map(str::to_owned));
-    let runs = varied.runs.iter().zip(told).enumerate();
+    let runs = varied.runs.iter().zip(summaries).enumerate();
     let rows = runs.map(|(i, (values, run))| {
         let mut row = vec![(i + 1).to_string()];
         row.extend(values.iter().map(|x| format!("{x:?}")));

@@ -29,7 +29,7 @@ pub(crate) fn draw(
     path: &Path,
     title: &str,
     columns: &[Column],
-    (varied, told): (&BatchValues, &[RunSummary]),
+    (varied, summaries): (&BatchValues, &[RunSummary]),
 ) -> std::io::Result<()> {
     let across = varied.quantities.len().min(ACROSS);
     let down = columns.len().min(DOWN);
@@ -37,15 +37,15 @@ pub(crate) fn draw(
     let width = if across == 1 { 1.5 * PANEL.0 } else { PANEL.0 };
     let mut d = Drawing::new(width * across as f64, HEADER + PANEL.1 * down as f64);
     d.text((16.0, 25.0), 18, INK, Anchor::Start, title);
-    let failed = told.iter().filter(|run| run.failure.is_some()).count();
-    let mut told_of = format!("{} runs; blue: outputs at the end", told.len());
+    let failed = summaries.iter().filter(|run| run.failure.is_some()).count();
+    let mut caption = format!("{} runs; blue: outputs at the end", summaries.len());
     if varied.quantities.len() == 1 {
-        told_of += ", grey: from their least to their largest value";
+        caption += ", grey: from their least to their largest value";
     }
     if failed > 0 {
-        told_of += &format!("; orange: {failed} failed, at the lower edge");
+        caption += &format!("; orange: {failed} failed, at the lower edge");
     }
-    d.text((16.0, 48.0), 12, INK, Anchor::Start, &told_of);
+    d.text((16.0, 48.0), 12, INK, Anchor::Start, &caption);
     for i in 0..across * down {
         let (row, column) = (i / across, i % across);
         let at = (width * column as f64, HEADER + PANEL.1 * row as f64);
@@ -54,7 +54,7 @@ pub(crate) fn draw(
             (at, width),
             (&columns[row], row),
             (varied, column),
-            told,
+            summaries,
         );
     }
     std::fs::write(path, d.finish())
@@ -66,11 +66,11 @@ fn draw_panel(
     (at, width): ((f64, f64), f64),
     (output, row): (&Column, usize),
     (varied, column): (&BatchValues, usize),
-    told: &[RunSummary],
+    summaries: &[RunSummary],
 ) {
     let quantity = &varied.quantities[column];
     let single = varied.quantities.len() == 1;
-    let all = || varied.runs.iter().map(|run| run[column]).zip(told);
+    let all = || varied.runs.iter().map(|run| run[column]).zip(summaries);
     let sound = |run: &RunSummary| run.failure.is_none();
     let mut points: Vec<(f64, [f64; 3])> = all()
         .filter(|(_, run)| sound(run))

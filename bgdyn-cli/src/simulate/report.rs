@@ -57,16 +57,16 @@ fn events(system: &SceneEquations, record: &Record) -> String {
 pub(crate) fn changes(system: &SceneEquations, event: &Event) -> String {
     let modes = system.scene.layout.modes.iter().enumerate();
     let changed = modes.filter(|&(i, _)| event.before[i] != event.after[i]);
-    let told: Vec<String> = changed
+    let texts: Vec<String> = changed
         .map(|(i, mode)| match event.after[i] {
             0.0 => format!("`{}` is held", mode.name),
             way if event.before[i] == 0.0 => format!("`{}` is released, {way:+}", mode.name),
             way => format!("`{}` slips the other way, {way:+}", mode.name),
         })
         .collect();
-    match told.is_empty() {
+    match texts.is_empty() {
         true => "no mode changes".to_owned(),
-        false => told.join(", "),
+        false => texts.join(", "),
     }
 }
 
@@ -93,10 +93,10 @@ fn state(system: &SceneEquations, record: &Record) -> String {
 /// Returns the final state, on one line.
 pub(crate) fn place(system: &SceneEquations, record: &Record) -> String {
     let parts = parts(system, record).into_iter();
-    let told: Vec<String> = parts
+    let texts: Vec<String> = parts
         .map(|[name, value]| format!("{name} = {value}"))
         .collect();
-    told.join(", ")
+    texts.join(", ")
 }
 
 fn energy(system: &SceneEquations, record: &Record) -> String {

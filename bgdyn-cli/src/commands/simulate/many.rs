@@ -94,7 +94,7 @@ impl Many {
         let total = varied.runs.len();
         let mut progress = Progress::new("runs");
         let watch = |done: usize| progress.at(done as f64 / total as f64);
-        let told = batch::run(
+        let summaries = batch::run(
             of.system,
             of.plant,
             &of.way,
@@ -109,22 +109,22 @@ impl Many {
         let [table, picture] =
             ["csv", "svg"].map(|kind| out.join(format!("{}_batch.{kind}", of.name)));
         let shown = |path: &Path| format!("{} cannot be written", path.display());
-        std::fs::write(&table, batch::csv(of.columns, varied, &told))
+        std::fs::write(&table, batch::csv(of.columns, varied, &summaries))
             .with_context(|| shown(&table))?;
-        batch_plot::draw(&picture, of.name, of.columns, (varied, &told))
+        batch_plot::draw(&picture, of.name, of.columns, (varied, &summaries))
             .with_context(|| shown(&picture))?;
         print(&format!(
             "written: {} ({total} runs), {}\n",
             table.display(),
             picture.display()
         ))?;
-        let drift = told.iter().filter(|run| run.failure.is_none());
+        let drift = summaries.iter().filter(|run| run.failure.is_none());
         let drift = drift.map(|run| run.drift).fold(0.0, f64::max);
         print(&format!(
             "largest drift: {} of the energy that could move\n",
             number(drift)
         ))?;
-        let failed: Vec<_> = told.iter().enumerate().collect();
+        let failed: Vec<_> = summaries.iter().enumerate().collect();
         let failed: Vec<_> = failed
             .into_iter()
             .filter_map(|(i, run)| Some((i, run, run.failure.as_ref()?)))

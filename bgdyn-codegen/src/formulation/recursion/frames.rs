@@ -4,17 +4,17 @@
 use bgdyn_runtime::Dd;
 
 use super::base_parameters::{Parts, regrouped};
-use super::geometry::{Body, Geometry, angle_of};
+use super::body_joint::BodyJoint;
+use super::geometry::{Geometry, angle_of};
 use super::inertia::{BodyInertia, Point};
 use super::joint_columns::{ColumnDirection, JointColumn, joint_columns};
 use super::names::{name_body, name_number};
 use super::plan::{Plan, origin_offset};
 use super::rotation::{JointPose, Rotation, joint_pose};
 use super::rotors::Rotors;
-use crate::bond_graph::{LinkFrame, Multibody};
+use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
-use crate::formulation::joint_motion::joint_rates;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 use crate::mechanism::joint::Column;
@@ -207,138 +207,6 @@ impl Frames<'_> {
         let columns = roots.flat_map(|frame| &frame.columns);
         let linear = columns.filter(|c| matches!(c.direction, ColumnDirection::Along(_)));
         linear.map(|column| column.coordinate).collect()
-    }
-}
-
-/// A joint with an axis or without one, and the unit of length.
-struct BodyJoint<'a> {
-    body: &'a Body,
-    link: &'a LinkFrame,
-    unit: Dd,
-}
-
-impl BodyJoint<'_> {
-    fn signed<'g>(&self, e: Expr<'g>) -> Expr<'g> {
-        if self.body.opposite { -e } else { e }
-    }
-
-    /// Returns its position, without the offset of a joint with `mimic`: as a rotation about or a
-    /// translation along z.
-    fn position<'g>(&self, x: &Arguments<'g>) -> Expr<'g> {
-        let q = self.signed(x.q[self.link.degrees.positions[0].0]);
-        match self.link.degrees.mimic {
-            Some(mimic) => q * mimic.ratio,
-            None => q,
-        }
-    }
-
-    fn offset(&self) -> Dd {
-        let offset = self.link.degrees.mimic.map_or(Dd::ZERO, |m| m.offset);
-        if self.body.opposite { -offset } else { offset }
-    }
-
-    /// Returns the angle about z, if it rotates: its variable part, and cosine and sine of its constant
-    /// part.
-    fn angle<'g>(&self, x: &Arguments<'g>) -> (Option<Expr<'g>>, (Dd, Dd)) {
-        let offset = self.offset();
-        if self.body.motion == Motion::Translation {
-            return (None, (Dd::ONE, Dd::ZERO));
-        }
-        let (sin, cos) = offset.sin_cos();
-        let offset = if offset == Dd::ZERO {
-            (Dd::ONE, Dd::ZERO)
-        } else {
-            (cos, sin)
-        };
-        (Some(self.position(x)), offset)
-    }
-
-    /// Returns a position with the displacement along z.
-    fn slid<'g>(
-        &self,
-        b: &'g Builder,
-        mut place: Vec3<Expr<'g>>,
-        x: &Arguments<'g>,
-    ) -> Vec3<Expr<'g>> {
-        let per_position = match self.body.motion {
-            Motion::Rotation => return place,
-            Motion::Translation => Dd::ONE / self.unit,
-            _ => self.link.degrees.advance / self.unit,
-        };
-        let moved = self.position(x) * per_position;
-        place.0[2] = place.0[2] + moved;
-        if self.offset() != Dd::ZERO {
-            place.0[2] = place.0[2] + b.constant(self.offset() * per_position);
-        }
-        place
-    }
-
-    /// Returns rate and second rate about or along z; zero for a joint with several velocities.
-    fn rates<'g>(
-        &self,
-        b: &'g Builder,
-        columns: &[JointColumn],
-        x: &Arguments<'g>,
-    ) -> (Expr<'g>, Expr<'g>) {
-        match columns {
-            [column] if self.body.axial => {
-                let signed = |e: Expr<'g>| match column.effort < Dd::ZERO {
-                    true => -e * -column.effort,
-                    false => e * column.effort,
-                };
-                (
-                    signed(x.v[column.coordinate]),
-                    signed(x.a[column.coordinate]),
-                )
-            }
-            _ => (b.zero(), b.zero()),
-        }
-    }
-
-    /// Returns the twist of a joint with several velocities, and its rate for constant columns.
-    fn relative<'g>(&self, b: &'g Builder, x: &Arguments<'g>) -> Option<[Column<Expr<'g>>; 2]> {
-        if self.body.axial {
-            return None;
-        }
-        if self.body.motion.is_given() {
-            return Some(self.base_motion(b, x));
-        }
-        let of = |rates: &[Expr<'g>]| {
-            let still = Vec3([b.zero(); 3]);
-            let start = Column {
-                angular: still,
-                linear: still,
-            };
-            let rates = joint_rates(self.link, rates);
-            let columns = self.link.columns().into_iter().zip(rates);
-            columns.fold(start, |sum, ((_, column), rate)| Column {
-                angular: sum.angular + b.vector(column.angular).scale(rate),
-                linear: sum.linear + b.vector(column.linear).scale(rate * (Dd::ONE / self.unit)),
-            })
-        };
-        Some([of(&x.v), of(&x.a)])
-    }
-
-    /// Returns angular velocity, and accelerations, of a base whose motion is given; zero for methods that
-    /// do not depend on them. The velocity of its origin changes no effort.
-    fn base_motion<'g>(&self, b: &'g Builder, x: &Arguments<'g>) -> [Column<Expr<'g>>; 2] {
-        let still = Vec3([b.zero(); 3]);
-        let zero = Column {
-            angular: still,
-            linear: still,
-        };
-        let Some(base) = &x.base else {
-            return [zero, zero];
-        };
-        let velocity = Column {
-            angular: base.omega,
-            linear: still,
-        };
-        let acceleration = Column {
-            angular: base.omega_dot,
-            linear: base.acceleration.map(|f| f * (Dd::ONE / self.unit)),
-        };
-        [velocity, acceleration]
     }
 }
 

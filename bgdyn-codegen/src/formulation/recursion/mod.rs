@@ -31,6 +31,7 @@
 mod articulated;
 mod base_parameter_cache;
 mod base_parameters;
+mod body_joint;
 mod common_axes;
 mod derivatives;
 mod energies;

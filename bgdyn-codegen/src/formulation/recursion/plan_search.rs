@@ -77,11 +77,11 @@ impl BestPlan {
         let taken = &self.plans[0];
         let weight = taken.cost.weighted();
         let others = self.steps.iter().filter(|t| t.cost.weighted() != weight);
-        let told = |t: &Tried| Considered {
+        let considered = |t: &Tried| Considered {
             what: describe(geometry, &t.plan) + &differences(geometry, &taken.plan, &t.plan),
             cost: t.cost,
         };
-        [taken].into_iter().chain(others).map(told).collect()
+        [taken].into_iter().chain(others).map(considered).collect()
     }
 }
 

@@ -145,8 +145,8 @@ pub(in crate::scene) fn assembled(
     let inputs = &scene.written.inputs;
     inputs::add_efforts(&mut layout, inputs);
     // Repeated names of effects were reported already.
-    let told = faults.0.iter().any(|f| f.rule == "repeated-name");
-    if let Some(name) = layout.repeated().filter(|_| !told) {
+    let reported = faults.0.iter().any(|f| f.rule == "repeated-name");
+    if let Some(name) = layout.repeated().filter(|_| !reported) {
         faults.push(wording::repeated_state_or_input(&Location::file(), name));
     }
     Scene {
