@@ -90,7 +90,7 @@ impl Reference for Literal {
     }
 
     fn mass(&self, s: &State) -> Vec<Dd> {
-        full(&self.value(&self.mass, self.inputs(s)), s.q.len())
+        full(&self.value(&self.mass, self.inputs(s)), s.v.len())
     }
 
     fn bias(&self, s: &State) -> Vec<Dd> {
@@ -101,14 +101,14 @@ impl Reference for Literal {
         self.value(&self.gravity, self.inputs(s))
     }
 
-    fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd> {
+    fn forward_off(&self, s: &State, argument: usize, component: usize, factor: Dd) -> Vec<Dd> {
         let mut inputs = self.inputs(s);
         let argument = match argument {
             0 => &mut inputs.q,
             1 => &mut inputs.v,
             _ => &mut inputs.u,
         };
-        argument[joint] *= factor;
+        argument[component] *= factor;
         self.value(&self.forward, inputs)
     }
 }

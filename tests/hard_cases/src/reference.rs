@@ -71,6 +71,42 @@ impl Reference {
         numbers(&self.file["invariants"][name])
     }
 
+    /// Returns a number of the invariants.
+    ///
+    /// # Panics
+    /// If the file has no such number.
+    pub fn invariant(&self, name: &str) -> f64 {
+        self.file["invariants"][name].as_f64().expect("a number")
+    }
+
+    /// Returns a list of the parameters.
+    ///
+    /// # Panics
+    /// If the file has no such list.
+    pub fn parameters(&self, name: &str) -> Vec<f64> {
+        numbers(&self.file["parameters"][name])
+    }
+
+    /// Returns the values of all columns but the time, sample by sample.
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
+    }
+
+    /// Gives the quaternion from a column of each found sample the sign of the expected one: q and −q are
+    /// one orientation.
+    pub fn with_signs(&self, mut found: Vec<Vec<f64>>, column: usize) -> Vec<Vec<f64>> {
+        let quaternion = column..column + 4;
+        for (found, wanted) in found.iter_mut().zip(&self.rows) {
+            let pairs = quaternion.clone().map(|i| found[i] * wanted[i]);
+            if pairs.sum::<f64>() < 0.0 {
+                for x in &mut found[quaternion.clone()] {
+                    *x = -*x;
+                }
+            }
+        }
+        found
+    }
+
     /// Values of these columns, sample by sample.
     fn values(&self, columns: &[&str]) -> Vec<Vec<f64>> {
         let place = |name: &&str| {
