@@ -239,6 +239,14 @@ impl Hard {
         }
     }
 
+    /// Returns what rounding in double-double leaves of efforts that cancel: where no term of a joint's effort
+    /// is left, the reference has no digit.
+    fn noise(&self, found: &[f64]) -> f64 {
+        let (s, n) = (&self.state, self.n as f64);
+        let size = self.most * (norm(&s.v) * norm(&s.v) + norm(found)) + norm(&self.bias);
+        8.0 * n * 4.93e-32 * (size + norm(&s.tau))
+    }
+
     /// Returns the residual of each joint's effort, and 8 n eps of its terms.
     fn unmet<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<(f64, f64)> {
         let s = &self.state;
@@ -247,17 +255,23 @@ impl Hard {
             ..s.clone()
         };
         let met = off(&s.tau, &reference.inverse(&moved));
-        let terms = self.weighed(found);
+        let (terms, noise) = (self.weighed(found), self.noise(found));
         let joint = |i: usize| {
             let size = terms[i] + s.tau[i].abs() + self.bias[i].abs();
-            (met[i].abs(), 8.0 * self.n as f64 * T::EPS * size)
+            let unmet = met[i].abs();
+            let unmet = if unmet > noise { unmet } else { 0.0 };
+            (unmet, 8.0 * self.n as f64 * T::EPS * size)
         };
         (0..self.n).map(joint).collect()
     }
 
     /// Returns the change of each effort of these accelerations if each position and velocity is rounded,
     /// by half an eps of itself: the sum over all of them.
-    fn rounded_arguments<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<f64> {
+    pub fn rounded_arguments<T: Digits>(
+        &self,
+        found: &[f64],
+        reference: &impl Reference,
+    ) -> Vec<f64> {
         // Much larger than the reference's rounding, much smaller than the curvature.
         const PART: f64 = 1.0 / (1u64 << 30) as f64;
         let at = State {

@@ -21,15 +21,15 @@ const STEPS: u32 = 8000;
 /// The sum of the arm's largest rates, rad/s: 5.6 rad · 2π/8 s.
 const RATE: f64 = 4.4;
 
-fn file() -> (Reference, Arm) {
-    let reference = reference!("satellite_cycle");
-    let arm = Arm {
-        amplitudes: reference.parameters("A"),
-        phases: reference.parameters("p"),
-        period: 8.0,
-    };
-    assert_eq!(arm.amplitudes.len(), ARM);
-    (reference, arm)
+fn file() -> Reference {
+    reference!("satellite_cycle")
+}
+
+/// The satellite with the arm's motion of the file.
+fn cycle<T: Real>(reference: &Reference) -> Cycle<T> {
+    let [amplitudes, phases] = ["A", "p"].map(|name| reference.parameters(name));
+    assert_eq!(amplitudes.len(), ARM);
+    Cycle::new(Arm::new(&amplitudes, &phases, 8.0))
 }
 
 /// The base at the beginning: at its origin, with the velocity of zero momentum.
@@ -74,14 +74,14 @@ fn exact(cycle: &Cycle<Dd>, start: SVector<Dd, 13>, per_second: u32) -> Vec<SVec
 fn growth(cycle: &Cycle<Dd>) -> Vec<f64> {
     const NUDGE: f64 = 1e-12;
     let from = start(cycle);
-    let states = exact(cycle, from, 8);
+    let states = exact(cycle, from, 4);
     let mut most = vec![1.0_f64; states.len()];
     for k in 0..13 {
         let mut moved = from;
         moved[k] += Dd::from_f64(NUDGE);
         for (most, (x, y)) in most
             .iter_mut()
-            .zip(exact(cycle, moved, 8).iter().zip(&states))
+            .zip(exact(cycle, moved, 4).iter().zip(&states))
         {
             let off = (x - y).iter().fold(0.0_f64, |m, x| m.max(x.to_f64().abs()));
             *most = most.max(off / NUDGE);
@@ -103,10 +103,10 @@ fn compared(
 }
 
 /// One cycle in two ways: base velocities from momentum, base accelerations from inverse dynamics.
-fn one(reference: &Reference, arm: &Arm) -> Vec<Outcome> {
-    let (times, wide) = (&reference.times, Cycle::<Dd>::new(arm.clone()));
-    let cycle = Cycle::<f64>::new(arm.clone());
-    let fine = exact(&wide, start(&wide), 40);
+fn one(reference: &Reference) -> Vec<Outcome> {
+    let (times, wide) = (&reference.times, cycle::<Dd>(reference));
+    let cycle = cycle::<f64>(reference);
+    let fine = exact(&wide, start(&wide), 16);
     let rows = times.iter().zip(&fine).map(|(&t, y)| {
         let (pose, twist) = halves(y);
         let columns = wide.columns(Dd::from_f64(t), pose, twist);
@@ -196,8 +196,8 @@ fn many<M>(method: M, name: &str, steps: u32, error: f64) -> Vec<Outcome>
 where
     M: Integrator<SVector<f64, 7>> + Integrator<SVector<f64, 13>> + Clone,
 {
-    let (reference, arm) = file();
-    let cycle = Cycle::<f64>::new(arm);
+    let reference = file();
+    let cycle = cycle::<f64>(&reference);
     let (cycles, rounded) = (steps / STEPS, adding_up(steps));
     let allowed = f64::from(steps) * error + rounded;
     let once = &reference.rows()[8][..7];
@@ -233,8 +233,7 @@ where
 
 /// The satellite through one cycle.
 pub(crate) fn satellite_cycle(_: Extent) -> Vec<Outcome> {
-    let (reference, arm) = file();
-    one(&reference, &arm)
+    one(&file())
 }
 
 /// The satellite through 125 cycles in 1e6 steps. The error of a step is that of quadrature for a harmonic of

@@ -4,7 +4,7 @@
 
 use bgdyn_runtime::{Dd, HybridSystem, Slope};
 use bgdyn_sim::{
-    FixedModes, Gauss, HybridState, INTEGRATORS, Integrator, IntegratorInfo, Run, ScenePlant,
+    FixedModes, Gauss, HybridState, INTEGRATORS, Integrator, IntegratorInfo, Ode, Run, ScenePlant,
     Solver, WithIntegrator, with_integrator,
 };
 
@@ -31,7 +31,10 @@ impl<S: HybridSystem<Dd>> Way<'_, S> {
     fn after<M: Integrator<State<S>>>(&self, method: M, steps: u32) -> State<S> {
         let (plant, modes) = (self.plant, &self.begin.modes);
         let held = FixedModes { plant, modes };
-        let mut solver = Solver::new(method, self.begin.t, self.begin.y);
+        // The scene's start has the digits of an `f64`: its quaternion is off length 1 by its rounding error.
+        let mut y = self.begin.y;
+        held.project(&mut y);
+        let mut solver = Solver::new(method, self.begin.t, y);
         let h = Dd::from(self.end) / Dd::from(f64::from(steps));
         for _ in 0..steps {
             solver.advance(&held, h).expect("it turns");

@@ -11,6 +11,7 @@ mod follow;
 mod free_orders;
 mod free_states;
 mod gimbal;
+mod growth;
 mod limits;
 mod literal;
 mod long_runs;

@@ -16,6 +16,14 @@ pub(crate) struct Reference {
 
 /// The reference solution of this name, from `tests/hard_cases`.
 macro_rules! reference {
+    ($name:ident) => {
+        $crate::reference::Reference::read(include_str!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../hard_cases/",
+            stringify!($name),
+            ".json"
+        )))
+    };
     ($name:literal) => {
         $crate::reference::Reference::read(include_str!(concat!(
             env!("CARGO_MANIFEST_DIR"),

@@ -17,27 +17,39 @@ pub(crate) const ARM: usize = NV - BASE;
 
 type Twist<T> = [T; BASE];
 
-/// The arm's angles A_j (sin(2π t/T + 2π p_j) − sin(2π p_j)) and their first and second rates.
-#[derive(Clone, Debug)]
-pub(crate) struct Arm {
-    pub amplitudes: Vec<f64>,
-    pub phases: Vec<f64>,
-    /// The period T, s.
-    pub period: f64,
+/// The arm's angles A_j (sin(2π t/T + 2π p_j) − sin(2π p_j)).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Arm<T> {
+    amplitudes: [T; ARM],
+    /// 2π p_j
+    phases: [T; ARM],
+    /// sin(2π p_j)
+    starts: [T; ARM],
+    /// 2π/T, rad/s.
+    pace: T,
 }
 
-impl Arm {
-    /// Returns angles, rates and accelerations at a time.
-    fn at<T: Real>(&self, t: T) -> [[T; ARM]; 3] {
+impl<T: Real> Arm<T> {
+    /// Returns the motion with these amplitudes, which have few decimals, phases, which are eighths of a
+    /// turn, and period, s.
+    pub fn new(amplitudes: &[f64], phases: &[f64], period: f64) -> Self {
         let turn = T::from_parts(std::f64::consts::TAU, 2.4492935982947064e-16);
-        let pace = turn / T::from_f64(self.period);
+        let phases: [T; ARM] = std::array::from_fn(|j| turn * T::from_f64(phases[j]));
+        Arm {
+            amplitudes: std::array::from_fn(|j| decimal(amplitudes[j])),
+            phases,
+            starts: phases.map(|phase| phase.sin_cos().0),
+            pace: turn / T::from_f64(period),
+        }
+    }
+
+    /// Returns angles, rates and accelerations at a time.
+    fn at(&self, t: T) -> [[T; ARM]; 3] {
         let mut all = [[T::from_f64(0.0); ARM]; 3];
         for j in 0..ARM {
-            // The decimals of the file have few digits: phases are eighths.
-            let size = decimal::<T>(self.amplitudes[j]);
-            let phase = turn * T::from_f64(self.phases[j]);
-            let (sine, cosine) = (pace * t + phase).sin_cos();
-            all[0][j] = size * (sine - phase.sin_cos().0);
+            let (size, pace) = (self.amplitudes[j], self.pace);
+            let (sine, cosine) = (pace * t + self.phases[j]).sin_cos();
+            all[0][j] = size * (sine - self.starts[j]);
             all[1][j] = size * pace * cosine;
             all[2][j] = -(size * pace * pace * sine);
         }
@@ -74,12 +86,12 @@ fn solved<T: Real>(mut m: [Twist<T>; BASE], mut b: Twist<T>) -> Twist<T> {
 
 /// The satellite's model with the given motion of its arm.
 pub(crate) struct Cycle<T> {
-    pub arm: Arm,
+    arm: Arm<T>,
     model: SatelliteArm6<T>,
 }
 
 impl<T: Real> Cycle<T> {
-    pub fn new(arm: Arm) -> Self {
+    pub fn new(arm: Arm<T>) -> Self {
         let model = SatelliteArm6::default();
         Cycle { arm, model }
     }

@@ -53,7 +53,7 @@ fn agrees(reference: &Literal, state: &State, case: &Value) -> Vec<Found> {
 }
 
 /// Checks bars 1 to 5 in one state in the scalar T.
-pub(crate) fn bars<T: Digits + Compiled>(
+fn bars<T: Digits + Compiled>(
     worst: &mut Worst,
     name: &str,
     (case, at): (&str, &str),
