@@ -72,17 +72,24 @@ impl<S: HybridSystem<Dd>> WithIntegrator<State<S>> for Error<'_, S> {
     }
 }
 
-/// The orders of all integrators in one scene. Those that read slopes are tried without them too, but for
-/// Rosenbrock methods, which need them.
-fn of_scene<S: HybridSystem<Dd> + Slope<Dd>>(case: &str, scene: &S, end: f64) -> Vec<Outcome> {
+/// The orders of all integrators in one scene. Those that read slopes are tried without them and, if `known`
+/// provides them, with them; Rosenbrock methods need them.
+fn of_scene<S: HybridSystem<Dd>>(
+    case: &str,
+    scene: &S,
+    known: Option<ScenePlant<'_, S, Dd>>,
+    end: f64,
+) -> Vec<Outcome> {
     let begin = &Run::begin(scene);
-    let (known, unknown) = (ScenePlant::with_slope(scene), ScenePlant::new(scene));
+    let unknown = ScenePlant::new(scene);
     let way = |plant| Way { plant, begin, end };
-    let (known, unknown) = (&way(&known), &way(&unknown));
+    let unknown = &way(&unknown);
+    let known = known.as_ref().map(way);
     let exact = &unknown.after(Gauss::<Dd, 6>::new(), FINE);
     let mut outcomes = vec![];
     for name in INTEGRATORS {
-        for (way, how) in [(unknown, ""), (known, ", slopes known")] {
+        let known = known.as_ref().map(|way| (way, ", slopes known"));
+        for (way, how) in [(unknown, "")].into_iter().chain(known) {
             if *name == "rodas4" && how.is_empty() {
                 continue;
             }
@@ -111,16 +118,20 @@ fn of_scene<S: HybridSystem<Dd> + Slope<Dd>>(case: &str, scene: &S, end: f64) ->
 /// The orders in scenes with spherical and floating joints.
 pub(crate) fn free_orders(_: Extent) -> Vec<Outcome> {
     macro_rules! of {
-        ($module:ident, $model:ident, $end:literal) => {
-            of_scene(
-                stringify!($module),
-                &scenes::$module::$model::<Dd>::default(),
-                $end,
-            )
-        };
+        ($module:ident, $model:ident, $end:literal, $slopes:expr) => {{
+            let scene = scenes::$module::$model::<Dd>::default();
+            of_scene(stringify!($module), &scene, $slopes(&scene), $end)
+        }};
     }
-    let mut all = of!(heavy_top_slow_cusp, HeavyTopSlowCusp, 0.1);
-    all.extend(of!(spherical_pendulum, SphericalPendulum, 0.4));
-    all.extend(of!(body_tumbling, BodyTumbling, 1.0));
+    let mut all = of!(heavy_top_slow_cusp, HeavyTopSlowCusp, 0.1, known);
+    all.extend(of!(spherical_pendulum, SphericalPendulum, 0.4, known));
+    all.extend(of!(body_tumbling, BodyTumbling, 1.0, known));
+    // Its scene is compiled without slopes.
+    all.extend(of!(satellite_torques, SatelliteTorques, 1.0, |_| None));
     all
+}
+
+/// The scene with its slopes.
+fn known<S: HybridSystem<Dd> + Slope<Dd>>(scene: &S) -> Option<ScenePlant<'_, S, Dd>> {
+    Some(ScenePlant::with_slope(scene))
 }

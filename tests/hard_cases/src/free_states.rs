@@ -105,7 +105,7 @@ fn all<T: Digits + Compiled>(
 /// states.
 fn of_mechanism(case: &Case, states: usize) -> Vec<Outcome> {
     let (name, mut worst) = (case.name, Worst::default());
-    let (reference, model) = (Literal::new(spec(name)), model::<f64>(name));
+    let (reference, model) = (Literal::by_definition(spec(name)), model::<f64>(name));
     let mut rng = Rng::new(47);
     for (motion, columns) in &case.motions {
         for (row, t) in motion.rows().iter().zip(&motion.times) {

@@ -6,7 +6,7 @@ use bgdyn_sim::{Dop853, FixedModes, Run, ScenePlant, Solver, StateVector};
 use crate::follow::alike;
 
 /// A change that rounding does not hide.
-const NUDGE: f64 = 1e-9;
+const NUDGE: f64 = 1e-11;
 
 /// Returns, for each sample of a motion, the largest growth of a change of one component at any sample
 /// before, largest component to largest component; at least 1.
