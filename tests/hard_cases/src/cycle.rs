@@ -9,7 +9,7 @@ use nalgebra::SVector;
 use crate::follow::alike;
 use crate::long_runs::adding_up;
 use crate::outcome::Outcome;
-use crate::reference::{Reference, reference};
+use crate::reference::{Reference, larger, reference};
 use crate::satellite::{ARM, Arm, ByEfforts, ByMomentum, Cycle, halves};
 use crate::turning::ROUNDING;
 use crate::vectors::{part, turned};
@@ -171,7 +171,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
         0..3 => (a[i] - b[i]).abs(),
         _ => (sign * a[i] - b[i]).abs(),
     });
-    off.fold(0.0, f64::max)
+    off.fold(0.0, larger)
 }
 
 /// Takes steps of a cycle's 8000th part; calls a function with time and state after each of every hundred.
@@ -216,7 +216,7 @@ where
     run(method, &ByEfforts(&cycle), start(&cycle), steps, |t, y| {
         let (found, terms) = cycle.momenta(t, halves(y).1);
         for k in 0..2 {
-            most[k] = most[k].max(found[k]);
+            most[k] = larger(most[k], found[k]);
             size[k] = size[k].max(terms[k]);
         }
     });

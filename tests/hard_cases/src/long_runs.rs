@@ -24,9 +24,10 @@ use bgdyn_sim::{
 use crate::bars::part;
 use crate::body::{Body, Freedom, Invariants};
 use crate::outcome::Outcome;
+use crate::reference::larger;
 use crate::tenths::Tenths;
 use crate::turning::{BODY, ROD, TOP, TUMBLING};
-use crate::vectors::{Vector, dot, excess};
+use crate::vectors::{Vector, apart, dot, excess, length};
 use crate::{Extent, Measured, scenes};
 
 /// Returns what the rounding errors of so many steps add up to.
@@ -117,16 +118,6 @@ impl Values {
     }
 }
 
-/// The largest component of a − b.
-fn apart(a: Vector, b: Vector) -> f64 {
-    let off = [0, 1, 2].map(|i| (a[i] - b[i]).to_f64().abs());
-    off.into_iter().fold(0.0, f64::max)
-}
-
-fn length(a: Vector) -> f64 {
-    dot(a, a).to_f64().sqrt()
-}
-
 impl Kept {
     /// Follows a run.
     fn new<S, M>(motion: &Motion, scene: &S, method: M, steps: u32) -> Self
@@ -169,7 +160,7 @@ impl Kept {
             kept.linear.add(i, apart(now.linear, first.linear));
             let now = [now.angular, now.linear].map(length);
             kept.sizes = [0, 1].map(|k| kept.sizes[k].max(now[k]));
-            kept.excess = kept.excess.max(excess(y, invariants.quaternion()).abs());
+            kept.excess = larger(kept.excess, excess(y, invariants.quaternion()).abs());
         }
         kept
     }
@@ -272,7 +263,7 @@ where
         (4.0, 4.0)
     };
     let excess = kept.excess / f64::EPSILON;
-    rows.add("16", "| |q|² − 1 |, in eps", excess, allowed, asked);
+    rows.add("16", "squared length of the quaternion less 1, in eps", excess, allowed, asked);
     rows.rows
 }
 

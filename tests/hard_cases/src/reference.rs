@@ -179,7 +179,7 @@ impl Reference {
 }
 
 /// Returns the larger number; NaN is larger than all others.
-fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.total_cmp(&b).is_lt() { b } else { a }
 }
 

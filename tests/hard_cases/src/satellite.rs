@@ -8,6 +8,7 @@ use hard_cases_compiled::satellite_arm6::{NQ, NV, SatelliteArm6};
 use nalgebra::SVector;
 
 use crate::outcome::{Deviation, Outcome};
+use crate::reference::larger;
 use crate::{Extent, turning};
 
 /// Number of velocities of the base.
@@ -169,7 +170,7 @@ fn momenta<T: Real>(
         let terms = (0..NV).map(|j| m[(i, j)] * v[j]);
         let sum = terms.clone().fold(T::from_f64(0.0), |sum, x| sum + x);
         let sizes: f64 = terms.map(|x| x.to_f64().abs()).sum();
-        most[i / 3] = most[i / 3].max(sum.to_f64().abs());
+        most[i / 3] = larger(most[i / 3], sum.to_f64().abs());
         size[i / 3] = size[i / 3].max(sizes);
     }
     (most, size)

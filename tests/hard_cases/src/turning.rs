@@ -1,8 +1,8 @@
 //! Bodies that turn freely, with quaternions in their states: motions by the integrator of order 8 with a
 //! tolerance of 1e-13 against reference solutions, and what remains constant along them.
 
-use bgdyn_runtime::HybridSystem;
 use bgdyn_runtime::manifold::rotation;
+use bgdyn_runtime::{Dd, HybridSystem};
 use bgdyn_sim::{Dop853, Run, ScenePlant, StateVector};
 
 use crate::body::{Body, Freedom};
@@ -10,7 +10,7 @@ use crate::follow::{alike, controlled, of};
 use crate::outcome::{Deviation, Outcome};
 use crate::reference::{Reference, reference};
 use crate::smooth::LARGEST;
-use crate::vectors::Vector;
+use crate::vectors::{Vector, apart, length};
 use crate::{Extent, growth, scenes};
 
 /// The rule of the files where nothing grows: 1e4 roundings.
@@ -63,11 +63,11 @@ fn states<S: HybridSystem<f64>>(scene: &S, reference: &Reference) -> Vec<Vec<f64
 /// first, and the rotation matrix row by row. A state has the quaternion x, y, z, w at one index, ω at
 /// another.
 fn columns(y: &[f64], quaternion: usize, rate: usize) -> Vec<f64> {
-    let [x, y_, z, w] = [0, 1, 2, 3].map(|i| y[quaternion + i]);
-    let r = rotation([x, y_, z, w]);
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| y[quaternion + i]);
+    let r = rotation([a, b, c, d]);
     let entries = (0..9).map(|k| r[(k / 3, k % 3)]);
     let rates = y[rate..rate + 3].iter().copied();
-    rates.chain([w, x, y_, z]).chain(entries).collect()
+    rates.chain([d, a, b, c]).chain(entries).collect()
 }
 
 /// Compares all columns of a file, whose quaternion is in these four columns from an index, with its
@@ -83,18 +83,6 @@ fn compared(
     let found = reference.with_signs(found, quaternion);
     let deviations = reference.all(&found, |k| tolerances[k]);
     Outcome::worst(case, "6", &format!("{what}; dop853 at 1e-13"), deviations)
-}
-
-/// The largest component of a − b.
-fn apart(a: Vector, b: Vector) -> f64 {
-    let off = [0, 1, 2].map(|i| (a[i] - b[i]).to_f64().abs());
-    off.into_iter().fold(0.0, f64::max)
-}
-
-/// Returns the length of a vector.
-fn length(a: Vector) -> f64 {
-    let square: f64 = a.iter().map(|x| x.to_f64() * x.to_f64()).sum();
-    square.sqrt()
 }
 
 /// Checks that functions of the state are constant to 1e4 roundings of a size.
@@ -119,7 +107,7 @@ fn constant(
 /// vertical component about a ball.
 fn kept(case: &str, body: &Body, reference: &Reference, states: &[Vec<f64>]) -> Vec<Outcome> {
     let invariants = body.invariants();
-    let zero = bgdyn_runtime::Dd::ZERO;
+    let zero = Dd::ZERO;
     let (times, first) = (&reference.times[..], &states[0][..]);
     let run = (times, states);
     let kinetic = invariants.kinetic(first).to_f64();

@@ -3,6 +3,8 @@
 use bgdyn_runtime::Dd;
 use bgdyn_runtime::manifold::{rotation, spherical};
 
+use crate::reference::larger;
+
 /// Three components.
 pub(crate) type Vector = [Dd; 3];
 
@@ -25,6 +27,17 @@ pub(crate) fn sum(a: Vector, b: Vector) -> Vector {
 /// k a
 pub(crate) fn scaled(k: Dd, a: Vector) -> Vector {
     a.map(|x| k * x)
+}
+
+/// Returns the length of a vector.
+pub(crate) fn length(a: Vector) -> f64 {
+    dot(a, a).to_f64().sqrt()
+}
+
+/// Returns the largest component of a − b; NaN if one is NaN.
+pub(crate) fn apart(a: Vector, b: Vector) -> f64 {
+    let off = [0, 1, 2].map(|i| (a[i] - b[i]).to_f64().abs());
+    off.into_iter().fold(0.0, larger)
 }
 
 /// Returns three components of a state.
