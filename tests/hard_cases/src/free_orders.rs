@@ -116,7 +116,7 @@ fn of_scene<S: HybridSystem<Dd>>(
 }
 
 /// The orders in scenes with spherical and floating joints.
-pub(crate) fn free_orders(_: Extent) -> Vec<Outcome> {
+pub(crate) fn free_orders(extent: Extent) -> Vec<Outcome> {
     macro_rules! of {
         ($module:ident, $model:ident, $end:literal, $slopes:expr) => {{
             let scene = scenes::$module::$model::<Dd>::default();
@@ -126,8 +126,10 @@ pub(crate) fn free_orders(_: Extent) -> Vec<Outcome> {
     let mut all = of!(heavy_top_slow_cusp, HeavyTopSlowCusp, 0.1, known);
     all.extend(of!(spherical_pendulum, SphericalPendulum, 0.4, known));
     all.extend(of!(body_tumbling, BodyTumbling, 1.0, known));
-    // Its scene is compiled without slopes.
-    all.extend(of!(satellite_torques, SatelliteTorques, 1.0, |_| None));
+    if extent == Extent::Full {
+        // Its scene is compiled without slopes.
+        all.extend(of!(satellite_torques, SatelliteTorques, 1.0, |_| None));
+    }
     all
 }
 

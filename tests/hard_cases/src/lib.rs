@@ -173,10 +173,10 @@ topics! {
     lugre_stick_slip: stick_slip::lugre_stick_slip;
     coulomb_stick_slip_belt: stick_slip::coulomb_stick_slip_belt;
     orders: orders::orders;
-    free_orders: free_orders::free_orders;
+    free_orders: free_orders::free_orders, "without the satellite";
     free_body_generic_kept: long_runs::free_body, "20,000 steps instead of 1e6";
     heavy_top_slow_cusp_kept: long_runs::cusp, "40,000 steps instead of 1e6";
-    heavy_top_sleeping_stable_kept: long_runs::sleeping, "400,000 steps instead of 1e6";
+    heavy_top_sleeping_stable_kept: long_runs::sleeping, "40,000 steps instead of 1e6";
     spherical_pendulum_kept: long_runs::pendulum, "20,000 steps instead of 1e6";
     body_tumbling_kept: long_runs::flips, "40,000 steps instead of 1e6";
     satellite_cycle_kept: cycle::satellite_cycles, "16,000 steps instead of 1e6";
