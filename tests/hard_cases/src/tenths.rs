@@ -1,5 +1,7 @@
 //! The errors of an invariant along a run, by tenths of its steps.
 
+use crate::reference::larger;
+
 /// Errors in the tenths of a number of steps.
 #[derive(Clone, Debug)]
 pub(crate) struct Tenths {
@@ -23,17 +25,13 @@ impl Tenths {
     /// Adds the error after step `i`, counted from 1.
     pub fn add(&mut self, i: u32, error: f64) {
         let tenth = (10 * u64::from(i - 1) / u64::from(self.steps)) as usize;
-        // A NaN is larger than all others, and stays.
-        if !(error.abs() <= self.largest[tenth]) {
-            self.largest[tenth] = error.abs();
-        }
+        self.largest[tenth] = larger(self.largest[tenth], error.abs());
         self.means[tenth] += 10.0 * error / f64::from(self.steps);
     }
 
     /// Returns the largest error; NaN if there is one.
     pub fn most(&self) -> f64 {
-        let larger = |most: f64, &x: &f64| if x.total_cmp(&most).is_gt() { x } else { most };
-        self.largest.iter().fold(0.0, larger)
+        self.largest.iter().copied().fold(0.0, larger)
     }
 
     /// Returns the largest error of the last tenth, in units of that of the first.
