@@ -69,7 +69,7 @@ impl<T: Digits> Subject<T> for In<'_, T> {
     }
 
     fn mass(&self, s: &State) -> Vec<f64> {
-        square(&values::<T>(&self.0.mass, s), s.q.len())
+        square(&values::<T>(&self.0.mass, s), s.v.len())
     }
 
     fn forward(&self, s: &State) -> Option<Vec<f64>> {
@@ -85,7 +85,7 @@ impl Reference for Generated {
     }
 
     fn mass(&self, s: &State) -> Vec<Dd> {
-        square(&fine(&self.mass, s), s.q.len())
+        square(&fine(&self.mass, s), s.v.len())
     }
 
     fn bias(&self, s: &State) -> Vec<Dd> {
@@ -96,14 +96,14 @@ impl Reference for Generated {
         fine(&self.gravity, s)
     }
 
-    fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd> {
+    fn forward_off(&self, s: &State, argument: usize, component: usize, factor: Dd) -> Vec<Dd> {
         let mut inputs: Inputs<Dd> = s.inputs();
         let argument = match argument {
             0 => &mut inputs.q,
             1 => &mut inputs.v,
             _ => &mut inputs.u,
         };
-        argument[joint] *= factor;
+        argument[component] *= factor;
         let (found, refused) = self.forward.evaluate(inputs);
         assert_eq!(refused, None, "a pivot is refused in double-double");
         found

@@ -52,9 +52,9 @@ pub trait Reference {
     fn bias(&self, s: &State) -> Vec<Dd>;
     /// Efforts at rest.
     fn gravity(&self, s: &State) -> Vec<Dd>;
-    /// Returns the accelerations if one joint's position, velocity or effort (argument 0, 1, 2) is
-    /// multiplied by a factor.
-    fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd>;
+    /// Returns the accelerations if one position, velocity or effort (argument 0, 1, 2) is multiplied by a
+    /// factor.
+    fn forward_off(&self, s: &State, argument: usize, component: usize, factor: Dd) -> Vec<Dd>;
     /// Accelerations.
     fn forward(&self, s: &State) -> Vec<Dd> {
         self.forward_off(s, 0, 0, Dd::ONE)
@@ -129,7 +129,7 @@ pub fn part(measured: f64, allowed: f64) -> f64 {
 /// One state of a mechanism with its norms.
 #[derive(Debug)]
 pub struct Hard {
-    /// Number of joints.
+    /// Number of velocities.
     pub n: usize,
     /// Arguments rounded to the scalar.
     pub state: State,
@@ -155,7 +155,7 @@ impl Hard {
             tau: round(&state.tau),
             parameters: state.parameters.clone(),
         };
-        let n = state.q.len();
+        let n = state.v.len();
         let mass = rounded(&reference.mass(&state));
         let moments = DMatrix::from_row_slice(n, n, &mass).symmetric_eigenvalues();
         let most = moments.max();
@@ -239,6 +239,14 @@ impl Hard {
         }
     }
 
+    /// Returns what rounding in double-double leaves of efforts that cancel: where no term of a joint's effort
+    /// is left, the reference has no digit.
+    fn noise(&self, found: &[f64]) -> f64 {
+        let (s, n) = (&self.state, self.n as f64);
+        let size = self.most * (norm(&s.v) * norm(&s.v) + norm(found)) + norm(&self.bias);
+        8.0 * n * 4.93e-32 * (size + norm(&s.tau))
+    }
+
     /// Returns the residual of each joint's effort, and 8 n eps of its terms.
     fn unmet<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<(f64, f64)> {
         let s = &self.state;
@@ -247,17 +255,23 @@ impl Hard {
             ..s.clone()
         };
         let met = off(&s.tau, &reference.inverse(&moved));
-        let terms = self.weighed(found);
+        let (terms, noise) = (self.weighed(found), self.noise(found));
         let joint = |i: usize| {
             let size = terms[i] + s.tau[i].abs() + self.bias[i].abs();
-            (met[i].abs(), 8.0 * self.n as f64 * T::EPS * size)
+            let unmet = met[i].abs();
+            let unmet = if unmet > noise { unmet } else { 0.0 };
+            (unmet, 8.0 * self.n as f64 * T::EPS * size)
         };
         (0..self.n).map(joint).collect()
     }
 
     /// Returns the change of each effort of these accelerations if each position and velocity is rounded,
     /// by half an eps of itself: the sum over all of them.
-    fn rounded_arguments<T: Digits>(&self, found: &[f64], reference: &impl Reference) -> Vec<f64> {
+    pub fn rounded_arguments<T: Digits>(
+        &self,
+        found: &[f64],
+        reference: &impl Reference,
+    ) -> Vec<f64> {
         // Much larger than the reference's rounding, much smaller than the curvature.
         const PART: f64 = 1.0 / (1u64 << 30) as f64;
         let at = State {
@@ -266,19 +280,21 @@ impl Hard {
         };
         let efforts = reference.inverse(&at);
         let mut changed = vec![0.0; self.n];
-        for (joint, velocity) in (0..self.n).flat_map(|j| [(j, false), (j, true)]) {
+        let places = (0..at.q.len()).map(|i| (i, false));
+        for (i, velocity) in places.chain((0..self.n).map(|i| (i, true))) {
             let mut moved = at.clone();
             let of = if velocity { &mut moved.v } else { &mut moved.q };
-            let from = of[joint];
-            of[joint] += from * PART;
+            let from = of[i];
+            of[i] += from * PART;
             // The actual step, which is rounded too.
-            let by = of[joint] - from;
+            let by = of[i] - from;
             if by == 0.0 {
                 continue;
             }
             let part = T::EPS / 2.0 * (from / by).abs();
-            for (i, (new, &old)) in reference.inverse(&moved).iter().zip(&efforts).enumerate() {
-                changed[i] += (*new - old).to_f64().abs() * part;
+            let efforts = reference.inverse(&moved).into_iter().zip(&efforts);
+            for (changed, (new, &old)) in changed.iter_mut().zip(efforts) {
+                *changed += (new - old).to_f64().abs() * part;
             }
         }
         changed
@@ -311,8 +327,10 @@ impl Hard {
         let exact = reference.forward(&self.state);
         let slightly = Dd::ONE + Dd::from_f64(T::EPS / 2.0);
         let mut sum = 0.0;
-        for (joint, argument) in (0..self.n).flat_map(|j| (0..3).map(move |a| (j, a))) {
-            let moved = reference.forward_off(&self.state, argument, joint, slightly);
+        let sizes = [self.state.q.len(), self.n, self.n];
+        let arguments = sizes.into_iter().enumerate();
+        for (argument, i) in arguments.flat_map(|(a, size)| (0..size).map(move |i| (a, i))) {
+            let moved = reference.forward_off(&self.state, argument, i, slightly);
             let by = moved.iter().zip(&exact).map(|(&x, &y)| (x - y).to_f64());
             sum += norm(&by.collect::<Vec<f64>>());
         }

@@ -10,6 +10,7 @@ use nalgebra::SVector;
 
 use crate::outcome::Outcome;
 use crate::scenes::double_pendulum_chaotic::DoublePendulumChaotic;
+use crate::tenths::Tenths;
 use crate::{Curve, Extent, Measured, Panel};
 
 /// Half the energy between hanging down and standing up: the unit of the bars, J.
@@ -52,36 +53,19 @@ fn energy<T: Real>(y: &Y<T>) -> T {
 
 /// The energy error of a run, in [`UNIT`]s.
 struct Kept {
-    /// Largest errors in the tenths of the first 1e6 steps.
-    tenths: [f64; 10],
-    /// Mean errors in the same.
-    means: [f64; 10],
+    /// Errors in the tenths of the first 1e6 steps.
+    tenths: Tenths,
     /// The largest error of all steps.
     most: f64,
     /// Step numbers, and the largest error since the previous point.
     points: Vec<(f64, f64)>,
 }
 
-impl Kept {
-    fn within(&self) -> f64 {
-        self.tenths.iter().fold(0.0, |most, &x| most.max(x))
-    }
-
-    /// Returns the spread of the means of the tenths.
-    fn spread(&self) -> f64 {
-        let most = self.means.iter().fold(f64::NEG_INFINITY, |m, &x| m.max(x));
-        self.means
-            .iter()
-            .fold(0.0, |spread, &x| spread.max(most - x))
-    }
-}
-
 /// Records the energy error of each step, returned by `next`.
 fn follow(steps: u32, mut next: impl FnMut() -> f64) -> Kept {
     let barred = steps.min(MILLION);
     let mut kept = Kept {
-        tenths: [0.0; 10],
-        means: [0.0; 10],
+        tenths: Tenths::new(barred),
         most: 0.0,
         points: vec![],
     };
@@ -90,9 +74,7 @@ fn follow(steps: u32, mut next: impl FnMut() -> f64) -> Kept {
         let off = next() / UNIT;
         kept.most = kept.most.max(off.abs());
         if i <= barred {
-            let tenth = (10 * u64::from(i - 1) / u64::from(barred)) as usize;
-            kept.tenths[tenth] = kept.tenths[tenth].max(off.abs());
-            kept.means[tenth] += 10.0 * off / f64::from(barred);
+            kept.tenths.add(i, off);
         }
         bin = bin.max(off.abs());
         let place = (f64::from(i).log10() * PER_DECADE).floor();
@@ -172,16 +154,28 @@ fn one(name: &'static str, kept: &Kept, outcomes: Vec<Outcome>) -> Measured {
 /// The classical Runge–Kutta method: its error grows with each step.
 pub(crate) fn rk4(extent: Extent) -> Measured {
     let kept = swing(Rk4, 1e-3, extent.steps(20_000), false);
-    let outcome = Outcome::new(CASE, "7", "rk4, 1 ms, in 29.43 J", kept.within(), 5e-12);
+    let outcome = Outcome::new(
+        CASE,
+        "7",
+        "rk4, 1 ms, in 29.43 J",
+        kept.tenths.most(),
+        5e-12,
+    );
     one("rk4, 1 ms", &kept, vec![outcome])
 }
 
 /// Gauss–Legendre with two stages in momenta: the error is bounded.
 pub(crate) fn gauss2(extent: Extent) -> Measured {
     let kept = swing(Gauss2::new(), 1e-2, extent.steps(20_000), false);
-    let grown = kept.tenths[9] / kept.tenths[0];
+    let grown = kept.tenths.grown();
     let outcomes = vec![
-        Outcome::new(CASE, "7", "gauss2, 10 ms, in 29.43 J", kept.within(), 1e-10),
+        Outcome::new(
+            CASE,
+            "7",
+            "gauss2, 10 ms, in 29.43 J",
+            kept.tenths.most(),
+            1e-10,
+        ),
         Outcome::new(
             CASE,
             "7",
@@ -196,7 +190,13 @@ pub(crate) fn gauss2(extent: Extent) -> Measured {
 /// Gauss–Legendre with three stages in momenta: almost rounding.
 pub(crate) fn gauss3(extent: Extent) -> Measured {
     let kept = swing(Gauss3::new(), 1e-3, extent.steps(10_000), false);
-    let outcome = Outcome::new(CASE, "7", "gauss3, 1 ms, in 29.43 J", kept.within(), 3e-14);
+    let outcome = Outcome::new(
+        CASE,
+        "7",
+        "gauss3, 1 ms, in 29.43 J",
+        kept.tenths.most(),
+        3e-14,
+    );
     one("gauss3, 1 ms", &kept, vec![outcome])
 }
 
@@ -204,7 +204,7 @@ pub(crate) fn gauss3(extent: Extent) -> Measured {
 pub(crate) fn compensated(extent: Extent) -> Measured {
     let kept = swing(Gauss3::new(), 1e-3, extent.steps(10_000), true);
     let what = "gauss3, 1 ms, compensated, in 29.43 J";
-    let outcome = Outcome::new(CASE, "7", what, kept.within(), 1e-15);
+    let outcome = Outcome::new(CASE, "7", what, kept.tenths.most(), 1e-15);
     one("gauss3, 1 ms, compensated", &kept, vec![outcome])
 }
 
@@ -220,7 +220,7 @@ fn forms<M: Integrator<Y<f64>>>(
     let (natural, canonical) = (ScenePlant::new(&scene), CanonicalPlant::new(&scene));
     let in_velocities = tumble(&natural, &begin.modes, momenta, new(), steps);
     let in_momenta = tumble(&canonical, &begin.modes, |z| *z, new(), steps);
-    let part = in_momenta.spread() / in_velocities.spread();
+    let part = in_momenta.tenths.spread() / in_velocities.tenths.spread();
     Measured {
         outcomes: vec![Outcome::new(
             "chaotic double pendulum, energy",

@@ -9,6 +9,7 @@ use crate::bars::{Digits, Found, Hard, Reference, Subject};
 use crate::literal::Literal;
 use crate::outcome::{Outcome, Worst};
 use crate::rng::Rng;
+use crate::vectors::{Vector, cross};
 use crate::{Extent, State};
 use hard_cases_compiled::{Compiled, model, spec};
 
@@ -17,13 +18,6 @@ struct Euler {
     literal: Literal,
     /// Moments about the fixed point.
     inertia: [[Dd; 3]; 3],
-}
-
-type Vector = [Dd; 3];
-
-fn cross(a: Vector, b: Vector) -> Vector {
-    let entry = |i: usize, j: usize| a[i] * b[j] - a[j] * b[i];
-    [entry(1, 2), entry(2, 0), entry(0, 1)]
 }
 
 fn times(m: &[[Dd; 3]; 3], x: Vector) -> Vector {

@@ -4,11 +4,17 @@
 #![forbid(unsafe_code)]
 
 mod bars;
+mod body;
+mod cycle;
 mod energy;
 mod follow;
+mod free_orders;
+mod free_states;
 mod gimbal;
+mod growth;
 mod limits;
 mod literal;
+mod long_runs;
 mod motor;
 #[path = "../../../bgdyn-sim/tests/integrators/order.rs"]
 mod order;
@@ -22,6 +28,7 @@ mod reference;
 #[allow(dead_code)]
 #[path = "../../../bgdyn-codegen/tests/common/rng.rs"]
 mod rng;
+mod satellite;
 mod single;
 mod singular;
 mod smooth;
@@ -29,7 +36,10 @@ mod state;
 mod stick_slip;
 mod stiff;
 mod subject;
+mod tenths;
+mod turning;
 mod uneven;
+mod vectors;
 #[allow(dead_code)]
 #[path = "../written.rs"]
 mod written;
@@ -114,6 +124,11 @@ pub struct Topic {
     pub run: fn(Extent) -> Measured,
 }
 
+/// Case and quantity of the rows that miss their bar in the quick run too: `docs/hard_cases.md` says by how
+/// much, and why.
+pub const MISSED: &[(&str, &str)] =
+    &[("body_tumbling", "velocities, orientation; dop853 at 1e-13")];
+
 macro_rules! topics {
     ($($name:ident: $run:path $(, $shortened:literal)?;)*) => {
         /// All topics, in the order of the table.
@@ -142,6 +157,14 @@ topics! {
     mass_ratio_1e9_1: smooth::mass_ratio_1e9_1;
     mass_ratio_1e12_1: uneven::heavy_first;
     mass_ratio_1_1e12: uneven::heavy_last;
+    free_states: free_states::free_states, "the states of the motions and 20 a mechanism instead of 30,000";
+    free_body_generic: turning::free_body_generic;
+    heavy_top_slow_cusp: turning::heavy_top_slow_cusp;
+    heavy_top_sleeping_stable: turning::heavy_top_sleeping_stable;
+    spherical_pendulum: turning::spherical_pendulum;
+    body_tumbling: turning::body_tumbling;
+    satellite_torques: satellite::satellite_torques;
+    satellite_cycle: cycle::satellite_cycle;
     stiff_spring_pendulum: stiff::stiff_spring_pendulum;
     stiff_spring_two_mass: stiff::stiff_spring_two_mass;
     motor_linear_stiff: stiff::motor_linear_stiff;
@@ -150,6 +173,13 @@ topics! {
     lugre_stick_slip: stick_slip::lugre_stick_slip;
     coulomb_stick_slip_belt: stick_slip::coulomb_stick_slip_belt;
     orders: orders::orders;
+    free_orders: free_orders::free_orders, "without the satellite";
+    free_body_generic_kept: long_runs::free_body, "20,000 steps instead of 1e6";
+    heavy_top_slow_cusp_kept: long_runs::cusp, "40,000 steps instead of 1e6";
+    heavy_top_sleeping_stable_kept: long_runs::sleeping, "40,000 steps instead of 1e6";
+    spherical_pendulum_kept: long_runs::pendulum, "20,000 steps instead of 1e6";
+    body_tumbling_kept: long_runs::flips, "40,000 steps instead of 1e6";
+    satellite_cycle_kept: cycle::satellite_cycles, "16,000 steps instead of 1e6";
     energy_rk4: energy::rk4, "20,000 steps instead of 1e7";
     energy_gauss2: energy::gauss2, "20,000 steps instead of 1e7";
     energy_gauss3: energy::gauss3, "10,000 steps instead of 1e7";

@@ -4,9 +4,10 @@ use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::{Prepared, by_name};
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::mechanism::{Mechanism, Motion};
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
+use bgdyn_runtime::manifold::spherical;
 
 use crate::State;
 use crate::bars::Reference;
@@ -31,12 +32,25 @@ impl Literal {
     /// # Panics
     /// If the spec is refused.
     pub fn new(text: &str) -> Literal {
+        Literal::up_to(text, SHORT)
+    }
+
+    /// Reads a spec; the literal sum is the reference whatever the number of joints.
+    ///
+    /// # Panics
+    /// If the spec is refused.
+    pub fn by_definition(text: &str) -> Literal {
+        Literal::up_to(text, usize::MAX)
+    }
+
+    /// Reads a spec; the literal sum is the reference for up to so many velocities.
+    fn up_to(text: &str, short: usize) -> Literal {
         let named = (!text.contains("\nname:")).then_some("reference");
         let (mechanism, faults) = bgdyn_codegen::read(text, named);
         let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render("spec", text)));
         let graph = bond_graph::build(&mechanism);
         let prepared = Prepared::new(&graph);
-        let short = mechanism.nv() <= SHORT;
+        let short = mechanism.nv() <= short;
         let [way, forward] = match short {
             true => ["literal", "literal"],
             false => ["recursion_own", "articulated"],
@@ -64,7 +78,29 @@ impl Literal {
         }
     }
 
+    /// The arguments in double-double. A quaternion with the digits of a scalar is off length 1 by its
+    /// rounding error: the orientation is that of the quaternion divided by its length.
     fn inputs(&self, s: &State) -> Inputs<Dd> {
+        let mut inputs = self.as_given(s);
+        self.normalize(&mut inputs.q);
+        inputs
+    }
+
+    /// Scales every quaternion to length 1.
+    fn normalize(&self, q: &mut [Dd]) {
+        for link in self.mechanism.links() {
+            let Motion::Compound(motion) = link.joint.kind.motion else {
+                continue;
+            };
+            if let Some(first) = motion.quaternion() {
+                let at = link.joint.degrees.positions[first].0;
+                let unit = spherical::normalize([0, 1, 2, 3].map(|i| q[at + i]));
+                q[at..at + 4].copy_from_slice(&unit);
+            }
+        }
+    }
+
+    fn as_given(&self, s: &State) -> Inputs<Dd> {
         let all = |x: &[f64]| x.iter().map(|&x| Dd::from_f64(x)).collect();
         let parameters = self.mechanism.parameters().iter();
         Inputs {
@@ -90,7 +126,7 @@ impl Reference for Literal {
     }
 
     fn mass(&self, s: &State) -> Vec<Dd> {
-        full(&self.value(&self.mass, self.inputs(s)), s.q.len())
+        full(&self.value(&self.mass, self.inputs(s)), s.v.len())
     }
 
     fn bias(&self, s: &State) -> Vec<Dd> {
@@ -101,14 +137,15 @@ impl Reference for Literal {
         self.value(&self.gravity, self.inputs(s))
     }
 
-    fn forward_off(&self, s: &State, argument: usize, joint: usize, factor: Dd) -> Vec<Dd> {
-        let mut inputs = self.inputs(s);
+    fn forward_off(&self, s: &State, argument: usize, component: usize, factor: Dd) -> Vec<Dd> {
+        let mut inputs = self.as_given(s);
         let argument = match argument {
             0 => &mut inputs.q,
             1 => &mut inputs.v,
             _ => &mut inputs.u,
         };
-        argument[joint] *= factor;
+        argument[component] *= factor;
+        self.normalize(&mut inputs.q);
         self.value(&self.forward, inputs)
     }
 }

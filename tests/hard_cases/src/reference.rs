@@ -16,6 +16,14 @@ pub(crate) struct Reference {
 
 /// The reference solution of this name, from `tests/hard_cases`.
 macro_rules! reference {
+    ($name:ident) => {
+        $crate::reference::Reference::read(include_str!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/../hard_cases/",
+            stringify!($name),
+            ".json"
+        )))
+    };
     ($name:literal) => {
         $crate::reference::Reference::read(include_str!(concat!(
             env!("CARGO_MANIFEST_DIR"),
@@ -69,6 +77,42 @@ impl Reference {
     /// If the file has no such list.
     pub fn invariants(&self, name: &str) -> Vec<f64> {
         numbers(&self.file["invariants"][name])
+    }
+
+    /// Returns a number of the invariants.
+    ///
+    /// # Panics
+    /// If the file has no such number.
+    pub fn invariant(&self, name: &str) -> f64 {
+        self.file["invariants"][name].as_f64().expect("a number")
+    }
+
+    /// Returns a list of the parameters.
+    ///
+    /// # Panics
+    /// If the file has no such list.
+    pub fn parameters(&self, name: &str) -> Vec<f64> {
+        numbers(&self.file["parameters"][name])
+    }
+
+    /// Returns the values of all columns but the time, sample by sample.
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
+    }
+
+    /// Gives the quaternion from a column of each found sample the sign of the expected one: q and −q are
+    /// one orientation.
+    pub fn with_signs(&self, mut found: Vec<Vec<f64>>, column: usize) -> Vec<Vec<f64>> {
+        let quaternion = column..column + 4;
+        for (found, wanted) in found.iter_mut().zip(&self.rows) {
+            let pairs = quaternion.clone().map(|i| found[i] * wanted[i]);
+            if pairs.sum::<f64>() < 0.0 {
+                for x in &mut found[quaternion.clone()] {
+                    *x = -*x;
+                }
+            }
+        }
+        found
     }
 
     /// Values of these columns, sample by sample.
@@ -135,7 +179,7 @@ impl Reference {
 }
 
 /// Returns the larger number; NaN is larger than all others.
-fn larger(a: f64, b: f64) -> f64 {
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if a.total_cmp(&b).is_lt() { b } else { a }
 }
 

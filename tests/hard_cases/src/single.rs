@@ -13,10 +13,10 @@ use hard_cases_compiled::{Compiled, model, spec};
 
 /// Number of seeded states of a mechanism in the full run: each twice, with efforts of its own
 /// accelerations and with others, which makes 30,000.
-const STATES: usize = 15_000;
+pub(crate) const STATES: usize = 15_000;
 
 /// Largest number of joints for which `f32` has enough digits for every bar.
-const SHORT: usize = 8;
+pub(crate) const SHORT: usize = 8;
 
 /// Forward dynamics may refuse the most uneven masses if 1/(cond M · eps) is at most this. For them the
 /// check of the pivots is stricter: a pivot is refused within 64 units of rounding of the subtracted

@@ -9,7 +9,7 @@ use crate::reference::{Reference, reference};
 use crate::{Extent, scenes};
 
 /// Samples with a larger permitted deviation due to rounding are not compared.
-const LARGEST: f64 = 1e-3;
+pub(crate) const LARGEST: f64 = 1e-3;
 
 /// Compares a motion with its reference, as far as rounding errors permit.
 fn within<P>(

@@ -2,6 +2,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use hard_cases_compiled::Model;
+
 use crate::rng::Rng;
 
 /// Positions, velocities, accelerations, efforts, run-time parameters.
@@ -40,5 +42,27 @@ impl State {
             }
         }
         state
+    }
+
+    /// Returns a seeded state of a mechanism with quaternions. In half of them every orientation and every
+    /// angle is almost quarter turns from zero.
+    pub(crate) fn oriented(rng: &mut Rng, model: &dyn Model<f64>) -> State {
+        let n = model.nv();
+        let aligned = rng.chance(0.5);
+        let hair = *rng.pick(&[0.0, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2]);
+        let u: Vec<f64> = (0..n)
+            .map(|_| match aligned {
+                true => rng.below(4) as f64 / 4.0 + hair,
+                false => rng.unit(),
+            })
+            .collect();
+        let mut some = |size: f64| -> Vec<f64> { (0..n).map(|_| rng.within(size)).collect() };
+        State {
+            q: model.sample(&u),
+            v: some(2.0),
+            a: some(3.0),
+            tau: some(20.0),
+            parameters: vec![],
+        }
     }
 }

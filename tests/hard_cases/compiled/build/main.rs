@@ -18,7 +18,8 @@ fn main() {
     let folder = root.join("..");
     let out = PathBuf::from(env::var("OUT_DIR").unwrap());
     println!("cargo::rerun-if-changed=build");
-    for watched in ["written.rs", "specs", "scenes", "../../specs"] {
+    let others = ["../free_scenes", "../free_joints", "../../specs"];
+    for watched in ["written.rs", "specs", "scenes"].into_iter().chain(others) {
         println!("cargo::rerun-if-changed={}", folder.join(watched).display());
     }
     let mechanisms = mechanisms::write(&folder, &out);

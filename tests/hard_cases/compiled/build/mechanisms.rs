@@ -1,5 +1,5 @@
-//! Generates mechanisms: chains, mass ratios, singular mass matrices, moved bases, gimbals, and the specs
-//! of the repository.
+//! Generates mechanisms: chains, mass ratios, singular mass matrices, moved bases, gimbals, bodies that turn
+//! freely, and the specs of the repository.
 
 use std::fmt::Write;
 use std::fs;
@@ -12,6 +12,15 @@ use bgdyn_codegen::options::{DYNAMICS, Options};
 
 use crate::dependence;
 use crate::written::{Chain, cases, links_of, sliders_of};
+
+/// Bodies on spherical and floating joints, by name and file.
+const FREE: [(&str, &str); 5] = [
+    ("free_body_generic", "specs/free_body_generic.yaml"),
+    ("heavy_top", "../free_scenes/heavy_top.yaml"),
+    ("spherical_pendulum", "specs/spherical_pendulum.yaml"),
+    ("body_tumbling", "specs/body_tumbling.yaml"),
+    ("satellite_arm6", "../free_joints/satellite_arm6.yaml"),
+];
 
 /// The specs by name.
 fn specs(root: &Path) -> Vec<(String, String)> {
@@ -34,6 +43,9 @@ fn specs(root: &Path) -> Vec<(String, String)> {
         &read("../../specs/scara.yaml"),
         &read("../../specs/puma560.yaml"),
     ));
+    for (name, path) in FREE {
+        specs.push((name.to_owned(), read(path)));
+    }
     specs.extend(shared(&root.join("../../specs")));
     specs
 }
@@ -175,11 +187,11 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let own = struct_ident(model.mechanism.name());
         fs::write(&spec, &text).unwrap();
         fs::write(&source, source_text(module(&model, &place))).unwrap();
-        let nv = model.mechanism.nv();
+        let (nq, nv) = (model.mechanism.nq(), model.mechanism.nv());
         writeln!(includes, "include!({source:?});").unwrap();
         writeln!(
             models,
-            "{name:?} => Some(Box::new(Erased::<_, {nv}>({name}::{own}::<T>::default()))),"
+            "{name:?} => Some(Box::new(Erased::<_, {nq}, {nv}>({name}::{own}::<T>::default()))),"
         )
         .unwrap();
         writeln!(texts, "({name:?}, include_str!({spec:?})),").unwrap();

@@ -17,12 +17,15 @@ use bgdyn_codegen::system::SceneEquations;
 use crate::arm::{ALL, TENSOR, mechanism};
 use crate::dependence;
 
-/// Scenes with the Jacobian for stiff integrators.
-const STIFF: [&str; 6] = [
+/// Scenes with the Jacobian for stiff integrators, or for the orders of those that read it.
+const WITH_JACOBIAN: [&str; 9] = [
+    "body_tumbling",
+    "heavy_top_slow_cusp",
     "hydraulic_cylinder",
     "lugre_stick_slip",
     "motor_linear_stiff",
     "motor_pendulum",
+    "spherical_pendulum",
     "stiff_spring_stretch",
     "stiff_spring_two_mass",
 ];
@@ -86,9 +89,9 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let functions = scene_functions(&system, &Options::default());
         includes += &module_of(out, &name, &system, &functions);
     }
-    let known = files(root.join("scenes"))
-        .into_iter()
-        .map(|path| (path, false));
+    let driven = root.join("../free_scenes/satellite_torques.scene.yaml");
+    let known = files(root.join("scenes")).into_iter().chain([driven]);
+    let known = known.map(|path| (path, false));
     let shared = files(root.join("../../specs/scenes"))
         .into_iter()
         .map(|path| (path, true));
@@ -100,7 +103,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let read = read_scene(&text, &name, load);
         let (system, _) = read.unwrap_or_else(|e| panic!("{}: {e:?}", path.display()));
         let options = Options {
-            jacobian: STIFF.contains(&name.as_str()),
+            jacobian: WITH_JACOBIAN.contains(&name.as_str()),
             canonical: CANONICAL.contains(&name.as_str()),
             ..Options::default()
         };

@@ -6,8 +6,12 @@ use bgdyn::{Dynamics, Scalar};
 
 /// A compiled mechanism. Matrices are stored row by row.
 pub trait Model<T> {
-    /// Number of joints.
+    /// Number of positions.
+    fn nq(&self) -> usize;
+    /// Number of velocities.
     fn nv(&self) -> usize;
+    /// Returns the position for numbers in 0 … 1, as [`Dynamics::sample`].
+    fn sample(&self, u: &[T]) -> Vec<T>;
     /// Joint efforts.
     fn inverse_dynamics(&self, q: &[T], v: &[T], a: &[T]) -> Vec<T>;
     /// The mass matrix.
@@ -23,8 +27,8 @@ pub trait Model<T> {
     fn forward_dynamics(&self, q: &[T], v: &[T], tau: &[T]) -> Result<Vec<T>, String>;
 }
 
-/// A generated struct with its number of joints erased.
-struct Erased<M, const N: usize>(M);
+/// A generated struct with its numbers of positions and velocities erased.
+struct Erased<M, const NQ: usize, const NV: usize>(M);
 
 fn vector<T: Scalar, const N: usize>(x: &[T]) -> SVector<T, N> {
     SVector::from_column_slice(x)
@@ -34,9 +38,19 @@ fn list<T: Scalar, const N: usize>(x: &SVector<T, N>) -> Vec<T> {
     x.as_slice().to_vec()
 }
 
-impl<T: Scalar, M: Dynamics<T, N, N>, const N: usize> Model<T> for Erased<M, N> {
+impl<T: Scalar, M: Dynamics<T, NQ, NV>, const NQ: usize, const NV: usize> Model<T>
+    for Erased<M, NQ, NV>
+{
+    fn nq(&self) -> usize {
+        NQ
+    }
+
     fn nv(&self) -> usize {
-        N
+        NV
+    }
+
+    fn sample(&self, u: &[T]) -> Vec<T> {
+        list(&self.0.sample(&vector(u)))
     }
 
     fn inverse_dynamics(&self, q: &[T], v: &[T], a: &[T]) -> Vec<T> {
@@ -44,8 +58,8 @@ impl<T: Scalar, M: Dynamics<T, N, N>, const N: usize> Model<T> for Erased<M, N> 
     }
 
     fn mass_matrix(&self, q: &[T]) -> Vec<T> {
-        let m: SMatrix<T, N, N> = self.0.mass_matrix(&vector(q));
-        (0..N * N).map(|k| m[(k / N, k % N)]).collect()
+        let m: SMatrix<T, NV, NV> = self.0.mass_matrix(&vector(q));
+        (0..NV * NV).map(|k| m[(k / NV, k % NV)]).collect()
     }
 
     fn bias(&self, q: &[T], v: &[T]) -> Vec<T> {
