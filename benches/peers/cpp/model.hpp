@@ -12,6 +12,7 @@ inline pinocchio::JointIndex add_joint(pinocchio::Model& model, const Body& b) {
   const SE3 placement(Eigen::Matrix<double, 3, 3, Eigen::RowMajor>(b.R), Eigen::Vector3d(b.p[0], b.p[1], b.p[2]));
   const JointIndex parent = JointIndex(b.parent + 1);
   auto add = [&](const auto& joint) { return model.addJoint(parent, joint, placement, b.name); };
+  if (b.floats) return add(JointModelFreeFlyer());
   // Its joints about a coordinate axis are faster than those about any other.
   if (axis == Eigen::Vector3d::UnitX()) return b.slides ? add(JointModelPX()) : add(JointModelRX());
   if (axis == Eigen::Vector3d::UnitY()) return b.slides ? add(JointModelPY()) : add(JointModelRY());
