@@ -10,7 +10,10 @@ use crate::states::JointKind;
 /// # Errors
 /// A joint that the descriptions for other programs have no word for: its name and type.
 pub fn joint_kinds(mechanism: &Mechanism) -> Result<Vec<JointKind>, String> {
-    let follower = mechanism.links().iter().find(|l| l.joint.degrees.mimic.is_some());
+    let follower = mechanism
+        .links()
+        .iter()
+        .find(|l| l.joint.degrees.mimic.is_some());
     if let Some(link) = follower {
         let name = &link.joint.name;
         return Err(format!("joint {name}: peers have no joint with `mimic`"));

@@ -56,11 +56,7 @@ impl<'a, I: Iterator<Item = &'a f64> + Clone> Display for Row<I> {
 
 /// Writes a line for each body: name, index of its parent (−1: the world), joint; rotation (row by row)
 /// and origin in the parent, axis, mass, centre of mass, inertia about it (xx xy xz yy yz zz).
-fn flat(
-    mechanism: &Mechanism,
-    bodies: &[Body],
-    kinds: &[JointKind],
-) -> Result<String, fmt::Error> {
+fn flat(mechanism: &Mechanism, bodies: &[Body], kinds: &[JointKind]) -> Result<String, fmt::Error> {
     let mut text = String::new();
     writeln!(text, "mechanism {}", mechanism.name())?;
     writeln!(text, "gravity {}", Row(vector(mechanism.gravity()).iter()))?;
@@ -87,11 +83,7 @@ fn flat(
     Ok(text)
 }
 
-fn urdf(
-    mechanism: &Mechanism,
-    bodies: &[Body],
-    kinds: &[JointKind],
-) -> Result<String, fmt::Error> {
+fn urdf(mechanism: &Mechanism, bodies: &[Body], kinds: &[JointKind]) -> Result<String, fmt::Error> {
     let (mut text, name) = (String::new(), mechanism.name());
     writeln!(text, "<robot name=\"{name}\">\n  <link name=\"world\"/>")?;
     let link = |i: Option<usize>| i.map_or("world".to_owned(), |i| format!("body{i}"));
