@@ -65,9 +65,9 @@ def counts(result, folder):
 
 
 def operations_of_c(text):
-    """Those between two operands in the function's body; signs and exponents are none, nor are CasADi's squares."""
-    body = text[text.index("{", text.index("double** res" if "double** res" in text else "(const")) :]
-    body = re.sub(r"\d[eE][-+]", "0", body)
+    """Those between two operands of its assignments, and CasADi's squares; signs and exponents are none."""
+    assignments = [line for line in text.splitlines() if re.match(r"\s*\w+(\[\d+\])? ?=", line)]
+    body = re.sub(r"\d[eE][-+]", "0", "\n".join(assignments))
     return len(re.findall(r"[\w\])] ?[-+*/] ?[\w(-]", body)) + body.count("casadi_sq(")
 
 
