@@ -1,6 +1,6 @@
 //! The joints of a mechanism, in the terms of the compared programs.
 
-use bgdyn_codegen::mechanism::{Mechanism, Motion};
+use bgdyn_codegen::mechanism::{LinkId, Mechanism, Motion};
 
 use crate::body::moving_links;
 use crate::states::JointKind;
@@ -18,8 +18,8 @@ pub fn joint_kinds(mechanism: &Mechanism) -> Result<Vec<JointKind>, String> {
         let name = &link.joint.name;
         return Err(format!("joint {name}: peers have no joint with `mimic`"));
     }
-    let kind = |&link: &_| {
-        let joint = &mechanism.links()[link].joint;
+    let kind = |link: LinkId| {
+        let joint = &mechanism.links()[link.0].joint;
         match joint.kind.motion {
             Motion::Rotation => Ok(JointKind::Turns),
             Motion::Translation => Ok(JointKind::Slides),
@@ -31,6 +31,5 @@ pub fn joint_kinds(mechanism: &Mechanism) -> Result<Vec<JointKind>, String> {
             )),
         }
     };
-    let links: Vec<usize> = moving_links(mechanism).iter().map(|link| link.0).collect();
-    links.iter().map(kind).collect()
+    moving_links(mechanism).into_iter().map(kind).collect()
 }
