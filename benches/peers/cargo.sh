@@ -20,4 +20,5 @@ import_talos() {
     "$venv/bin/python" -m zipfile -e "$PEERS_DIR"/urdfs/example_robot_data-*.whl "$files"
   fi
   "$PEERS_DIR/bin/bgdyn" import "$(find "$files" -name talos_reduced.urdf)" --base floating -o "$1"
+  "$venv/bin/python" "$here/depth_first.py" "$1"
 }

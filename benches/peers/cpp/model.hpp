@@ -20,8 +20,19 @@ inline pinocchio::JointIndex add_joint(pinocchio::Model& model, const Body& b) {
   return b.slides ? add(JointModelPrismaticUnaligned(axis)) : add(JointModelRevoluteUnaligned(axis));
 }
 
+// Pinocchio's mass matrix is wrong for joints that are not in depth-first order.
+inline bool depth_first(const std::vector<Body>& bodies) {
+  for (int i = 1; i < int(bodies.size()); ++i) {
+    int ancestor = i - 1;
+    while (ancestor >= 0 && ancestor != bodies[size_t(i)].parent) ancestor = bodies[size_t(ancestor)].parent;
+    if (ancestor != bodies[size_t(i)].parent) return false;
+  }
+  return true;
+}
+
 inline pinocchio::Model model_of(const Mechanism& mechanism) {
   using namespace pinocchio;
+  if (!depth_first(mechanism.bodies)) cannot("the links are not in depth-first order: a branch ends before the next begins");
   Model model;
   model.gravity.linear() = Eigen::Vector3d(mechanism.gravity[0], mechanism.gravity[1], mechanism.gravity[2]);
   for (const Body& b : mechanism.bodies) {
