@@ -13,29 +13,28 @@ program() {
   [ "$to" -nt "$from" ] || "$compiler" -std=c++17 -DNDEBUG "$from" "$@" -o "$to"
 }
 program generated g++ $fast -ldl
-program generated_lanes g++ $fast -ldl
+[ "$free" ] || program generated_lanes g++ $fast -ldl
 program pinocchio clang++-19 $fast $pinocchio
-program mujoco clang++-19 $fast -isystem "$mujoco/include" "$mujoco"/libmujoco.so.* -Wl,-rpath,"$mujoco"
+[ "$free" ] || program mujoco clang++-19 $fast -isystem "$mujoco/include" "$mujoco"/libmujoco.so.* -Wl,-rpath,"$mujoco"
 # Its library is compiled for any x86-64: with -march=native Eigen would align memory in another way.
-program kdl clang++-19 -O3 -isystem /usr/include/eigen3 -lorocos-kdl
+[ "$free" ] || program kdl clang++-19 -O3 -isystem /usr/include/eigen3 -lorocos-kdl
 program casadi_codegen clang++-19 -O1 -isystem "$packages/casadi/include" $pinocchio \
   -L"$packages/casadi" -lcasadi -Wl,-rpath,"$packages/casadi"
 program cppad_codegen clang++-19 -O1 -isystem "$PEERS_DIR/include" $pinocchio -ldl
 
-# Ours, with the machine's instructions and with those of any x86-64 (or other) machine. The generator runs while
-# compiling, so it need not be fast itself.
-host=$(rustc -vV | sed -n 's/^host: //p')
+# Ours, with the machine's instructions and with those of any x86-64 (or other) machine.
 ours() {
-  BGDYN_PEERS=$specs RUSTFLAGS=$2 cargo build --release --manifest-path "$root/Cargo.toml" -p peers --target "$host" \
-    --target-dir "$PEERS_DIR/rust" --config 'profile.release.package.bgdyn-codegen.opt-level=1'
+  BGDYN_PEERS=$specs cargo_release "$2" -p peers
   cp "$PEERS_DIR/rust/$host/release/ours" "$PEERS_DIR/bin/$1"
 }
 ours ours "-C target-cpu=native"
-ours ours_portable ""
 cp "$PEERS_DIR/rust/$host/release/describe" "$PEERS_DIR/bin/"
-RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$here/dynibo/Cargo.toml" \
-  --target-dir "$PEERS_DIR/dynibo"
-cp "$PEERS_DIR/dynibo/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
+if [ -z "$free" ]; then
+  ours ours_portable ""
+  RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$here/dynibo/Cargo.toml" \
+    --target-dir "$PEERS_DIR/dynibo"
+  cp "$PEERS_DIR/dynibo/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
+fi
 
 # What a compiler, or a generator, may take for one function: beyond it, the table has a dash.
 patience=${PEERS_PATIENCE:-60}
@@ -50,11 +49,12 @@ generate() {
   rm -rf "$folder"
   mkdir -p "$folder"
   "$PEERS_DIR/bin/describe" "$1" "$folder"
+  "$PEERS_DIR/bin/bgdyn" ops --json --methods inverse_dynamics,mass_matrix,forward_dynamics "$1" > "$folder/operations.json"
   # CasADi stops at 70,000 instructions: compilers take minutes for more.
   timeout "$patience" "$PEERS_DIR/bin/casadi_codegen" "$folder/$name.flat" "$folder" 70000 || echo "CasADi: no more for $name"
   timeout "$patience" "$PEERS_DIR/bin/cppad_codegen" "$folder/$name.flat" "$folder" || echo "CppADCodeGen: no more for $name"
   local c small
-  small=$(awk '$1 == "bodies" { print $2 <= 12 }' "$folder/$name.flat")
+  small=$(awk 'NR > 3 { n += $3 == "floating" ? 6 : 1 } END { print n <= 12 }' "$folder/$name.flat")
   for c in "$folder"/*.c; do
     compile "$c" clang-19 -ffp-contract=fast
     # Long ones take gcc minutes, and lanes are measured for short ones only.

@@ -59,11 +59,11 @@ impl Lanes for f32 {
     }
 }
 
-/// The arguments of one call: [`Lanes::LANES`] states.
+/// The arguments of one call: [`Lanes::LANES`] states with `N` velocities and `NQ` positions.
 #[derive(Clone, Debug)]
-pub struct Input<T: Lanes, const N: usize> {
+pub struct Input<T: Lanes, const N: usize, const NQ: usize = N> {
     /// Positions.
-    pub q: SVector<T, N>,
+    pub q: SVector<T, NQ>,
     /// Velocities.
     pub v: SVector<T, N>,
     /// Accelerations.
@@ -72,18 +72,28 @@ pub struct Input<T: Lanes, const N: usize> {
     pub tau: SVector<T, N>,
 }
 
-/// Returns all states, `LANES` per call.
+/// Returns all states, `LANES` per call, of a mechanism with a position for each velocity.
 pub fn inputs<T: Lanes, const N: usize>(states: &[State]) -> Vec<Input<T, N>> {
-    let input = |states: &[State]| {
-        let part = |part: fn(&State) -> &Vec<f64>| {
-            SVector::from_fn(|i, _| T::gather(|lane| part(&states[lane])[i]))
-        };
-        Input {
-            q: part(|s| &s.q),
-            v: part(|s| &s.v),
-            a: part(|s| &s.a),
-            tau: part(|s| &s.tau),
-        }
+    inputs_of(states)
+}
+
+/// Returns all states, `LANES` per call.
+pub fn inputs_of<T: Lanes, const N: usize, const NQ: usize>(
+    states: &[State],
+) -> Vec<Input<T, N, NQ>> {
+    let input = |states: &[State]| Input {
+        q: gather(states, |s| &s.q),
+        v: gather(states, |s| &s.v),
+        a: gather(states, |s| &s.a),
+        tau: gather(states, |s| &s.tau),
     };
     states.chunks_exact(T::LANES).map(input).collect()
+}
+
+/// Returns a part of the states, one per lane.
+fn gather<T: Lanes, const N: usize>(
+    states: &[State],
+    part: fn(&State) -> &Vec<f64>,
+) -> SVector<T, N> {
+    SVector::from_fn(|i, _| T::gather(|lane| part(&states[lane])[i]))
 }

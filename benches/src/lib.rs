@@ -5,6 +5,7 @@
 pub mod clock;
 pub mod counts;
 pub mod inputs;
+pub mod joints;
 pub mod plain;
 pub mod states;
 

@@ -37,8 +37,8 @@ int main(int, char** argv) {
   const std::string folder = argv[2];
   const casadi_int most = std::atol(argv[3]);
   const Model model = model_of(mechanism).cast<SX>();
-  const int n = mechanism.n();
-  const SX sq = SX::sym("q", n), sv = SX::sym("v", n), sx = SX::sym("x", n);
+  const int n = mechanism.nv();
+  const SX sq = SX::sym("q", mechanism.nq()), sv = SX::sym("v", n), sx = SX::sym("x", n);
   const Vector q = vector(sq), v = vector(sv), x = vector(sx);
   auto write = [&](const std::string& operation, const std::vector<SX>& results) {
     const ::casadi::Function function("f", {sq, sv, sx}, cse(results));

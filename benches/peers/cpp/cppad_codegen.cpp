@@ -36,19 +36,17 @@ int main(int, char** argv) {
   const Mechanism mechanism = read(argv[1]);
   const std::string folder = argv[2];
   const Model model = model_of(mechanism).cast<Number>();
-  const int n = mechanism.n();
+  const int nq = mechanism.nq(), n = mechanism.nv();
   const State start = states(mechanism)[0];
   // Records what `results` makes of a state, and writes it.
   auto record = [&](const std::string& operation, auto&& results) {
-    Vector x(3 * n);
-    for (int i = 0; i < n; ++i) {
-      x[i] = start.q[size_t(i)];
-      x[n + i] = start.v[size_t(i)];
-      x[2 * n + i] = start.a[size_t(i)];
-    }
+    Vector x(nq + 2 * n);
+    Eigen::Index place = 0;
+    for (const auto& part : {start.q, start.v, start.a})
+      for (double number : part) x[place++] = number;
     CppAD::Independent(x);
     Data data(model);
-    const Vector q = x.head(n), v = x.segment(n, n), last = x.tail(n);
+    const Vector q = x.head(nq), v = x.segment(nq, n), last = x.tail(n);
     Vector y = results(data, q, v, last);
     CppAD::ADFun<Code> tape;
     tape.Dependent(x, y);

@@ -12,12 +12,14 @@ using Function = int (*)(const Number** arguments, Number** results, int* intege
 template <class Number>
 struct Generated {
   Function<Number> function;
-  int n, matrices, vectors;  // joints, results of n x n, of n
+  int nq, n;                 // positions, velocities
+  int matrices, vectors;     // results of n x n, of n
   bool symmetric, efforts;   // whether the result is M; whether the third argument is tau
   std::vector<Number> result, work;
   std::vector<int> integers;
 
-  Generated(const char* library, const std::string& operation, int n) : n(n) {
+  Generated(const char* library, const std::string& operation, const Mechanism& mechanism)
+      : nq(mechanism.nq()), n(mechanism.nv()) {
     void* opened = dlopen(library, RTLD_NOW);
     if (!opened) cannot(dlerror());
     function = Function<Number>(dlsym(opened, "f"));
@@ -36,21 +38,20 @@ struct Generated {
 
   // One call; x: q, v, and a or tau.
   void call(const Number* x) {
-    const Number* arguments[8] = {x, x + n, x + 2 * n};
+    const Number* arguments[8] = {x, x + nq, x + nq + n};
     Number* results[8] = {result.data(), result.data() + n * n, result.data() + 2 * n * n};
     function(arguments, results, integers.data(), work.data(), 0);
   }
 
-  // Sum of the results; of M the upper triangle, of the inverse of M nothing.
-  Number sum() const {
-    Number all{};
+  // Calls each(x) with each result; of M with the upper triangle, of the inverse of M with nothing.
+  template <class Each>
+  void outputs(Each&& each) const {
     if (symmetric) {
       for (int j = 0; j < n; ++j)
-        for (int i = 0; i <= j; ++i) all += result[size_t(j * n + i)];
-      return all;
+        for (int i = 0; i <= j; ++i) each(result[size_t(j * n + i)]);
+      return;
     }
     const int count = vectors * n + std::min(matrices, 2) * n * n;
-    for (int i = 0; i < count; ++i) all += result[size_t(i)];
-    return all;
+    for (int i = 0; i < count; ++i) each(result[size_t(i)]);
   }
 };

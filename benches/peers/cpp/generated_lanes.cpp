@@ -9,23 +9,22 @@ typedef double Lanes __attribute__((vector_size(8 * LANES)));
 
 int main(int, char** argv) {
   const Mechanism mechanism = read(argv[1]);
-  const int n = mechanism.n(), calls = STATES / LANES;
-  Generated<Lanes> generated(argv[3], argv[2], n);
+  const int numbers = mechanism.nq() + 2 * mechanism.nv(), calls = STATES / LANES;
+  Generated<Lanes> generated(argv[3], argv[2], mechanism);
   const std::vector<State> all = states(mechanism);
-  std::vector<Lanes> x(size_t(3 * n * calls));
-  for (int k = 0; k < STATES; ++k)
-    for (int i = 0; i < n; ++i) {
-      const State& s = all[size_t(k)];
-      Lanes* at = &x[size_t(3 * n * (k / LANES) + i)];
-      at[0][k % LANES] = s.q[size_t(i)];
-      at[n][k % LANES] = s.v[size_t(i)];
-      at[2 * n][k % LANES] = (generated.efforts ? s.tau : s.a)[size_t(i)];
-    }
-  auto call = [&](int k) { generated.call(&x[size_t(3 * n * k)]); };
+  std::vector<Lanes> x(size_t(numbers * calls));
+  for (int k = 0; k < STATES; ++k) {
+    const State& s = all[size_t(k)];
+    Lanes* at = &x[size_t(numbers * (k / LANES))];
+    for (const auto& part : {s.q, s.v, generated.efforts ? s.tau : s.a})
+      for (double number : part) (*at++)[k % LANES] = number;
+  }
+  auto call = [&](int k) { generated.call(&x[size_t(numbers * k)]); };
   double sum = 0;
   for (int k = 0; k < calls; ++k) {
     call(k);
-    const Lanes some = generated.sum();
+    Lanes some{};
+    generated.outputs([&](Lanes x) { some += x; });
     for (int lane = 0; lane < LANES; ++lane) sum += some[lane];
   }
   std::printf("%.3f %.12e\n", time(call, calls) / LANES, sum);

@@ -19,14 +19,14 @@ static KDL::Segment segment(const Body& b) {
 }
 
 int main(int, char** argv) {
-  const Mechanism mechanism = read(argv[1]);
+  const Mechanism mechanism = read_axes_only(argv[1]);
   const std::string operation = argv[2];
-  const unsigned n = unsigned(mechanism.n());
+  const unsigned n = unsigned(mechanism.nv());
   const KDL::Vector gravity(mechanism.gravity[0], mechanism.gravity[1], mechanism.gravity[2]);
   KDL::Tree tree("world");
   KDL::Chain chain;
   bool serial = true;
-  for (int i = 0; i < mechanism.n(); ++i) {
+  for (int i = 0; i < mechanism.nv(); ++i) {
     const Body& b = mechanism.bodies[size_t(i)];
     tree.addSegment(segment(b), b.parent < 0 ? "world" : mechanism.bodies[size_t(b.parent)].name);
     chain.addSegment(segment(b));

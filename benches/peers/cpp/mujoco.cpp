@@ -13,7 +13,7 @@ static std::string xml(const Mechanism& mechanism) {
     out << '"';
   };
   auto bodies = [&](auto& self, int parent) -> void {
-    for (int i = 0; i < mechanism.n(); ++i) {
+    for (int i = 0; i < mechanism.nv(); ++i) {
       const Body& b = mechanism.bodies[size_t(i)];
       if (b.parent != parent) continue;
       out << "<body";
@@ -39,7 +39,7 @@ static std::string xml(const Mechanism& mechanism) {
 }
 
 int main(int, char** argv) {
-  const Mechanism mechanism = read(argv[1]);
+  const Mechanism mechanism = read_axes_only(argv[1]);
   const std::string operation = argv[2];
   char error[1000] = "";
   mjSpec* spec = mj_parseXMLString(xml(mechanism).c_str(), nullptr, error, sizeof error);

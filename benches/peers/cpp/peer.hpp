@@ -16,20 +16,32 @@
 struct Body {
   std::string name;
   int parent;       // number of the carrying body, -1 for the world
-  bool slides;      // prismatic, else revolute
+  bool slides;      // prismatic
+  bool floats;      // floating: q is position and quaternion x, y, z, w, v linear and angular, in the body's axes
   double R[9];      // axes in the carrier's at coordinate zero, row by row
   double p[3];      // origin in the carrier's axes, m
-  double axis[3];   // unit vector, in the body's axes
+  double axis[3];   // unit vector, in the body's axes; of no meaning where it floats
   double m;         // kg
   double com[3];    // m, in the body's axes
   double I[6];      // xx xy xz yy yz zz about the centre of mass, kg m^2
+  int nq() const { return floats ? 7 : 1; }
+  int nv() const { return floats ? 6 : 1; }
 };
 
 struct Mechanism {
   std::string name;
   double gravity[3];  // m/s^2, world axes
   std::vector<Body> bodies;
-  int n() const { return int(bodies.size()); }
+  int nq() const {  // positions
+    int count = 0;
+    for (const Body& b : bodies) count += b.nq();
+    return count;
+  }
+  int nv() const {  // velocities
+    int count = 0;
+    for (const Body& b : bodies) count += b.nv();
+    return count;
+  }
 };
 
 // This mechanism or operation is beyond the peer: exit code 3, a dash in the table.
@@ -50,6 +62,7 @@ inline Mechanism read(const std::string& path) {
     Body b;
     in >> b.name >> b.parent >> kind;
     b.slides = kind == "prismatic";
+    b.floats = kind == "floating";
     for (double& x : b.R) in >> x;
     for (double& x : b.p) in >> x;
     for (double& x : b.axis) in >> x;
@@ -62,6 +75,14 @@ inline Mechanism read(const std::string& path) {
     std::fprintf(stderr, "%s is no description of a mechanism\n", path.c_str());
     std::exit(2);
   }
+  return mechanism;
+}
+
+// The mechanism for a peer that takes joints about and along an axis only.
+inline Mechanism read_axes_only(const std::string& path) {
+  const Mechanism mechanism = read(path);
+  for (const Body& b : mechanism.bodies)
+    if (b.floats) cannot("floating joints are not compared with this peer");
   return mechanism;
 }
 
@@ -83,15 +104,27 @@ struct State {
   std::vector<double> q, v, a, tau;
 };
 
-// The states of every timing: any angle, +-0.3 m, velocities and accelerations +-2, efforts +-10.
+// The states of every timing: any angle, +-0.3 m, any orientation, velocities and accelerations +-2, efforts +-10.
 inline std::vector<State> states(const Mechanism& mechanism) {
   Random random;
   std::vector<State> all(STATES);
   for (State& s : all) {
-    for (const Body& b : mechanism.bodies) s.q.push_back(random.within(b.slides ? 0.3 : M_PI));
-    for (int i = 0; i < mechanism.n(); ++i) s.v.push_back(random.within(2));
-    for (int i = 0; i < mechanism.n(); ++i) s.a.push_back(random.within(2));
-    for (int i = 0; i < mechanism.n(); ++i) s.tau.push_back(random.within(10));
+    for (const Body& b : mechanism.bodies) {
+      if (!b.floats) {
+        s.q.push_back(random.within(b.slides ? 0.3 : M_PI));
+        continue;
+      }
+      for (int i = 0; i < 3; ++i) s.q.push_back(random.within(0.3));
+      double x[4], square = 0;
+      for (double& component : x) {
+        component = random.within(1);
+        square += component * component;
+      }
+      for (double component : x) s.q.push_back(component / std::sqrt(square));
+    }
+    for (int i = 0; i < mechanism.nv(); ++i) s.v.push_back(random.within(2));
+    for (int i = 0; i < mechanism.nv(); ++i) s.a.push_back(random.within(2));
+    for (int i = 0; i < mechanism.nv(); ++i) s.tau.push_back(random.within(10));
   }
   return all;
 }
@@ -136,6 +169,30 @@ void measure(Call&& call, Sum&& sum) {
     all += sum();
   }
   std::printf("%.3f %.12e\n", time(call), all);
+}
+
+// The same where `outputs` appends all outputs to a vector. With PEERS_VALUES they are printed instead, for as many
+// states as it says, a line each.
+template <class Call, class Outputs>
+void measure_outputs(Call&& call, Outputs&& outputs) {
+  std::vector<double> all;
+  if (const char* number = std::getenv("PEERS_VALUES")) {
+    for (int k = 0; k < std::min(std::atoi(number), STATES); ++k) {
+      call(k);
+      all.clear();
+      outputs(all);
+      for (double x : all) std::printf("%.17g ", x);
+      std::printf("\n");
+    }
+    return;
+  }
+  measure(call, [&] {
+    all.clear();
+    outputs(all);
+    double sum = 0;
+    for (double x : all) sum += x;
+    return sum;
+  });
 }
 
 // Sum of the upper triangle of a symmetric matrix: some peers fill only that one.

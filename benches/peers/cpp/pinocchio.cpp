@@ -21,19 +21,30 @@ int main(int, char** argv) {
     a.push_back(vector(s.a));
     tau.push_back(vector(s.tau));
   }
+  using Outputs = std::vector<double>;
+  // Column by column, the lower triangle left out where it is not filled.
+  auto append = [](Outputs& all, const auto& matrix, bool symmetric) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      for (Eigen::Index i = 0; i < (symmetric ? j + 1 : matrix.rows()); ++i) all.push_back(matrix(i, j));
+  };
   if (operation == "inverse_dynamics")
-    measure([&](int k) { rnea(model, data, q[k], v[k], a[k]); }, [&] { return data.tau.sum(); });
+    measure_outputs([&](int k) { rnea(model, data, q[k], v[k], a[k]); },
+                    [&](Outputs& all) { append(all, data.tau, false); });
   else if (operation == "mass_matrix")
-    measure([&](int k) { crba(model, data, q[k]); },
-            [&] { return upper(mechanism.n(), [&](int i, int j) { return data.M(i, j); }); });
+    measure_outputs([&](int k) { crba(model, data, q[k]); }, [&](Outputs& all) { append(all, data.M, true); });
   else if (operation == "forward_dynamics")
-    measure([&](int k) { aba(model, data, q[k], v[k], tau[k]); }, [&] { return data.ddq.sum(); });
+    measure_outputs([&](int k) { aba(model, data, q[k], v[k], tau[k]); },
+                    [&](Outputs& all) { append(all, data.ddq, false); });
   else if (operation == "inverse_dynamics_derivatives")
-    measure([&](int k) { computeRNEADerivatives(model, data, q[k], v[k], a[k]); },
-            [&] { return data.dtau_dq.sum() + data.dtau_dv.sum(); });
+    measure_outputs([&](int k) { computeRNEADerivatives(model, data, q[k], v[k], a[k]); }, [&](Outputs& all) {
+      append(all, data.dtau_dq, false);
+      append(all, data.dtau_dv, false);
+    });
   else if (operation == "forward_dynamics_derivatives")
-    measure([&](int k) { computeABADerivatives(model, data, q[k], v[k], tau[k]); },
-            [&] { return data.ddq_dq.sum() + data.ddq_dv.sum(); });
+    measure_outputs([&](int k) { computeABADerivatives(model, data, q[k], v[k], tau[k]); }, [&](Outputs& all) {
+      append(all, data.ddq_dq, false);
+      append(all, data.ddq_dv, false);
+    });
   else
     cannot("no such operation: " + operation);
 }

@@ -21,13 +21,20 @@ pub struct Site {
     pub placement: Placement,
 }
 
-/// Returns the moving bodies in the order of the coordinates. Run-time parameters have the values of the
-/// spec. Links fixed to the world are omitted.
+/// Returns the links whose joints move, in the order of the velocities: one a body.
+pub fn moving_links(mechanism: &Mechanism) -> Vec<LinkId> {
+    let mut links = mechanism.coordinates().to_vec();
+    // A joint of several velocities is listed once for each.
+    links.dedup();
+    links
+}
+
+/// Returns the moving bodies in the order of the velocities. Run-time parameters have the values of the
+/// spec. Links fixed to the world are omitted. Joints of several velocities have no meaningful axis.
 pub fn bodies(mechanism: &Mechanism) -> Vec<Body> {
-    let mut bodies: Vec<Body> = mechanism
-        .coordinates()
-        .iter()
-        .map(|&link| empty(mechanism, link))
+    let mut bodies: Vec<Body> = moving_links(mechanism)
+        .into_iter()
+        .map(|link| empty(mechanism, link))
         .collect();
     for (i, link) in mechanism.links().iter().enumerate() {
         let site = site(mechanism, LinkId(i));
@@ -43,11 +50,11 @@ pub fn bodies(mechanism: &Mechanism) -> Vec<Body> {
     bodies
 }
 
-/// Returns the names of the joints, in the order of the coordinates.
+/// Returns the names of the bodies' joints.
 pub fn joint_names(mechanism: &Mechanism) -> impl Iterator<Item = &str> {
     let links = mechanism.links();
-    let coordinates = mechanism.coordinates().iter();
-    coordinates.map(|&link| links[link.0].joint.name.as_str())
+    let moving = moving_links(mechanism).into_iter();
+    moving.map(|link| links[link.0].joint.name.as_str())
 }
 
 /// Returns which joints are prismatic.
@@ -71,13 +78,14 @@ pub fn place(mechanism: &Mechanism, name: &str) -> Option<Site> {
 
 /// Returns a link's frame on its body.
 fn site(mechanism: &Mechanism, link: LinkId) -> Site {
-    let link = &mechanism.links()[link.0];
-    if let Some(coordinate) = link.joint.coordinate {
+    let body = moving_links(mechanism).iter().position(|&l| l == link);
+    if body.is_some() {
         return Site {
-            body: Some(coordinate.0),
+            body,
             placement: Placement::identity(),
         };
     }
+    let link = &mechanism.links()[link.0];
     let carrier = carrier(mechanism, link.parent);
     Site {
         body: carrier.body,

@@ -5,6 +5,7 @@
 #[path = "../../../src/clock.rs"]
 mod clock;
 #[path = "../../../src/states.rs"]
+#[allow(dead_code, reason = "floating joints are not compared with dynibo")]
 mod states;
 
 use std::hint::black_box;

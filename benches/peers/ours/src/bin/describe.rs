@@ -7,6 +7,8 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use benches::body::{Body, bodies, joint_names, vector};
+use benches::joints::joint_kinds;
+use benches::states::JointKind;
 use bgdyn_codegen::mechanism::Mechanism;
 
 fn main() -> ExitCode {
@@ -26,10 +28,10 @@ fn main() -> ExitCode {
 
 fn describe(spec: &Path, folder: &Path) -> Result<(), String> {
     let mechanism = benches::read(spec)?;
-    let bodies = bodies(&mechanism);
+    let (bodies, kinds) = (bodies(&mechanism), joint_kinds(&mechanism)?);
     let texts = [
-        ("flat", flat(&mechanism, &bodies)),
-        ("urdf", urdf(&mechanism, &bodies)),
+        ("flat", flat(&mechanism, &bodies, &kinds)),
+        ("urdf", urdf(&mechanism, &bodies, &kinds)),
     ];
     for (ending, text) in texts {
         let path = folder.join(format!("{}.{ending}", mechanism.name()));
@@ -54,14 +56,18 @@ impl<'a, I: Iterator<Item = &'a f64> + Clone> Display for Row<I> {
 
 /// Writes a line for each body: name, index of its parent (−1: the world), joint; rotation (row by row)
 /// and origin in the parent, axis, mass, centre of mass, inertia about it (xx xy xz yy yz zz).
-fn flat(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
+fn flat(mechanism: &Mechanism, bodies: &[Body], kinds: &[JointKind]) -> Result<String, fmt::Error> {
     let mut text = String::new();
     writeln!(text, "mechanism {}", mechanism.name())?;
     writeln!(text, "gravity {}", Row(vector(mechanism.gravity()).iter()))?;
     writeln!(text, "bodies {}", bodies.len())?;
-    for (body, name) in bodies.iter().zip(joint_names(mechanism)) {
+    for ((body, kind), name) in bodies.iter().zip(kinds).zip(joint_names(mechanism)) {
         let parent = body.parent.map_or(-1, |p| p as i64);
-        let joint = if body.slides { "prismatic" } else { "revolute" };
+        let joint = match kind {
+            JointKind::Turns => "revolute",
+            JointKind::Slides => "prismatic",
+            JointKind::Floats => "floating",
+        };
         writeln!(
             text,
             "{} {parent} {joint} {} {} {} {:e} {} {}",
@@ -77,17 +83,17 @@ fn flat(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
     Ok(text)
 }
 
-fn urdf(mechanism: &Mechanism, bodies: &[Body]) -> Result<String, fmt::Error> {
+fn urdf(mechanism: &Mechanism, bodies: &[Body], kinds: &[JointKind]) -> Result<String, fmt::Error> {
     let (mut text, name) = (String::new(), mechanism.name());
     writeln!(text, "<robot name=\"{name}\">\n  <link name=\"world\"/>")?;
     let link = |i: Option<usize>| i.map_or("world".to_owned(), |i| format!("body{i}"));
-    let joints = bodies.iter().zip(joint_names(mechanism));
-    for (i, (body, joint)) in joints.enumerate() {
+    let joints = bodies.iter().zip(kinds).zip(joint_names(mechanism));
+    for (i, ((body, kind), joint)) in joints.enumerate() {
         let [xx, xy, xz, yy, yz, zz] = tensor(body);
-        let kind = if body.slides {
-            "prismatic"
-        } else {
-            "continuous"
+        let kind = match kind {
+            JointKind::Turns => "continuous",
+            JointKind::Slides => "prismatic",
+            JointKind::Floats => "floating",
         };
         let limit = "<limit lower=\"-1e9\" upper=\"1e9\" effort=\"1e9\" velocity=\"1e9\"/>";
         writeln!(
