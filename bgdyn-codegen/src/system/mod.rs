@@ -12,12 +12,14 @@ mod equations;
 mod holds;
 mod idle;
 mod jacobian;
+mod pose_hold;
 mod range;
 mod reference;
 mod signals;
 mod slope;
 mod start;
 mod summed;
+mod waveform;
 
 use bgdyn_runtime::Dd;
 use summed::summed;
