@@ -91,6 +91,21 @@ pub struct QuasiJoint {
     pub any_length: bool,
 }
 
+/// A joint with `mimic`: its position is ratio · q + offset of its leader's position q, its velocity ratio · v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateFollower {
+    /// Its name.
+    pub name: String,
+    /// The coordinate of its leader.
+    pub leader: usize,
+    /// Its units per unit of the leader.
+    pub ratio: Dd,
+    /// Its position where the leader's position is 0, rad or m.
+    pub offset: Dd,
+    /// The dimensions of its position, velocity and effort.
+    pub dimensions: [Dimension; 3],
+}
+
 /// The store of a coordinate's momentum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MomentumStore {
@@ -149,6 +164,8 @@ pub struct StateLayout {
     pub positions: Vec<StatePosition>,
     /// The joints with quasi-velocities, in the order of their positions.
     pub quasi_joints: Vec<QuasiJoint>,
+    /// The joints with `mimic`, which have no part of the state.
+    pub followers: Vec<StateFollower>,
     /// Velocities: joints, then other coordinates with positions, then currents.
     pub coordinates: Vec<StateCoordinate>,
     /// First-order states.
@@ -222,10 +239,9 @@ impl StateLayout {
     /// Adds a coordinate at the scale of another one, whose initial position is its default: a joint's
     /// drive.
     pub fn coordinate_beside(&mut self, name: &str, other: &str) {
-        let Some(k) = self.coordinate_named(other) else {
+        let Some(dimensions) = self.dimensions_of(other) else {
             return;
         };
-        let dimensions = self.coordinates[k].dimensions;
         self.coordinate(name, format!("{name}_rate"), true, dimensions);
         if let Some(j) = self.coordinate_named(name) {
             self.coordinates[j].starts_with = Some(other.to_owned());
@@ -328,10 +344,36 @@ impl StateLayout {
         self.coordinates.iter().position(|c| c.name == name)
     }
 
+    /// Returns the joint with `mimic` of this name.
+    pub fn follower_named(&self, name: &str) -> Option<&StateFollower> {
+        self.followers.iter().find(|follower| follower.name == name)
+    }
+
+    /// Returns the dimensions of position, velocity and effort of a coordinate, or of a joint with `mimic`.
+    pub fn dimensions_of(&self, name: &str) -> Option<[Dimension; 3]> {
+        match self.coordinate_named(name) {
+            Some(j) => Some(self.coordinates[j].dimensions),
+            None => self.follower_named(name).map(|f| f.dimensions),
+        }
+    }
+
     /// Returns the dimension of a coordinate's position; an angle if no coordinate has this name.
     pub fn position_of(&self, name: &str) -> Dimension {
-        self.coordinate_named(name)
-            .map_or(Dimension::Angle, |j| self.coordinates[j].dimensions[0])
+        self.dimensions_of(name)
+            .map_or(Dimension::Angle, |[position, ..]| position)
+    }
+
+    /// Returns position and velocity of a coordinate, or of a joint with `mimic`, in a state; the position only
+    /// if it has one.
+    pub fn motion_of(&self, name: &str, q: &[Dd], v: &[Dd]) -> Option<(Option<Dd>, Dd)> {
+        let at = |j: usize| (self.coordinates[j].position.map(|p| q[p]), v[j]);
+        if let Some(j) = self.coordinate_named(name) {
+            return Some(at(j));
+        }
+        let follower = self.follower_named(name)?;
+        let (position, velocity) = at(follower.leader);
+        let moved = position.map(|q| q * follower.ratio + follower.offset);
+        Some((moved, velocity * follower.ratio))
     }
 
     /// Returns a name that two parts of the state, or two inputs, have.

@@ -45,12 +45,25 @@ fn orientations() -> Vec<[Dd; 4]> {
     vectors.map(|v| spherical::integrate(neutral, dd(v))).to_vec()
 }
 
+/// Returns the vector in the axes of the joint's origin.
+fn turned(q: [Dd; 4], x: [Dd; 3]) -> [Dd; 3] {
+    let r = rotation(q);
+    std::array::from_fn(|i| r[(i, 0)] * x[0] + r[(i, 1)] * x[1] + r[(i, 2)] * x[2])
+}
+
+/// Returns the vector in link axes.
+fn turned_back(q: [Dd; 4], x: [Dd; 3]) -> [Dd; 3] {
+    let [u, v, s, w] = q;
+    turned([-u, -v, -s, w], x)
+}
+
 /// Returns Σ ½ g_i (1 − (R_targetᵀ R)_ii) with g_x = k_y + k_z − k_x, …
 fn potential(q: [Dd; 4], target: [Dd; 4], k: [f64; 3]) -> Dd {
     let [q, target] = [q, target].map(spherical::normalize);
-    let relative = rotation(target).transpose() * rotation(q);
+    let (r, to) = (rotation(q), rotation(target));
+    let entry = |i: usize| r[(0, i)] * to[(0, i)] + r[(1, i)] * to[(1, i)] + r[(2, i)] * to[(2, i)];
     let sum = k[0] + k[1] + k[2];
-    let term = |i: usize| (Dd::ONE - relative[(i, i)]) * Dd::from_f64((sum - 2.0 * k[i]) / 2.0);
+    let term = |i: usize| (Dd::ONE - entry(i)) * Dd::from_f64((sum - 2.0 * k[i]) / 2.0);
     term(0) + term(1) + term(2)
 }
 
@@ -138,11 +151,10 @@ fn dampings_resist_along_their_axes() {
     let still = [Dd::ZERO; 6];
     for [x, y, z, w] in orientations() {
         let q = [Dd::ONE, Dd::ZERO, Dd::ONE, x, y, z, w];
-        let turned = rotation([x, y, z, w]);
         let along = |d: [f64; 3]| {
-            let fixed = turned * bgdyn::nalgebra::Vector3::new(v[0], v[1], v[2]);
-            let damped = bgdyn::nalgebra::Vector3::from_fn(|i, _| fixed[i] * Dd::from_f64(d[i]));
-            turned.transpose() * damped
+            let fixed = turned([x, y, z, w], [v[0], v[1], v[2]]);
+            let damped = std::array::from_fn(|i| fixed[i] * Dd::from_f64(d[i]));
+            turned_back([x, y, z, w], damped)
         };
         let check = |found: Vec<Dd>, rest: Vec<Dd>, linear: [f64; 3], angular: [f64; 3]| {
             let force = along(linear);
@@ -197,8 +209,7 @@ fn dampers_act_against_the_velocity_of_the_target() {
         for [x, y, z, w] in orientations() {
             let q = [Dd::ZERO, Dd::ZERO, Dd::ZERO, x, y, z, w];
             let found = efforts(&scene, &q, &[Dd::ZERO; 6], t);
-            let relative = rotation([x, y, z, w]).transpose() * rotation(target);
-            let own = relative * bgdyn::nalgebra::Vector3::from(speed);
+            let own = turned_back([x, y, z, w], turned(target, speed));
             let damped: Vec<Dd> = (0..3).map(|i| own[i] * Dd::from_f64(1.0 + i as f64)).collect();
             let rest: Vec<Dd> = (0..3).map(|i| found[3 + i] - damped[i]).collect();
             pulls::<3>("guided", &rest, |d| {

@@ -88,7 +88,7 @@ impl Effect for Coulomb {
         let counterpart = [Level::Rate, Level::Acceleration].map(|l| sums.reference(reference, l));
         let kinetic = sums.number(element, &KINETIC);
         let limit = sums.optional(element, &STATIC).unwrap_or(kinetic);
-        let mode = sums.mode(&element.name);
+        let mode = sums.mode_at_port(&port, &element.name);
         let effort = -(mode * kinetic);
         sums.push(&port, effort);
         sums.dissipate(-(effort * (port.rate - counterpart[0])));

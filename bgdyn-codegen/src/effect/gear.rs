@@ -47,6 +47,10 @@ impl EffectKind for GearEffect {
         &[EFFICIENCY, JOINT]
     }
 
+    fn acts_on_followers(&self) -> bool {
+        false
+    }
+
     fn once_per_joint(&self) -> bool {
         true
     }

@@ -19,8 +19,8 @@ use crate::fault::Location;
 use crate::fault::wording;
 use crate::format::{Located, Raw};
 pub use crate::layout::{
-    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition,
-    Variable,
+    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout,
+    StatePosition, Variable,
 };
 use crate::math::Ring;
 use crate::mechanism::{Mechanism, Parameter};

@@ -12,10 +12,8 @@ use crate::scene::InputSource;
 pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let layout = &system.scene.layout;
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
-    let followed = |i: usize| {
-        let name = layout.inputs[i].follows.as_deref();
-        name.and_then(|name| layout.coordinate_named(name))
-    };
+    let name = |i: usize| layout.inputs[i].follows.as_deref().unwrap_or_default();
+    let followed = |i: usize| layout.coordinate_named(name(i));
     let torques = computed_torques(system, b, &sums, &followed);
     let mut values: Vec<Expr<'g>> = Vec::new();
     for (i, drive) in system.scene.drives.iter().enumerate() {
@@ -28,10 +26,9 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
                 stiffness,
                 damping,
             } => {
-                let wanted = course(b, target);
-                let j = followed(i).unwrap_or(0);
-                (wanted - sums.position_of(j)) * *stiffness
-                    + (rate(b, wanted) - sums.v[j]) * *damping
+                let (wanted, port) = (course(b, target), sums.coordinate(name(i)));
+                (wanted - port.displacement) * *stiffness
+                    + (rate(b, wanted) - port.rate) * *damping
             }
             InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
             InputSource::Hold(hold, k) => pose_hold::efforts(&sums, hold).0[*k],
