@@ -275,10 +275,9 @@ fn a_probe_turns_to_its_target_from_half_a_turn_away() {
         let still = y.as_slice()[7..].iter();
         let most = left.iter().chain(&place).chain(still).fold(0.0, |a: f64, x| a.max(x.abs()));
         assert!(most < 1e-12, "{axis:?}: {most:e}");
-        let audit = run.audit();
-        let closed = audit.drift().abs();
-        let lost = audit.supplied.sum().abs();
-        assert!(closed < 1e-6 * lost, "{axis:?}: {closed:e} of {lost} J");
+        // It begins and ends at rest: the drives have taken up what they supplied, up to 2 k = 4 to 8 J.
+        let closed = run.audit().drift().abs();
+        assert!(closed < 1e-6, "{axis:?}: {closed:e} J");
     }
 }
 

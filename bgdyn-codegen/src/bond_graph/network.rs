@@ -262,6 +262,11 @@ impl BondNetwork {
         junction
     }
 
+    /// Returns whether any velocity moves a site.
+    pub fn moves(&self, site: &str) -> bool {
+        self.movers.get(site).is_some_and(|movers| !movers.is_empty())
+    }
+
     /// Adds the 0-junction of the pressure of a hydraulic node of the effect.
     pub fn add_pressure(&mut self, node: &str) -> GraphNodeId {
         let zero = self.add(NodeKind::Zero, node);

@@ -115,7 +115,8 @@ impl Declaration {
                     faults.push(unknown(key, &name.value, &name.location, &known, context));
                 }
                 let [a, b] = names.each_ref().map(|name| name.value.as_str());
-                if let Some(distance) = context.sites.constant_distance(a, b) {
+                let distance = context.sites.constant_distance(a, b);
+                if let Some(distance) = distance.filter(|_| self.effect.acts_along_line()) {
                     faults.push(wording::constant_distance(
                         location,
                         &self.name.value,

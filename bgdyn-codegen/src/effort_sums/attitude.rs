@@ -28,19 +28,14 @@ pub struct Attitude<'g> {
 
 impl<'g> Attitude<'g> {
     /// Returns the moment towards the target in link axes, N·m, under these stiffnesses about them, N·m/rad:
-    /// the negative gradient of [`Attitude::energy`] along the tangent.
+    /// the negative gradient of the potential along the tangent.
     pub fn moment(&self, stiffness: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
         let [x, y, z] = stiffness.0;
         if x == y && y == z {
             return -self.vector.scale(self.real * x * self.twice);
         }
-        let pull = product(stiffness, self.vector);
+        let pull = Vec3([0, 1, 2].map(|k| stiffness.0[k] * self.vector.0[k]));
         -(pull.scale(self.real) + pull.cross(self.vector)).scale(self.twice)
-    }
-
-    /// Returns the potential 2 Σ k_i u_i², J.
-    pub fn energy(&self, stiffness: Vec3<Expr<'g>>) -> Expr<'g> {
-        product(stiffness, self.vector).dot(self.vector) * self.twice
     }
 
     /// Returns a vector of the target's axes in link axes.
@@ -91,11 +86,6 @@ pub(crate) fn relative<'g>(a: [Expr<'g>; 4], b: [Expr<'g>; 4]) -> (Vec3<Expr<'g>
     let (u, v) = (Vec3([ax, ay, az]), Vec3([bx, by, bz]));
     let vector = (v.scale(aw) - u.scale(bw)) - u.cross(v);
     (vector, aw * bw + u.dot(v))
-}
-
-/// Returns the products of the components.
-fn product<'g>(a: Vec3<Expr<'g>>, b: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
-    Vec3(std::array::from_fn(|k| a.0[k] * b.0[k]))
 }
 
 /// Returns twice the vector part of conj(q)∘q̇: the angular velocity of a target in its own axes, rad/s.

@@ -112,11 +112,11 @@ impl PoseTarget {
 }
 
 impl InputSource {
-    /// Returns whether it follows a coordinate.
+    /// Returns whether it follows a coordinate or a pose.
     pub fn is_controller(&self) -> bool {
         matches!(
             self,
-            InputSource::Pd { .. } | InputSource::ComputedTorque { .. }
+            InputSource::Pd { .. } | InputSource::ComputedTorque { .. } | InputSource::Hold(..)
         )
     }
 

@@ -114,7 +114,7 @@ fn states(system: &SceneEquations) -> Vec<Inputs<Dd>> {
 /// The state and inputs of the scene at the leader that belong to those of the scene at the follower: the moving
 /// counterpart and the bristles in the leader's units, the drive of an elastic joint likewise.
 fn converted(system: &SceneEquations, effect: &str, at: &Inputs<Dd>) -> Inputs<Dd> {
-    let (ratio, offset) = (Dd::from_f64(-2.5), Dd::from_parts(0.3, 1.1102230246251565e-17));
+    let (ratio, offset) = (Dd::from_f64(-2.5), Dd::from_f64(3.0) / Dd::from_f64(10.0));
     let mut moved = at.clone();
     for (input, u) in system.scene.layout.inputs.iter().zip(&mut moved.u) {
         if input.name.starts_with("belt") {

@@ -24,6 +24,9 @@ struct Part {
     gains: [Dimension; 2],
 }
 
+/// A component of a quaternion below this is a zero that the rounding of π has missed.
+const ROUNDED: f64 = 1e-30;
+
 const LINEAR: [Dimension; 2] = [Dimension::Stiffness, Dimension::Damping];
 const ANGULAR: [Dimension; 2] = [Dimension::AngularStiffness, Dimension::AngularDamping];
 
@@ -235,7 +238,11 @@ fn orientation(
             });
             Some(match fixed {
                 [Some(x), Some(y), Some(z)] => {
-                    PoseTarget::Quaternion(quaternion_of_rpy([x, y, z]))
+                    let exact = |x: Dd| match x.to_f64().abs() < ROUNDED {
+                        true => Dd::ZERO,
+                        false => x,
+                    };
+                    PoseTarget::Quaternion(quaternion_of_rpy([x, y, z]).map(exact))
                 }
                 _ => PoseTarget::Rpy(courses),
             })
