@@ -112,10 +112,13 @@ fn number() -> Value {
     json!({ "type": ["number", "string"] })
 }
 
+/// Returns a list of so many numbers.
+fn numbers(n: usize) -> Value {
+    json!({ "type": "array", "items": number(), "minItems": n, "maxItems": n })
+}
+
 /// Returns a number, or the pose of a spherical or floating joint.
 fn initial() -> Value {
-    let numbers =
-        |n: usize| json!({ "type": "array", "items": number(), "minItems": n, "maxItems": n });
     let keys = [
         (
             "xyz",

@@ -14,6 +14,7 @@ mod laws;
 mod mimic;
 mod noisy;
 mod order;
+mod orientation_springs;
 mod robot;
 mod same_motion;
 mod scenes;
