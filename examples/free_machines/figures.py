@@ -208,17 +208,20 @@ def satellite_hold(_bgdyn, folder):
     page = Canvas(960, 500)
     for k, t in enumerate((0, 2, 3.5, 5, 16, 24)):
         i, middle = run.at(t), (90 + 155 * k, 170)
-        project = viewed(-70, 22, 42, middle)
+        project = viewed(-70, 22, 50, middle)
         title = "start" if t == 0 else f"{t:g} s"
         page.text(middle[0] - 66, 28, title, bold=True)
         page.text(middle[0] - 66, 46, f"{angles[i]:.1f}° away", GREY, 12)
         orbiting(page, run, i, project)
-    ticks = range(0, 46, 5)
-    plot = Plot(page, (60, 330, 450, 465), ticks, range(0, 181, 60), "Angle from the attitude, degrees")
-    plot.curve(run.t, angles, BLUE)
-    plot = Plot(page, (540, 330, 930, 465), ticks, range(-40, 41, 20), "Moments about x (blue), y (brown), z (green), N·m")
-    for axis, colour in enumerate((BLUE, BROWN, GREEN)):
+    plot = Plot(page, (50, 330, 290, 465), range(0, 17, 4), range(0, 181, 60), "Angle from the attitude, degrees")
+    plot.curve(run.t[: begin + 1], angles, BLUE)
+    later = range(15, 46, 10)
+    plot = Plot(page, (370, 330, 610, 465), later, range(0, 7, 2), "The same while the arm moves")
+    plot.curve(run.t[begin:], angles[begin:], BLUE)
+    plot = Plot(page, (690, 330, 930, 465), range(0, 46, 15), range(-15, 16, 5), "Moments, N·m")
+    for axis, (name, colour) in enumerate(zip("xyz", (BLUE, BROWN, GREEN))):
         plot.curve(run.t, [m[axis] for m in moments], colour)
+        page.text((800, 860, 880)[axis], 320, f"about {name}" if axis == 0 else name, colour, 12)
     write(page, "satellite_hold.svg")
 
 
