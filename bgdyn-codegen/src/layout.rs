@@ -1,5 +1,6 @@
 //! The layout of a scene's state vector: positions, coordinates, first-order states, modes, inputs.
 
+mod followers;
 mod quasi_joints;
 
 use std::collections::BTreeSet;
@@ -342,38 +343,6 @@ impl StateLayout {
     /// Returns the coordinate with this name.
     pub fn coordinate_named(&self, name: &str) -> Option<usize> {
         self.coordinates.iter().position(|c| c.name == name)
-    }
-
-    /// Returns the joint with `mimic` of this name.
-    pub fn follower_named(&self, name: &str) -> Option<&StateFollower> {
-        self.followers.iter().find(|follower| follower.name == name)
-    }
-
-    /// Returns the dimensions of position, velocity and effort of a coordinate, or of a joint with `mimic`.
-    pub fn dimensions_of(&self, name: &str) -> Option<[Dimension; 3]> {
-        match self.coordinate_named(name) {
-            Some(j) => Some(self.coordinates[j].dimensions),
-            None => self.follower_named(name).map(|f| f.dimensions),
-        }
-    }
-
-    /// Returns the dimension of a coordinate's position; an angle if no coordinate has this name.
-    pub fn position_of(&self, name: &str) -> Dimension {
-        self.dimensions_of(name)
-            .map_or(Dimension::Angle, |[position, ..]| position)
-    }
-
-    /// Returns position and velocity of a coordinate, or of a joint with `mimic`, in a state; the position only
-    /// if it has one.
-    pub fn motion_of(&self, name: &str, q: &[Dd], v: &[Dd]) -> Option<(Option<Dd>, Dd)> {
-        let at = |j: usize| (self.coordinates[j].position.map(|p| q[p]), v[j]);
-        if let Some(j) = self.coordinate_named(name) {
-            return Some(at(j));
-        }
-        let follower = self.follower_named(name)?;
-        let (position, velocity) = at(follower.leader);
-        let moved = position.map(|q| q * follower.ratio + follower.offset);
-        Some((moved, velocity * follower.ratio))
     }
 
     /// Returns a name that two parts of the state, or two inputs, have.

@@ -2,6 +2,7 @@
 //! of integrators, lengths of quaternions, symmetries, balances of energy and momentum, Jacobians, poses held.
 
 mod balances;
+mod hold_runs;
 mod holds;
 mod jacobians;
 mod lanes;

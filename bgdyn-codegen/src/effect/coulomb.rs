@@ -66,7 +66,8 @@ impl EffectKind for Coulomb {
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
-        let mode = format!("whether `{joint}` slips (−1, 1: the sign of its slip) or is held (0)");
+        let slip = layout.motion_in_words(joint, "slip");
+        let mode = format!("whether `{joint}` slips (−1, 1: the sign of {slip}) or is held (0)");
         layout.mode(name.clone(), mode);
         let event = format!("`{joint}` comes to rest, or breaks away");
         layout.event(name.clone(), event);

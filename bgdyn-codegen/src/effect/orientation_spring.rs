@@ -97,6 +97,10 @@ impl Effect for OrientationSpring {
         let [first, second] = places(element).map(|name| sums.site(name));
         let (target, axes) = (sums.pose(first).0, sums.pose(second).0);
         let columns = turning(sums, [first, second]);
+        let still = |column: &Vec3<Expr<'_>>| column.0.iter().all(|x| x.is_zero());
+        if columns.iter().all(still) {
+            return;
+        }
         let zero = Vec3([sums.b.zero(); 3]);
         let rate = columns.iter().zip(&sums.v);
         let rate = rate.fold(zero, |sum, (column, &v)| sum + column.scale(v));

@@ -8,22 +8,19 @@
 
 use bgdyn_runtime::Dd;
 
-use super::EffortSums;
 use crate::expr::Expr;
-use crate::formulation;
-use crate::layout::QuasiJoint;
-use crate::math::{Mat3, Vec3};
+use crate::math::Vec3;
 
 /// The orientation of a joint against a target. The axis of its turn has the same components in link axes and
 /// in those of the target.
 #[derive(Clone, Copy, Debug)]
 pub struct Attitude<'g> {
     /// n sin(θ/2), times the length of the joint's quaternion.
-    vector: Vec3<Expr<'g>>,
+    pub(super) vector: Vec3<Expr<'g>>,
     /// cos(θ/2), times the length of the joint's quaternion.
-    real: Expr<'g>,
+    pub(super) real: Expr<'g>,
     /// 2 over the square of this length.
-    twice: Expr<'g>,
+    pub(super) twice: Expr<'g>,
 }
 
 impl<'g> Attitude<'g> {
@@ -43,40 +40,6 @@ impl<'g> Attitude<'g> {
         let across = self.vector.cross(x);
         let turned = self.vector.cross(across) - across.scale(self.real);
         x + turned.scale(self.twice)
-    }
-}
-
-impl<'g> EffortSums<'g, '_> {
-    /// Returns the orientation of a spherical or floating joint against a unit quaternion x, y, z, w, which
-    /// turns the target's axes to those of the joint's origin.
-    ///
-    /// # Panics
-    /// If the joint has no quaternion.
-    pub fn attitude(&self, joint: &QuasiJoint, target: [Expr<'g>; 4]) -> Attitude<'g> {
-        let first = joint.quaternion.expect("the joint has a quaternion");
-        let q = [0, 1, 2, 3].map(|k| self.q[first + k]);
-        let two = self.b.number(2.0);
-        let twice = match joint.any_length {
-            true => two / q.into_iter().fold(self.b.zero(), |sum, x| sum + x * x),
-            false => two,
-        };
-        let (vector, real) = relative(target, q);
-        Attitude {
-            vector,
-            real,
-            twice,
-        }
-    }
-
-    /// Returns the pose of the link of a joint with quasi-velocities in the joint's origin: the rotation from
-    /// link axes to origin axes, and the link's origin, m.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint.
-    pub(crate) fn pose_in_joint(&self, joint: &QuasiJoint) -> (Mat3<Expr<'g>>, Vec3<Expr<'g>>) {
-        let first = joint.coordinates.start;
-        let pose = formulation::pose_in_joint(self.b, self.graph, first, &self.q);
-        pose.expect("a joint of the mechanism with quasi-velocities")
     }
 }
 

@@ -5,6 +5,7 @@ mod attitude;
 mod gear;
 mod gears;
 mod parts;
+mod poses;
 mod read;
 mod result;
 mod undeclared;
