@@ -16,7 +16,12 @@ use crate::probe_swing::ProbeSwing;
 fn a_probe_turns_to_its_target_from_half_a_turn_away() {
     let scene = ProbeHold::<f64>::default();
     let (start, modes) = scene.start();
-    let axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.6, 0.48, -0.64]];
+    let axes = [
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+        [0.6, 0.48, -0.64],
+    ];
     for axis in axes {
         let mut y = start;
         let angle = std::f64::consts::PI - 1e-3;
@@ -32,7 +37,11 @@ fn a_probe_turns_to_its_target_from_half_a_turn_away() {
         let left = spherical::difference(q, PROBE_TARGET);
         let place = [y[0] - 0.5, y[1] + 0.2, y[2] - 0.1];
         let still = y.as_slice()[7..].iter();
-        let most = left.iter().chain(&place).chain(still).fold(0.0, |a: f64, x| a.max(x.abs()));
+        let most = left
+            .iter()
+            .chain(&place)
+            .chain(still)
+            .fold(0.0, |a: f64, x| a.max(x.abs()));
         assert!(most < 1e-12, "{axis:?}: {most:e}");
         // It begins and ends at rest: the drives have taken up what they supplied, up to 2 k = 4 to 8 J.
         let closed = run.audit().drift().abs();
@@ -47,7 +56,11 @@ fn a_swing_keeps_its_energy() {
     let energy = |y: &[f64]| {
         let (linear, angular) = (&y[7..10], &y[10..13]);
         let kinetic: f64 = linear.iter().map(|v| 1.5 * v * v).sum::<f64>()
-            + angular.iter().zip([0.1, 0.15, 0.2]).map(|(w, j)| j * w * w).sum::<f64>();
+            + angular
+                .iter()
+                .zip([0.1, 0.15, 0.2])
+                .map(|(w, j)| j * w * w)
+                .sum::<f64>();
         let q: [f64; 4] = std::array::from_fn(|i| y[3 + i]);
         let half = 0.5_f64.sqrt();
         let turned = potential(dd(q), dd([0.0, 0.0, half, half]), [2.0, 3.0, 4.0]).to_f64();
@@ -110,7 +123,10 @@ fn small_oscillations_have_the_frequencies_of_their_stiffness() {
         };
         // The phase is off by 10.25 turns of the error of the frequency.
         let error = (left / small).abs() / (10.25 * std::f64::consts::TAU);
-        assert!(error < 1e-8, "axis {axis}: the frequency is off by {error:e}");
+        assert!(
+            error < 1e-8,
+            "axis {axis}: the frequency is off by {error:e}"
+        );
     }
 }
 
@@ -125,7 +141,11 @@ fn a_heavy_top_sinks_until_the_moments_balance() {
     let y = run.y();
     let sunk = spherical::difference([y[0], y[1], y[2], y[3]], [0.0, 0.0, 0.0, 1.0]);
     let wanted = -(15.0 * 9.81 / 300.0_f64).atan();
-    assert!((sunk[0] - wanted).abs() < 1e-12, "{} rad, not {wanted}", sunk[0]);
+    assert!(
+        (sunk[0] - wanted).abs() < 1e-12,
+        "{} rad, not {wanted}",
+        sunk[0]
+    );
     assert!(sunk[1].abs() < 1e-14 && sunk[2].abs() < 1e-14, "{sunk:?}");
 }
 
@@ -138,6 +158,10 @@ fn a_platform_follows_its_target() {
         run.step(1e-2).expect("it moves");
     }
     let (y, t) = (run.y(), run.t());
-    let off = [y[0] - 1.0, y[1] - 0.3 * t, y[2] - std::f64::consts::FRAC_PI_2];
+    let off = [
+        y[0] - 1.0,
+        y[1] - 0.3 * t,
+        y[2] - std::f64::consts::FRAC_PI_2,
+    ];
     assert!(off.iter().all(|x| x.abs() < 1e-9), "{off:?}");
 }

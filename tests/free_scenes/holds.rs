@@ -41,7 +41,9 @@ fn orientations() -> Vec<[Dd; 4]> {
         [3.1, 0.0, 0.1],
     ];
     let neutral = dd([0.0, 0.0, 0.0, 1.0]);
-    vectors.map(|v| spherical::integrate(neutral, dd(v))).to_vec()
+    vectors
+        .map(|v| spherical::integrate(neutral, dd(v)))
+        .to_vec()
 }
 
 /// Returns the vector in the axes of the joint's origin.
@@ -86,7 +88,10 @@ fn pulls<const N: usize>(name: &str, found: &[Dd], energy: impl Fn([Dd; N]) -> D
         };
         let wanted = -((moved(H) - moved(-H)) / Dd::from_f64(2.0 * H)).to_f64();
         let off = (found.to_f64() - wanted).abs();
-        assert!(off < 1e-13, "{name}, effort {j}: {found:?} instead of {wanted}");
+        assert!(
+            off < 1e-13,
+            "{name}, effort {j}: {found:?} instead of {wanted}"
+        );
     }
 }
 
@@ -96,7 +101,15 @@ pub(crate) const PROBE_TARGET: [f64; 4] = [0.48, 0.6, 0.0, 0.64];
 fn efforts_at_rest_are_gradients_of_potentials() {
     let probe = ProbeHold::<Dd>::default();
     for [x, y, z, w] in orientations() {
-        let q = [Dd::from_f64(0.3), Dd::from_f64(-1.2), Dd::from_f64(0.6), x, y, z, w];
+        let q = [
+            Dd::from_f64(0.3),
+            Dd::from_f64(-1.2),
+            Dd::from_f64(0.6),
+            x,
+            y,
+            z,
+            w,
+        ];
         let found = efforts(&probe, &q, &[Dd::ZERO; 6], Dd::ZERO);
         pulls::<6>("probe", &found, |d| {
             let [px, py, pz, x, y, z, w] = floating::integrate(q, d);
@@ -138,7 +151,11 @@ fn one_stiffness_pulls_with_the_sine_of_the_angle() {
         for k in 0..3 {
             let wanted = -300.0 * n[k] * f64::sin(angle);
             let off = (found[k] - wanted).abs();
-            assert!(off < 1e-13 * 300.0, "{angle}: {} instead of {wanted}", found[k]);
+            assert!(
+                off < 1e-13 * 300.0,
+                "{angle}: {} instead of {wanted}",
+                found[k]
+            );
         }
     }
 }
@@ -179,9 +196,12 @@ fn dampings_resist_along_their_axes() {
 /// The turns of the guided probe's target at a time, as a quaternion: about x, then y, then z.
 fn guided_target(t: Dd) -> [Dd; 4] {
     let tau = Dd::PI * Dd::from_f64(2.0);
-    let roll = (tau * Dd::from_parts(0.2, -1.1102230246251566e-17) * t).sin_cos().0;
+    let roll = (tau * Dd::from_parts(0.2, -1.1102230246251566e-17) * t)
+        .sin_cos()
+        .0;
     let third = Dd::PI / Dd::from_f64(9.0);
-    let yaw = Dd::from_parts(0.9, -2.220446049250313e-17) * t - Dd::from_parts(0.4, -2.220446049250313e-17);
+    let yaw = Dd::from_parts(0.9, -2.220446049250313e-17) * t
+        - Dd::from_parts(0.4, -2.220446049250313e-17);
     let about = |axis: usize, angle: Dd| {
         let mut vector = [Dd::ZERO; 3];
         vector[axis] = angle;
@@ -209,7 +229,9 @@ fn dampers_act_against_the_velocity_of_the_target() {
             let q = [Dd::ZERO, Dd::ZERO, Dd::ZERO, x, y, z, w];
             let found = efforts(&scene, &q, &[Dd::ZERO; 6], t);
             let own = turned_back([x, y, z, w], turned(target, speed));
-            let damped: Vec<Dd> = (0..3).map(|i| own[i] * Dd::from_f64(1.0 + i as f64)).collect();
+            let damped: Vec<Dd> = (0..3)
+                .map(|i| own[i] * Dd::from_f64(1.0 + i as f64))
+                .collect();
             let rest: Vec<Dd> = (0..3).map(|i| found[3 + i] - damped[i]).collect();
             pulls::<3>("guided", &rest, |d| {
                 potential(spherical::integrate([x, y, z, w], d), target, [5.0; 3])
@@ -220,7 +242,10 @@ fn dampers_act_against_the_velocity_of_the_target() {
         let (q, [a, b, c]) = ([Dd::ZERO, Dd::ZERO, Dd::ZERO, x, y, z, w], speed);
         let v = [Dd::ZERO, Dd::ZERO, Dd::ZERO, a, b, c];
         let found = efforts(&scene, &q, &v, t);
-        assert!(found[3..].iter().all(|m| m.to_f64().abs() < 1e-15), "{found:?}");
+        assert!(
+            found[3..].iter().all(|m| m.to_f64().abs() < 1e-15),
+            "{found:?}"
+        );
     }
 }
 
@@ -232,8 +257,14 @@ fn the_sign_of_a_quaternion_changes_no_effort() {
         let [x, y, z, w] = q.map(Dd::to_f64);
         let v = [0.1, 0.2, 0.3, -0.4, 0.5, 0.6];
         let (plus, minus) = ([0.3, 0.2, 0.1, x, y, z, w], [0.3, 0.2, 0.1, -x, -y, -z, -w]);
-        assert_eq!(efforts(&scene, &plus, &v, 0.0), efforts(&scene, &minus, &v, 0.0));
-        assert_eq!(efforts(&guided, &plus, &v, 0.4), efforts(&guided, &minus, &v, 0.4));
+        assert_eq!(
+            efforts(&scene, &plus, &v, 0.0),
+            efforts(&scene, &minus, &v, 0.0)
+        );
+        assert_eq!(
+            efforts(&guided, &plus, &v, 0.4),
+            efforts(&guided, &minus, &v, 0.4)
+        );
     }
     let (y, modes) = scene.start();
     let end = |sign: f64| {
@@ -255,7 +286,10 @@ fn the_sign_of_a_quaternion_changes_no_effort() {
 #[test]
 fn every_scalar_holds_alike() {
     let (double, single) = (ProbeGuided::<f64>::default(), ProbeGuided::<f32>::default());
-    let (two, wide) = (ProbeGuided::<Dd>::default(), ProbeGuided::<f64x4>::default());
+    let (two, wide) = (
+        ProbeGuided::<Dd>::default(),
+        ProbeGuided::<f64x4>::default(),
+    );
     let v = [0.1, -0.2, 0.3, 0.4, -0.5, 0.6];
     let states: Vec<[f64; 7]> = orientations()
         .into_iter()
@@ -268,7 +302,12 @@ fn every_scalar_holds_alike() {
     for q in &states {
         let wanted = efforts(&two, &dd(*q), &dd(v), Dd::from_f64(t));
         let found = efforts(&double, q, &v, t);
-        let narrow = efforts(&single, &q.map(|x| x as f32), &v.map(|x| x as f32), t as f32);
+        let narrow = efforts(
+            &single,
+            &q.map(|x| x as f32),
+            &v.map(|x| x as f32),
+            t as f32,
+        );
         for i in 0..6 {
             let wanted = wanted[i].to_f64();
             assert!((found[i] - wanted).abs() < 2e-14, "{}, {wanted}", found[i]);

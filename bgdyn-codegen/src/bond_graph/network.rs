@@ -264,7 +264,9 @@ impl BondNetwork {
 
     /// Returns whether any velocity moves a site.
     pub fn moves(&self, site: &str) -> bool {
-        self.movers.get(site).is_some_and(|movers| !movers.is_empty())
+        self.movers
+            .get(site)
+            .is_some_and(|movers| !movers.is_empty())
     }
 
     /// Adds the 0-junction of the pressure of a hydraulic node of the effect.

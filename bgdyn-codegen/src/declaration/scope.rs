@@ -38,9 +38,8 @@ impl NameScope {
             true => Motion::Translation,
             false => Motion::Rotation,
         };
-        let coordinate = |(j, name): (usize, &String)| {
-            (name.clone(), motion(mechanism.linear(CoordinateId(j))))
-        };
+        let coordinate =
+            |(j, name): (usize, &String)| (name.clone(), motion(mechanism.linear(CoordinateId(j))));
         let kind = |(j, name): (usize, &String)| {
             let joint = mechanism.joint(CoordinateId(j));
             let quasi = mechanism.is_quasi_velocity(CoordinateId(j));

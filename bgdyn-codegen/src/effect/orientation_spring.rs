@@ -71,7 +71,9 @@ impl EffectKind for OrientationSpring {
 impl Effect for OrientationSpring {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
         let [first, second] = places(element);
-        let moving = [second, first].into_iter().filter(|site| network.moves(site));
+        let moving = [second, first]
+            .into_iter()
+            .filter(|site| network.moves(site));
         let moving: Vec<PortSite> = moving.map(|site| PortSite::Site(site.to_owned())).collect();
         let turning = match &moving[..] {
             [] => network.port(PortSite::Site(second.to_owned())),

@@ -51,11 +51,7 @@ fn force<'g>(sums: &EffortSums<'g, '_>, hold: &PoseHold, courses: &[Waveform]) -
 }
 
 /// Returns the moment towards an orientation, and D (ω_target − ω).
-fn moment<'g>(
-    sums: &EffortSums<'g, '_>,
-    hold: &PoseHold,
-    target: [Expr<'g>; 4],
-) -> Vec3<Expr<'g>> {
+fn moment<'g>(sums: &EffortSums<'g, '_>, hold: &PoseHold, target: [Expr<'g>; 4]) -> Vec3<Expr<'g>> {
     let b = sums.b;
     let attitude = sums.attitude(&hold.joint, target);
     let speed = angular_velocity(target, target.map(|x| rate(b, x)));

@@ -27,8 +27,7 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
                 damping,
             } => {
                 let (wanted, port) = (course(b, target), sums.coordinate(name(i)));
-                (wanted - port.displacement) * *stiffness
-                    + (rate(b, wanted) - port.rate) * *damping
+                (wanted - port.displacement) * *stiffness + (rate(b, wanted) - port.rate) * *damping
             }
             InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
             InputSource::Hold(hold, k) => pose_hold::efforts(&sums, hold).0[*k],

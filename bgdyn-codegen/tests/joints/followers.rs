@@ -179,7 +179,9 @@ fn an_effect_acts_on_a_follower_as_a_converted_one_on_its_leader() {
                 let found = shared(on_tail, role, values(&tail, role, at));
                 let wanted = shared(on_grip, role, values(&grip, role, &moved));
                 assert_eq!(found.len(), wanted.len(), "{on_tail}, {role:?}");
-                let size = wanted.iter().fold(1.0, |size: f64, x| size.max(x.to_f64().abs()));
+                let size = wanted
+                    .iter()
+                    .fold(1.0, |size: f64, x| size.max(x.to_f64().abs()));
                 for (i, (&found, &wanted)) in found.iter().zip(&wanted).enumerate() {
                     let off = (found - wanted).to_f64().abs();
                     assert!(
@@ -238,7 +240,10 @@ fn frictions_at_leader_and_follower_hold_together() {
     let contacts = values(&system, SceneFunction::Contacts, &at);
     // Both hold 5 N and the weight of the second slide; the limits are 3 N and 1.5 · 4 N at the leader.
     let (holding, margin) = (contacts[2].to_f64(), contacts[3].to_f64());
-    assert!((holding.abs() + margin - 9.0).abs() < 1e-12, "{holding}, {margin}");
+    assert!(
+        (holding.abs() + margin - 9.0).abs() < 1e-12,
+        "{holding}, {margin}"
+    );
     assert_eq!(contacts[2..4], contacts[6..8]);
 }
 
@@ -247,7 +252,11 @@ fn an_elastic_drive_of_a_follower_begins_unstretched() {
     let effect = "type: series_elastic, joint: tail, stiffness: 80, inertia: 1e-2, ratio: 5";
     let system = scene(TAIL, effect);
     let close = |found: Dd, wanted: f64| (found.to_f64() - wanted).abs() < 1e-15;
-    assert!(close(system.initial.q[1], 0.3 - 0.25), "{:?}", system.initial);
+    assert!(
+        close(system.initial.q[1], 0.3 - 0.25),
+        "{:?}",
+        system.initial
+    );
     assert!(close(system.initial.v[1], -1.0), "{:?}", system.initial);
 }
 
@@ -279,7 +288,12 @@ fn units_are_those_of_the_follower() {
 #[test]
 fn effects_that_need_a_drive_name_the_leader() {
     let gear = ", g: { type: gear, joint: other, efficiency: 0.9 }";
-    refused((FOLLOWER, gear, ""), "follower", &["`other`", "joint: grip"]);
-    let rotor = ", r: { type: rotor, joint: other, inertia: 1e-3 kg, ratio: { parameter: n, value: 3 } }";
+    refused(
+        (FOLLOWER, gear, ""),
+        "follower",
+        &["`other`", "joint: grip"],
+    );
+    let rotor =
+        ", r: { type: rotor, joint: other, inertia: 1e-3 kg, ratio: { parameter: n, value: 3 } }";
     refused((FOLLOWER, rotor, ""), "follower", &["`other`", "run-time"]);
 }

@@ -21,7 +21,8 @@ fn controllers_of_one_coordinate_do_not_follow_quasi_velocities() {
 /// A hold drives the efforts of its parts, and leaves the others.
 #[test]
 fn a_hold_drives_the_efforts_of_its_parts() {
-    let attitude = "attitude: { target: { rpy: [0, 0, 90 deg] }, stiffness: 3 N*m/rad, damping: 1 }";
+    let attitude =
+        "attitude: { target: { rpy: [0, 0, 90 deg] }, stiffness: 3 N*m/rad, damping: 1 }";
     let position = "position: { target: [0, 0, 1], stiffness: [1, 2, 3], damping: 2 N*s/m }";
     let flat = "position: { target: [0, { ramp: { rate: 1 } }], stiffness: 2 }";
     let angle = "angle: { target: { table: [[0 s, 0], [2 s, 90 deg]] }, stiffness: 2 }";

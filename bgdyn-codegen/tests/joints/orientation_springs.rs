@@ -35,7 +35,8 @@ fn scene(joints: &[&str], effects: &str, keys: &str) -> SceneEquations {
 fn state(system: &SceneEquations, seed: u64) -> Inputs<Dd> {
     let layout = &system.scene.layout;
     let mut random = Random(seed);
-    let mut some = |n: usize| -> Vec<Dd> { (0..n).map(|_| Dd::from_f64(random.signed())).collect() };
+    let mut some =
+        |n: usize| -> Vec<Dd> { (0..n).map(|_| Dd::from_f64(random.signed())).collect() };
     let (mut q, v) = (some(layout.nq()), some(layout.nv()));
     layout.normalize(&mut q);
     Inputs {
@@ -135,7 +136,10 @@ fn springs_between_any_two_places_are_verified() {
         assert!(causality.loops.is_empty(), "{between}");
         let kinds = system.network.nodes.iter().filter(|n| n.element.is_some());
         let count = |kind| kinds.clone().filter(|node| node.kind == kind).count();
-        assert_eq!([count(NodeKind::Compliance), count(NodeKind::Resistor)], [1, 1]);
+        assert_eq!(
+            [count(NodeKind::Compliance), count(NodeKind::Resistor)],
+            [1, 1]
+        );
     }
 }
 
@@ -156,13 +160,24 @@ fn numbers_and_places_are_checked() {
         other => panic!("{effect}: {:?}", other.map(|_| "accepted")),
     };
     let kind = "type: orientation_spring";
-    assert_eq!(rule(&format!("{kind}, between: [seat, l0], stiffness: -1")), "effect-sign");
     assert_eq!(
-        rule(&format!("{kind}, between: [seat, l0], stiffness: 1, damping: -1")),
+        rule(&format!("{kind}, between: [seat, l0], stiffness: -1")),
+        "effect-sign"
+    );
+    assert_eq!(
+        rule(&format!(
+            "{kind}, between: [seat, l0], stiffness: 1, damping: -1"
+        )),
         "effect-sign"
     );
     assert_eq!(rule(&format!("{kind}, between: [seat, l0]")), "missing-key");
     assert_eq!(rule(&format!("{kind}, stiffness: 1")), "missing-key");
-    assert_eq!(rule(&format!("{kind}, between: [seat, l0], stiffness: 1 N/m")), "unit-misfit");
-    assert_eq!(rule(&format!("{kind}, between: [seat, l9], stiffness: 1")), "unknown-name");
+    assert_eq!(
+        rule(&format!("{kind}, between: [seat, l0], stiffness: 1 N/m")),
+        "unit-misfit"
+    );
+    assert_eq!(
+        rule(&format!("{kind}, between: [seat, l9], stiffness: 1")),
+        "unknown-name"
+    );
 }
