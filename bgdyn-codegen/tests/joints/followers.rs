@@ -297,3 +297,11 @@ fn effects_that_need_a_drive_name_the_leader() {
         ", r: { type: rotor, joint: other, inertia: 1e-3 kg, ratio: { parameter: n, value: 3 } }";
     refused((FOLLOWER, rotor, ""), "follower", &["`other`", "run-time"]);
 }
+
+/// A follower is locked with its leader, and effects on it say so.
+#[test]
+fn effects_on_a_locked_follower_name_the_lock() {
+    let spring = ", k: { type: spring, joint: other, stiffness: 3 N/m }";
+    let lock = "lock: { grip: 0.1 }";
+    refused((FOLLOWER, spring, lock), "locked-joint", &["`other`"]);
+}
