@@ -1,5 +1,6 @@
 //! The layout of a scene's state vector: positions, coordinates, first-order states, modes, inputs.
 
+mod followers;
 mod quasi_joints;
 
 use std::collections::BTreeSet;
@@ -91,6 +92,21 @@ pub struct QuasiJoint {
     pub any_length: bool,
 }
 
+/// A joint with `mimic`: its position is ratio · q + offset of its leader's position q, its velocity ratio · v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateFollower {
+    /// Its name.
+    pub name: String,
+    /// The coordinate of its leader.
+    pub leader: usize,
+    /// Its units per unit of the leader.
+    pub ratio: Dd,
+    /// Its position where the leader's position is 0, rad or m.
+    pub offset: Dd,
+    /// The dimensions of its position, velocity and effort.
+    pub dimensions: [Dimension; 3],
+}
+
 /// The store of a coordinate's momentum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MomentumStore {
@@ -149,6 +165,8 @@ pub struct StateLayout {
     pub positions: Vec<StatePosition>,
     /// The joints with quasi-velocities, in the order of their positions.
     pub quasi_joints: Vec<QuasiJoint>,
+    /// The joints with `mimic`, which have no part of the state.
+    pub followers: Vec<StateFollower>,
     /// Velocities: joints, then other coordinates with positions, then currents.
     pub coordinates: Vec<StateCoordinate>,
     /// First-order states.
@@ -222,10 +240,9 @@ impl StateLayout {
     /// Adds a coordinate at the scale of another one, whose initial position is its default: a joint's
     /// drive.
     pub fn coordinate_beside(&mut self, name: &str, other: &str) {
-        let Some(k) = self.coordinate_named(other) else {
+        let Some(dimensions) = self.dimensions_of(other) else {
             return;
         };
-        let dimensions = self.coordinates[k].dimensions;
         self.coordinate(name, format!("{name}_rate"), true, dimensions);
         if let Some(j) = self.coordinate_named(name) {
             self.coordinates[j].starts_with = Some(other.to_owned());
@@ -326,12 +343,6 @@ impl StateLayout {
     /// Returns the coordinate with this name.
     pub fn coordinate_named(&self, name: &str) -> Option<usize> {
         self.coordinates.iter().position(|c| c.name == name)
-    }
-
-    /// Returns the dimension of a coordinate's position; an angle if no coordinate has this name.
-    pub fn position_of(&self, name: &str) -> Dimension {
-        self.coordinate_named(name)
-            .map_or(Dimension::Angle, |j| self.coordinates[j].dimensions[0])
     }
 
     /// Returns a name that two parts of the state, or two inputs, have.

@@ -1,4 +1,4 @@
-"""Measures the four runs and draws them.
+"""Measures the five runs and draws them.
 
     python3 examples/free_machines/figures.py bgdyn runs [--draw] [MACHINE …]
 
@@ -185,6 +185,79 @@ def around(bgdyn, run, names):
     return degrees(total)
 
 
+# The satellite that holds its attitude ------------------------------------------------------------------
+
+STIFFNESS, DAMPING = 40, 60
+
+
+def satellite_hold(_bgdyn, folder):
+    run = Run(folder, "satellite_hold")
+    rows = range(len(run.t))
+    qs = [run.quaternion("free", i) for i in rows]
+    ws = [run.row([f"free_r{axis}_velocity" for axis in "xyz"], i) for i in rows]
+    angles = [degrees(2 * atan2(norm(q[:3]), abs(q[3]))) for q in qs]
+    # The law of the hold, with the target along the world's axes.
+    moments = [[-2 * STIFFNESS * q[3] * q[k] - DAMPING * w[k] for k in range(3)] for q, w in zip(qs, ws)]
+    begin = run.at(16)
+    near = next(i for i in rows if max(angles[i:begin]) < 0.1)
+    fact(f"begins {angles[0]:.3f}° away; below 0.1° after {run.t[near]:.1f} s; {angles[begin]:.1e}° when the arm begins")
+    fact(f"while the arm moves it turns by at most {max(angles[begin:]):.3f}°; {angles[-1]:.1e}° at the end")
+    sizes = [norm(m) for m in moments]
+    fact(f"moment: {sizes[0]:.3f} N m at the start, at most {max(sizes):.1f} N m; {max(sizes[begin:]):.1f} N m under the arm")
+
+    page = Canvas(960, 500)
+    for k, t in enumerate((0, 2, 3.5, 5, 16, 24)):
+        i, middle = run.at(t), (90 + 155 * k, 170)
+        project = viewed(-70, 22, 50, middle)
+        title = "start" if t == 0 else f"{t:g} s"
+        page.text(middle[0] - 66, 28, title, bold=True)
+        page.text(middle[0] - 66, 46, f"{angles[i]:.1f}° away", GREY, 12)
+        orbiting(page, run, i, project)
+    plot = Plot(page, (50, 330, 290, 465), range(0, 17, 4), range(0, 181, 60), "Angle from the attitude, degrees")
+    plot.curve(run.t[: begin + 1], angles, BLUE)
+    later = range(15, 46, 10)
+    plot = Plot(page, (370, 330, 610, 465), later, range(0, 7, 2), "The same while the arm moves")
+    plot.curve(run.t[begin:], angles[begin:], BLUE)
+    plot = Plot(page, (690, 330, 930, 465), range(0, 46, 15), range(-15, 16, 5), "Moments, N·m")
+    for axis, (name, colour) in enumerate(zip("xyz", (BLUE, BROWN, GREEN))):
+        plot.curve(run.t, [m[axis] for m in moments], colour)
+        page.text((800, 860, 880)[axis], 320, f"about {name}" if axis == 0 else name, colour, 12)
+    write(page, "satellite_hold.svg")
+
+
+def orbiting(page, run, i, project):
+    """The satellite in a row of the table: the faces of its bus that are seen, its arm, the axes of its target."""
+    q, middle = run.quaternion("free", i), run.place("free", i)
+    for axis, colour in enumerate((BLUE, BROWN, GREEN)):
+        page.line([project([0, 0, 0]), project([1.3 * (k == axis) for k in range(3)])], colour, 1, "3 3")
+    spot = lambda r: project(turned(q, r))
+    faces = []
+    for axis in range(3):
+        for side in (-0.4, 0.4):
+            corner = lambda a, b: [side if k == axis else (a, b)[(k - axis) % 3 - 1] for k in range(3)]
+            corners = [corner(a, b) for a, b in ((0.4, 0.4), (-0.4, 0.4), (-0.4, -0.4), (0.4, -0.4))]
+            outward = turned(q, [side * (k == axis) for k in range(3)])
+            faces.append((toward(outward), corners))
+    arm = [project(less(run.place(f, i), middle)) for f in ("shoulder_place", "elbow_place", "tool")]
+    front = toward(turned(q, [1, 0, 0])) > 0
+    draw = lambda: (page.line(arm, INK, 3.5), [page.disc(p, 3.5, BROWN) for p in arm[:2]])
+    if not front:
+        draw()
+    for depth, corners in sorted(faces):
+        if depth > 0:
+            page.area([spot(c) for c in corners], SHADE, BLUE)
+    for axis, colour in enumerate((BLUE, BROWN, GREEN)):
+        page.line([spot([0, 0, 0]), spot([0.75 * (k == axis) for k in range(3)])], colour, 2)
+    if front:
+        draw()
+
+
+def toward(r, turn=-70, rise=22):
+    """How far a vector points towards the eye of `viewed`."""
+    ct, st, cr, sr = cos(radians(turn)), sin(radians(turn)), cos(radians(rise)), sin(radians(rise))
+    return cr * (ct * r[0] + st * r[1]) + sr * r[2]
+
+
 # The quadruped ------------------------------------------------------------------------------------------
 
 LEGS = ("front_left", "front_right", "hind_left", "hind_right")
@@ -337,7 +410,7 @@ def flying(page, run, i, project):
     page.disc(project(run.place("elbow_place", i)), 3, BROWN)
 
 
-MACHINES = (quadrotor_arm, quadruped, satellite, spherical_pendulum)
+MACHINES = (quadrotor_arm, quadruped, satellite, satellite_hold, spherical_pendulum)
 
 if __name__ == "__main__":
     bgdyn, folder, *others = sys.argv[1:]

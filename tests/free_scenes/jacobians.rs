@@ -6,6 +6,10 @@ use bgdyn::runtime::{Dd, FixedVector, HybridSystem, MatrixOf, Slope, StateVector
 use crate::buoy_run::BuoyRun;
 use crate::cart_run::CartRun;
 use crate::heavy_top_run::HeavyTopRun;
+use crate::loose_ball_hold::LooseBallHold;
+use crate::platform_hold::PlatformHold;
+use crate::probe_guided::ProbeGuided;
+use crate::probe_hold::ProbeHold;
 
 /// The step of the differences: its error is below 1e-15.
 const H: f64 = 1e-10;
@@ -67,6 +71,10 @@ fn jacobians_are_the_slopes_of_the_rates() {
     check(&HeavyTopRun::<Dd>::default(), "heavy_top_run");
     check(&BuoyRun::<Dd>::default(), "buoy_run");
     check(&CartRun::<Dd>::default(), "cart_run");
+    check(&LooseBallHold::<Dd>::default(), "loose_ball_hold");
+    check(&PlatformHold::<Dd>::default(), "platform_hold");
+    check(&ProbeGuided::<Dd>::default(), "probe_guided");
+    check(&ProbeHold::<Dd>::default(), "probe_hold");
 }
 
 /// The rows of the positions are those of ½ q∘ω, with ∂q̇/∂q.

@@ -1,7 +1,9 @@
 //! Scenes whose mechanisms have joints with several degrees of freedom, compiled: reference motions, orders
-//! of integrators, lengths of quaternions, symmetries, balances of energy and momentum, Jacobians.
+//! of integrators, lengths of quaternions, symmetries, balances of energy and momentum, Jacobians, poses held.
 
 mod balances;
+mod hold_runs;
+mod holds;
 mod jacobians;
 mod lanes;
 mod lengths;
@@ -13,6 +15,12 @@ bgdyn::bgdyn!("buoy_run.scene.yaml", jacobian = true);
 bgdyn::bgdyn!("cart_run.scene.yaml", jacobian = true);
 bgdyn::bgdyn!("disc_run.scene.yaml");
 bgdyn::bgdyn!("heavy_top_run.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("heavy_top_hold.scene.yaml");
+bgdyn::bgdyn!("loose_ball_hold.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("platform_hold.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("probe_guided.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("probe_hold.scene.yaml", jacobian = true);
+bgdyn::bgdyn!("probe_swing.scene.yaml");
 bgdyn::bgdyn!("satellite_torques.scene.yaml");
 bgdyn::bgdyn!("../free_joints/satellite_arm6.yaml");
 

@@ -112,10 +112,13 @@ fn number() -> Value {
     json!({ "type": ["number", "string"] })
 }
 
+/// Returns a list of so many numbers.
+fn numbers(n: usize) -> Value {
+    json!({ "type": "array", "items": number(), "minItems": n, "maxItems": n })
+}
+
 /// Returns a number, or the pose of a spherical or floating joint.
 fn initial() -> Value {
-    let numbers =
-        |n: usize| json!({ "type": "array", "items": number(), "minItems": n, "maxItems": n });
     let keys = [
         (
             "xyz",
@@ -185,9 +188,48 @@ fn drive() -> Value {
             "computed_torque",
             controller("the scene's inverse dynamics at r̈ + d (ṙ − q̇) + k (r − q)"),
         ),
+        ("hold", hold()),
     ]);
     let given = json!({ "const": "given", "description": "what the caller puts into `Input`" });
     json!({ "anyOf": [given, number(), one_of(&words)] })
+}
+
+/// Returns the controller of a joint's pose.
+fn hold() -> Value {
+    let course = || json!({ "$ref": "#/$defs/course" });
+    let list = |item: Value, least: usize| json!({ "type": "array", "items": item, "minItems": least, "maxItems": 3 });
+    let part = |target: Value, [stiffness, damping]: [Dimension; 2]| {
+        let gain = |of| json!({ "anyOf": [quantity(&[of]), list(quantity(&[of]), 2)] });
+        let keys = [
+            ("target", target),
+            ("stiffness", gain(stiffness)),
+            ("damping", gain(damping)),
+        ];
+        object(&keys, &["target", "stiffness"])
+    };
+    let orientation = one_of(&[
+        (
+            "rpy",
+            described("turns about the fixed axes x, y, z", list(course(), 3)),
+        ),
+        (
+            "quaternion",
+            described("x, y, z, w, of length 1", numbers(4)),
+        ),
+    ]);
+    let linear = [Dimension::Stiffness, Dimension::Damping];
+    let angular = [Dimension::AngularStiffness, Dimension::AngularDamping];
+    let keys = [
+        ("position", part(list(course(), 2), linear)),
+        ("attitude", part(orientation, angular)),
+        ("angle", part(course(), angular)),
+    ];
+    let mut held = object(&keys, &[]);
+    held["minProperties"] = json!(1);
+    described(
+        "the pose of a planar, spherical or floating joint, by the joint's name",
+        held,
+    )
 }
 
 /// Returns a mapping with exactly one of these keys.

@@ -25,6 +25,7 @@ format: 1
 links:
   - { name: arm, joint: { name: shoulder, type: revolute, axis: y }, mass: 1, com: [1, 0, 0] }
   - { name: hand, parent: arm, joint: { name: wrist, type: revolute, axis: y }, mass: 1, com: [1, 0, 0] }
+  - { name: body, joint: { name: free, type: floating }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
 effects:
   grease: { type: viscous, joint: shoulder, damping: 0.1 }
 ";
@@ -83,6 +84,9 @@ fn both_take_the_same() {
         "inputs: { shoulder: { table: [[0 s, 0], [1 s, 2 N*m]] } }",
         "inputs: { shoulder: { pd: { target: 45 deg, stiffness: 8, damping: 1 } } }",
         "inputs: { shoulder: { computed_torque: { target: { constant: 1 }, stiffness: 8 } } }",
+        "inputs: { free: { hold: { attitude: { target: { rpy: [0, 0, 90 deg] }, stiffness: 8 } } } }",
+        "inputs: { free: { hold: { attitude: { target: { quaternion: [0, 0, 0.6, 0.8] }, stiffness: [8, 8, 4], damping: 1 N*m*s/rad } } } }",
+        "inputs: { free: { hold: { position: { target: [0, 1, { ramp: { rate: 1 } }], stiffness: 8 N/m } } } }",
         "initial: { shoulder: 10 deg, wrist_rate: 1 }",
         "outputs: [shoulder, hand]",
         "integration: { method: dopri5, tolerance: 1e-9, end: 500 ms }",
@@ -111,6 +115,11 @@ fn both_refuse_the_same() {
         "inputs: { shoulder: { harmonic: { amplitude: 1, frequency: 2 m } } }",
         "inputs: { shoulder: { pd: { stiffness: 8 } } }",
         "inputs: { shoulder: { pd: { target: 1, stiff: 8 } } }",
+        "inputs: { free: { hold: {} } }",
+        "inputs: { free: { hold: { attitude: { stiffness: 8 } } } }",
+        "inputs: { free: { hold: { attitude: { target: { rpy: [0, 0] }, stiffness: 8 } } } }",
+        "inputs: { free: { hold: { attitude: { target: { rpy: [0, 0, 0] }, stiffness: 8 m } } } }",
+        "inputs: { free: { hold: { place: { target: [0, 0, 0], stiffness: 8 } } } }",
         "integration: { method: euler }",
         "integration: { step: 1 m }",
         "integration: { steps: 1 }",

@@ -33,6 +33,8 @@ pub struct BondNetwork {
     pub ports: Vec<PlacePort>,
     /// The 1-junctions of the coordinates by name, including coordinates that effects add.
     velocities: Vec<(String, GraphNodeId)>,
+    /// Joints with `mimic`: name, leader, text of the ratio.
+    followers: Vec<(String, String, String)>,
     /// The coordinates that move each site.
     movers: BTreeMap<String, BTreeSet<CoordinateId>>,
     pressures: BTreeMap<String, NodePressure>,
@@ -50,6 +52,7 @@ impl BondNetwork {
             bonds: Vec::new(),
             ports: Vec::new(),
             velocities: Vec::new(),
+            followers: Vec::new(),
             movers: BTreeMap::new(),
             pressures: BTreeMap::new(),
             driven: BTreeSet::new(),
@@ -75,6 +78,13 @@ impl BondNetwork {
             }
         }
         network
+    }
+
+    /// Names a joint with `mimic`, and the joint that it follows. The junction of its velocity is added where an
+    /// effect acts on it.
+    pub fn follow(&mut self, joint: &str, leader: &str, ratio: String) {
+        let names = (joint.to_owned(), leader.to_owned(), ratio);
+        self.followers.push(names);
     }
 
     /// Adds the 1-junction of a link's flow with its store, its source and its transformers.
@@ -171,13 +181,25 @@ impl BondNetwork {
     }
 
     /// Returns the 1-junction of the coordinate with this name. The junction of a coordinate that an
-    /// effect adds is created at the first call.
+    /// effect adds is created at the first call; that of a joint with `mimic` likewise, with the transformer from
+    /// its leader.
     pub fn velocity(&mut self, name: &str) -> GraphNodeId {
         if let Some((_, found)) = self.velocities.iter().find(|(own, _)| own == name) {
             return *found;
         }
-        let one = self.add(NodeKind::One, format!("θ̇ {name}"));
+        let follower = self.followers.iter().find(|(own, ..)| own == name).cloned();
+        let text = match follower {
+            Some(_) => format!("q̇ {name}"),
+            None => format!("θ̇ {name}"),
+        };
+        let one = self.add(NodeKind::One, text);
         self.velocities.push((name.to_owned(), one));
+        if let Some((_, leader, ratio)) = follower {
+            let leading = self.velocity(&leader);
+            let transformer = self.add(NodeKind::Transformer, ratio);
+            self.bond(leading, transformer);
+            self.bond(transformer, one);
+        }
         one
     }
 
@@ -238,6 +260,13 @@ impl BondNetwork {
             junction,
         });
         junction
+    }
+
+    /// Returns whether any velocity moves a site.
+    pub fn moves(&self, site: &str) -> bool {
+        self.movers
+            .get(site)
+            .is_some_and(|movers| !movers.is_empty())
     }
 
     /// Adds the 0-junction of the pressure of a hydraulic node of the effect.

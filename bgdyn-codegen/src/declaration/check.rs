@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Declaration, Element, ElementValue, NameScope, Quantity, ValueCheck};
+use super::{Declaration, EffectKind, Element, ElementValue, NameScope, Quantity, ValueCheck};
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Dimension, Key, Located, Number, ParsedValue, Reads, check_unit};
 use crate::mechanism::Motion;
@@ -95,7 +95,7 @@ impl Declaration {
                 quantity(number, location, fit, joint, faults).map(ElementValue::Number)
             }
             (ParsedValue::Text(word), reads) => {
-                let known = known(reads, context);
+                let known = known(reads, self.effect, context);
                 if let Some(known) = known.filter(|known| !known.contains(&word.as_str())) {
                     faults.push(unknown(key, word, location, &known, context));
                     return None;
@@ -110,12 +110,13 @@ impl Declaration {
                 Some(ElementValue::Name(word.clone()))
             }
             (ParsedValue::Pair(names), _) => {
-                let known = known(Reads::Site, context).unwrap_or_default();
+                let known = known(Reads::Site, self.effect, context).unwrap_or_default();
                 for name in names.iter().filter(|n| !known.contains(&n.value.as_str())) {
                     faults.push(unknown(key, &name.value, &name.location, &known, context));
                 }
                 let [a, b] = names.each_ref().map(|name| name.value.as_str());
-                if let Some(distance) = context.sites.constant_distance(a, b) {
+                let distance = context.sites.constant_distance(a, b);
+                if let Some(distance) = distance.filter(|_| self.effect.acts_along_line()) {
                     faults.push(wording::constant_distance(
                         location,
                         &self.name.value,
@@ -131,7 +132,7 @@ impl Declaration {
                 vector.each_ref().map(|n| n.value.value),
             )),
             (ParsedValue::Words(words), reads) => {
-                let known = known(reads, context).unwrap_or_default();
+                let known = known(reads, self.effect, context).unwrap_or_default();
                 for word in words.iter().filter(|w| !known.contains(&w.value.as_str())) {
                     faults.push(unknown(key, &word.value, &word.location, &known, context));
                 }
@@ -164,7 +165,13 @@ impl Declaration {
 }
 
 /// Returns the valid names for a key; `None` if every name is valid.
-fn known(reads: Reads, context: &NameScope) -> Option<Vec<&str>> {
+fn known<'a>(
+    reads: Reads,
+    effect: &dyn EffectKind,
+    context: &'a NameScope,
+) -> Option<Vec<&'a str>> {
+    let followers = context.followers.iter().map(|(name, ..)| name.as_str());
+    let followers = followers.filter(|_| effect.acts_on_followers());
     Some(match reads {
         Reads::Word([]) => return None,
         Reads::Word(words) | Reads::Words(words) => words.to_vec(),
@@ -172,11 +179,12 @@ fn known(reads: Reads, context: &NameScope) -> Option<Vec<&str>> {
             .coordinates
             .iter()
             .map(|(n, _)| n.as_str())
+            .chain(followers)
             .collect(),
         Reads::Joint => {
             let joints = context.coordinates.iter().map(|(n, _)| n);
             let own = joints.filter(|n| !context.added.contains(n));
-            own.map(String::as_str).collect()
+            own.map(String::as_str).chain(followers).collect()
         }
         Reads::Site | Reads::Sites => context.sites.names().iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
@@ -205,8 +213,8 @@ fn unknown(
         return wording::joint_is_locked(location, word);
     }
     let mut followers = context.followers.iter();
-    let follower = followers.find(|(name, _)| name == word);
-    if let (Some((_, leader)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {
+    let follower = followers.find(|(name, ..)| name == word);
+    if let (Some((_, leader, _)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {
         return wording::effect_on_follower(location, word, leader);
     }
     let what = match key.reads {

@@ -106,6 +106,17 @@ pub trait EffectKind: Sync {
         true
     }
 
+    /// Returns whether an effect between two sites acts along the line between them, whose length must then vary.
+    fn acts_along_line(&self) -> bool {
+        true
+    }
+
+    /// Returns whether it can act on a joint with `mimic`: its law reads and adds to a port only. An effect that
+    /// reads the drive of a joint cannot, because a joint with `mimic` has none.
+    fn acts_on_followers(&self) -> bool {
+        true
+    }
+
     /// Returns whether a joint can have only one effect of this kind.
     fn once_per_joint(&self) -> bool {
         false

@@ -3,7 +3,9 @@
 use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
 use crate::format::{Key, ParsedValue};
-use crate::mechanism::{CoordinateId, Limits, Link, LinkId, Mechanism, Motion, SiteOrigins};
+use crate::mechanism::{
+    CoordinateId, Joint, Limits, LinkId, Mechanism, Mimic, Motion, SiteOrigins,
+};
 
 /// The names that an effect may refer to.
 #[derive(Clone, Debug, Default)]
@@ -12,8 +14,8 @@ pub struct NameScope {
     pub coordinates: Vec<(String, Motion)>,
     /// Velocities that are not the rate of a position, with their joint's type.
     pub quasi_velocities: Vec<(String, &'static str)>,
-    /// Joints with `mimic`, with the joint that each follows.
-    pub followers: Vec<(String, String)>,
+    /// Joints with `mimic`, with the joint that each follows, and their motions.
+    pub followers: Vec<(String, String, Motion)>,
     /// Limits of the joints that have limits.
     pub limits: Vec<(String, Limits)>,
     /// Names of the coordinates that are no joints.
@@ -32,32 +34,34 @@ impl NameScope {
     /// Returns the names of a mechanism; `locked` are joints that a scene locks.
     pub fn of(mechanism: &Mechanism, locked: Vec<String>) -> NameScope {
         let names = mechanism.joint_names();
-        let coordinate = |(j, name): (usize, &String)| {
-            let motion = match mechanism.linear(CoordinateId(j)) {
-                true => Motion::Translation,
-                false => Motion::Rotation,
-            };
-            (name.clone(), motion)
+        let motion = |linear: bool| match linear {
+            true => Motion::Translation,
+            false => Motion::Rotation,
         };
+        let coordinate =
+            |(j, name): (usize, &String)| (name.clone(), motion(mechanism.linear(CoordinateId(j))));
         let kind = |(j, name): (usize, &String)| {
             let joint = mechanism.joint(CoordinateId(j));
             let quasi = mechanism.is_quasi_velocity(CoordinateId(j));
             quasi.then(|| (name.clone(), joint.kind.keyword))
         };
-        let follower = |link: &Link| {
-            let mimic = link.joint.degrees.mimic?;
+        let follower = |(joint, mimic, _, linear): (&Joint, Mimic, CoordinateId, bool)| {
             let leader = &mechanism.links()[mimic.leader.0].joint.name;
-            Some((link.joint.name.clone(), leader.clone()))
+            (joint.name.clone(), leader.clone(), motion(linear))
         };
         let limits = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.limits)
         };
+        let of_followers = mechanism.followers();
+        let of_followers = of_followers.map(|(joint, ..)| (joint.name.clone(), joint.limits));
         NameScope {
             coordinates: names.iter().enumerate().map(coordinate).collect(),
             quasi_velocities: names.iter().enumerate().filter_map(kind).collect(),
-            followers: mechanism.links().iter().filter_map(follower).collect(),
-            limits: mechanism.coordinates().iter().map(limits).collect(),
+            followers: mechanism.followers().map(follower).collect(),
+            limits: (mechanism.coordinates().iter().map(limits))
+                .chain(of_followers)
+                .collect(),
             added: Vec::new(),
             locked,
             sites: SiteOrigins::new(mechanism),
@@ -97,7 +101,10 @@ impl NameScope {
 
     pub(super) fn motion_of(&self, coordinate: &str) -> Option<Motion> {
         let found = self.coordinates.iter().find(|(name, _)| name == coordinate);
-        found.map(|(_, motion)| *motion)
+        let mut followers = self.followers.iter();
+        let follower = followers.find(|(name, ..)| name == coordinate);
+        let own = found.map(|(_, motion)| *motion);
+        own.or(follower.map(|(.., motion)| *motion))
     }
 }
 

@@ -66,7 +66,8 @@ impl EffectKind for Coulomb {
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
-        let mode = format!("whether `{joint}` slips (−1, 1: the sign of its slip) or is held (0)");
+        let slip = layout.motion_in_words(joint, "slip");
+        let mode = format!("whether `{joint}` slips (−1, 1: the sign of {slip}) or is held (0)");
         layout.mode(name.clone(), mode);
         let event = format!("`{joint}` comes to rest, or breaks away");
         layout.event(name.clone(), event);
@@ -88,7 +89,7 @@ impl Effect for Coulomb {
         let counterpart = [Level::Rate, Level::Acceleration].map(|l| sums.reference(reference, l));
         let kinetic = sums.number(element, &KINETIC);
         let limit = sums.optional(element, &STATIC).unwrap_or(kinetic);
-        let mode = sums.mode(&element.name);
+        let mode = sums.mode_at_port(&port, &element.name);
         let effort = -(mode * kinetic);
         sums.push(&port, effort);
         sums.dissipate(-(effort * (port.rate - counterpart[0])));

@@ -197,7 +197,7 @@ impl Effect for DcMotor {
         };
         let torque = gyrator(element, sums) * flowing.current;
         let mode = part_name(element, GEAR);
-        let geared = match sums.gear(element, &EFFICIENCY, &mode) {
+        let geared = match sums.gear(element, &EFFICIENCY, (&joint, &mode)) {
             Some(gear) => {
                 sums.load((element, &mode), gear, &joint, torque);
                 gear.behind(sums.b, torque)

@@ -47,6 +47,10 @@ impl EffectKind for GearEffect {
         &[EFFICIENCY, JOINT]
     }
 
+    fn acts_on_followers(&self) -> bool {
+        false
+    }
+
     fn once_per_joint(&self) -> bool {
         true
     }
@@ -81,8 +85,9 @@ impl Effect for GearEffect {
 /// a kink of the law.
 pub(super) fn declare_mode(element: &Element, mode: &str, layout: &mut StateLayout) {
     let joint = element.name("joint").unwrap_or_default();
+    let rate = layout.motion_in_words(joint, "rate");
     let about =
-        format!("whether `{joint}` moves (−1, 1: the sign of its rate) or its gear holds it (0)");
+        format!("whether `{joint}` moves (−1, 1: the sign of {rate}) or its gear holds it (0)");
     layout.mode(mode.to_owned(), about);
     let about = format!("`{joint}` comes to rest, or breaks away from its gear");
     layout.event(mode.to_owned(), about);

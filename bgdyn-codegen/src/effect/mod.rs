@@ -19,6 +19,7 @@ mod gravity;
 mod hydraulic;
 mod inertia;
 mod lugre;
+mod orientation_spring;
 mod payload;
 mod rotor;
 mod series_elastic;
@@ -33,7 +34,7 @@ use crate::declaration::{EffectKind, EffectKinds, Element};
 pub use law::Effect;
 
 /// All effects.
-pub static EFFECTS: [&dyn Effect; 27] = [
+pub static EFFECTS: [&dyn Effect; 28] = [
     &gravity::Gravity,
     &inertia::LinkInertia,
     &velocity_products::VelocityProducts,
@@ -43,6 +44,7 @@ pub static EFFECTS: [&dyn Effect; 27] = [
     &stribeck::Stribeck,
     &lugre::LuGre,
     &spring::Spring,
+    &orientation_spring::OrientationSpring,
     &damper::Damper,
     &stop::Stop,
     &series_elastic::SeriesElastic,

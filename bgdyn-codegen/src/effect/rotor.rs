@@ -5,11 +5,11 @@ use bgdyn_runtime::Dd;
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
-use crate::declaration::{EffectKind, Element, ValueCheck};
-use crate::fault::wording;
+use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
+use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
-use crate::mechanism::{Mechanism, Parameter, ParameterId, Value};
+use crate::mechanism::{CoordinateId, Mechanism, Mimic, Parameter, ParameterId, Value};
 
 pub(super) struct RotorEffect;
 
@@ -72,6 +72,18 @@ impl EffectKind for RotorEffect {
         }
     }
 
+    fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
+        let joint = element.name("joint").unwrap_or_default();
+        let Some((_, mimic)) = follower(beside.mechanism, joint) else {
+            return;
+        };
+        let leader = &beside.mechanism.links()[mimic.leader.0].joint.name;
+        if let Some(ratio) = element.quantity("ratio").filter(|q| q.parameter.is_some()) {
+            let location = &ratio.location;
+            faults.push(wording::rotor_ratio_on_follower(location, joint, leader));
+        }
+    }
+
     /// Adds its run-time parameters to those of the mechanism, which the graph refers to.
     fn modify_mechanism(&self, element: &Element, mechanism: &mut Mechanism) {
         for (key, quantity) in element.quantities() {
@@ -81,6 +93,13 @@ impl EffectKind for RotorEffect {
             }
         }
     }
+}
+
+/// Returns the coordinate of a joint with `mimic`, and the relation to its leader.
+fn follower(mechanism: &Mechanism, joint: &str) -> Option<(CoordinateId, Mimic)> {
+    let mut followers = mechanism.followers();
+    let (_, mimic, coordinate, _) = followers.find(|(own, ..)| own.name == joint)?;
+    Some((coordinate, mimic))
 }
 
 impl Effect for RotorEffect {
@@ -96,8 +115,17 @@ impl Effect for RotorEffect {
             }
         };
         let joint = element.name("joint").unwrap_or_default();
-        let Some(coordinate) = graph.coordinate_named(joint) else {
+        let (coordinate, mimic) = match follower(mechanism, joint) {
+            Some((leader, mimic)) => (Some(leader), mimic.ratio),
+            None => (graph.coordinate_named(joint), Dd::ONE),
+        };
+        let Some(coordinate) = coordinate else {
             return;
+        };
+        // Turns of the rotor per turn of the leader.
+        let ratio = match value("ratio", 1.0) {
+            Value::Fixed(ratio) => Value::Fixed(ratio * mimic),
+            parameter => parameter,
         };
         let carrier = element.name("on").and_then(|name| {
             let site = graph.sites.iter().find(|s| s.name == name)?;
@@ -110,7 +138,7 @@ impl Effect for RotorEffect {
         graph.multibody.rotors.push(RotorStore {
             coordinate,
             inertia: value("inertia", 0.0),
-            ratio: value("ratio", 1.0),
+            ratio,
             carrier,
         });
     }

@@ -6,14 +6,19 @@ use crate::expr::Expr;
 use crate::format::Key;
 
 impl<'g> EffortSums<'g, '_> {
-    /// Returns a gear with losses with the efficiency of this key and the mode with this name; `None`
+    /// Returns a gear with losses at a port, with the efficiency of this key and the mode with this name; `None`
     /// without an efficiency.
     ///
     /// # Panics
     /// If the effect does not declare the key, or no effect declares the mode.
-    pub fn gear(&self, element: &Element, efficiency: &Key, mode: &str) -> Option<LossyGear<'g>> {
+    pub fn gear(
+        &self,
+        element: &Element,
+        efficiency: &Key,
+        (port, mode): (&Port<'g>, &str),
+    ) -> Option<LossyGear<'g>> {
         let efficiency = self.optional(element, efficiency)?;
-        let mode = self.mode(mode);
+        let mode = self.mode_at_port(port, mode);
         Some(LossyGear { efficiency, mode })
     }
 
@@ -34,11 +39,12 @@ impl<'g> EffortSums<'g, '_> {
     pub fn gear_of_drive(&mut self, element: &Element, efficiency: &Key) {
         let joint = element.name("joint").unwrap_or_default();
         let found = self.scene.layout.coordinate_named(joint);
-        if let (Some(j), Some(gear)) = (found, self.gear(element, efficiency, &element.name)) {
+        let Some(j) = found else { return };
+        let port = self.coordinate(joint);
+        if let Some(gear) = self.gear(element, efficiency, (&port, &element.name)) {
             self.gears.insert(j, gear);
             let lost = (self.own_effort(j) - self.drive(j)) * self.v[j];
             self.dissipate(lost);
-            let port = self.coordinate(joint);
             let effort = self.before_the_gear(j);
             self.load((element, &element.name), gear, &port, effort);
         }

@@ -1,9 +1,11 @@
 //! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws
 //! add.
 
+mod attitude;
 mod gear;
 mod gears;
 mod parts;
+mod poses;
 mod read;
 mod result;
 mod undeclared;
@@ -19,6 +21,8 @@ use crate::math::{Mat3, Vec3};
 use crate::method::Method;
 use crate::scene::Scene;
 
+pub use attitude::Attitude;
+pub(crate) use attitude::angular_velocity;
 pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
 pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};

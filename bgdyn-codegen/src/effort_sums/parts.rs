@@ -1,5 +1,7 @@
 //! The parts that laws add to a scene: ports, power balances, contacts, readings, conditions.
 
+use bgdyn_runtime::Dd;
+
 use crate::expr::Expr;
 
 /// The port of an effort: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
@@ -11,6 +13,17 @@ pub struct Port<'g> {
     pub rate: Expr<'g>,
     /// Coordinates with their ∂s/∂q_j.
     pub transformers: Vec<(usize, Expr<'g>)>,
+}
+
+impl Port<'_> {
+    /// Returns the velocity of the port per unit velocity of its coordinate, for the port of a joint: 1, or the
+    /// ratio of `mimic`.
+    pub(super) fn factor(&self) -> Dd {
+        let first = self.transformers.first();
+        first
+            .and_then(|(_, transformer)| transformer.as_constant())
+            .unwrap_or(Dd::ONE)
+    }
 }
 
 /// The power and energy that an element supplies, stores and dissipates.
@@ -55,6 +68,22 @@ pub enum Hold<'g> {
 }
 
 impl<'g> Hold<'g> {
+    /// Returns the efforts on a coordinate, which are `factor` times these.
+    pub(super) fn times(self, factor: Dd) -> Self {
+        let turned = factor < Dd::ZERO;
+        match self {
+            Hold::Within(limit) if turned => Hold::Within(limit * -factor),
+            Hold::Within(limit) => Hold::Within(limit * factor),
+            Hold::Between([least, most]) => match (least * factor, most * factor) {
+                (least, most) if turned => Hold::Between([most, least]),
+                (least, most) => Hold::Between([least, most]),
+            },
+            Hold::Lowers if turned => Hold::Raises,
+            Hold::Raises if turned => Hold::Lowers,
+            hold => hold,
+        }
+    }
+
     /// Returns the least and the largest effort of a friction; `None` for the limit of a rate.
     pub fn range(&self) -> Option<[Expr<'g>; 2]> {
         match *self {

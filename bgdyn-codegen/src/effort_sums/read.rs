@@ -59,6 +59,18 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         self.x[self.part("state", &self.scene.layout.states, name)]
     }
 
+    /// Returns the mode of a contact at a port, as the sign of the port's slip. At a joint with `mimic` whose ratio
+    /// is negative it is the negative of the mode, which is the sign of the leader's slip.
+    ///
+    /// # Panics
+    /// If no effect of the scene declares the mode.
+    pub fn mode_at_port(&self, port: &Port<'g>, name: &str) -> Expr<'g> {
+        match port.factor() < Dd::ZERO {
+            true => -self.mode(name),
+            false => self.mode(name),
+        }
+    }
+
     /// Returns the mode with this name.
     ///
     /// # Panics
@@ -107,13 +119,10 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// or of a length.
     pub fn port_units(&self, element: &Element) -> [&'static str; 3] {
         let layout = &self.scene.layout;
-        let joint = element
-            .name("joint")
-            .and_then(|j| layout.coordinate_named(j));
+        let joint = element.name("joint");
+        let own = joint.and_then(|joint| layout.dimensions_of(joint));
         let length = [Dimension::Length, Dimension::Speed, Dimension::Force];
-        joint
-            .map_or(length, |j| layout.coordinates[j].dimensions)
-            .map(Dimension::si)
+        own.unwrap_or(length).map(Dimension::si)
     }
 
     /// Returns the site with this name.
@@ -125,11 +134,20 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         SiteId(found.unwrap_or_else(|| undeclared(self.element_at_work(), "site", name)))
     }
 
-    /// Returns a coordinate as a port.
+    /// Returns a coordinate as a port. The port of a joint with `mimic` has the transformer ratio to its
+    /// leader's coordinate.
     ///
     /// # Panics
-    /// If the scene has no coordinate with this name.
+    /// If the scene has no coordinate and no such joint with this name.
     pub fn coordinate(&self, name: &str) -> Port<'g> {
+        if let Some(follower) = self.scene.layout.follower_named(name) {
+            let (j, ratio) = (follower.leader, self.b.constant(follower.ratio));
+            return Port {
+                displacement: self.position_of(j) * ratio + self.b.constant(follower.offset),
+                rate: self.v[j] * ratio,
+                transformers: vec![(j, ratio)],
+            };
+        }
         let j = self.coordinate_index(name);
         Port {
             displacement: self.position_of(j),

@@ -90,7 +90,8 @@ impl<'g> EffortSums<'g, '_> {
     }
 
     /// Adds a contact that can hold its coordinate at the rate of a counterpart; `reference` is the rate
-    /// and acceleration of the counterpart.
+    /// and acceleration of the counterpart. A contact of a joint with `mimic` holds its leader: slip, reference
+    /// and efforts become those of the leader.
     ///
     /// # Panics
     /// If no effect of the scene declares the mode.
@@ -103,13 +104,15 @@ impl<'g> EffortSums<'g, '_> {
     ) {
         let mode = self.part("mode", &self.scene.layout.modes, mode);
         if let Some(&(coordinate, _)) = port.transformers.first() {
+            let factor = port.factor();
+            let reference = reference.map(|x| x / self.b.constant(factor));
             self.contacts.push(Contact {
                 element: self.at,
                 mode,
                 coordinate,
-                slip: port.rate - reference[0],
+                slip: self.v[coordinate] - reference[0],
                 reference,
-                hold,
+                hold: hold.times(factor),
             });
         }
     }

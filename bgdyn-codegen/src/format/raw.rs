@@ -166,6 +166,11 @@ impl Raw {
         matches!(&self.tree, Some(tree) if matches!(tree.data, Data::Map(_)))
     }
 
+    /// Returns whether it is a list.
+    pub fn is_list(&self) -> bool {
+        matches!(&self.tree, Some(tree) if matches!(tree.data, Data::List(_)))
+    }
+
     /// Returns whether it has no value, not even an empty one.
     pub fn is_bare(&self) -> bool {
         self.tree.is_none()

@@ -4,8 +4,9 @@ use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
-use crate::mechanism::Motion;
+use crate::math::{Mat3, Vec3};
 use crate::mechanism::joint::PoseNumbers;
+use crate::mechanism::{CoordinateId, Motion};
 
 impl<'g> PoseNumbers<Expr<'g>> for &'g Builder {
     fn constant(&self, x: Dd) -> Expr<'g> {
@@ -36,11 +37,32 @@ pub(super) fn joint_positions<'g>(
 
 /// Returns the velocities of a joint, or its accelerations; for one with `mimic` ratio times its leader's.
 pub(super) fn joint_rates<'g>(frame: &LinkFrame, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    let read = |j: &crate::mechanism::CoordinateId| match frame.degrees.mimic {
+    let read = |j: &CoordinateId| match frame.degrees.mimic {
         None => v[j.0],
         Some(mimic) => v[j.0] * mimic.ratio,
     };
     frame.degrees.velocities.iter().map(read).collect()
+}
+
+/// Returns the pose of the link whose joint has several degrees of freedom, in the joint's origin: the rotation
+/// from link axes to origin axes, and the link's origin, m. `first` is the joint's first coordinate. `None` for
+/// other joints.
+pub(crate) fn pose_in_joint<'g>(
+    b: &'g Builder,
+    graph: &Multibody,
+    first: usize,
+    q: &[Expr<'g>],
+) -> Option<(Mat3<Expr<'g>>, Vec3<Expr<'g>>)> {
+    let first = Some(&CoordinateId(first));
+    let own = |f: &&LinkFrame| f.degrees.mimic.is_none() && f.degrees.velocities.first() == first;
+    let frame = graph.frames.iter().find(own)?;
+    match frame.motion {
+        Motion::Compound(motion) => {
+            let q = joint_positions(b, frame, q);
+            Some(motion.pose(&frame.constants(), &q, &b))
+        }
+        _ => None,
+    }
 }
 
 /// Returns q̇ = N(q) v.

@@ -19,7 +19,7 @@ mod solve;
 mod subspaces;
 
 pub use definition::{Formulation, Offer};
-pub(crate) use joint_motion::{position_rates, unit_tangents};
+pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};
 pub use prepared::Prepared;
 pub(crate) use prepared::{Candidate, Candidates};
 pub(crate) use recursion::expressions::mass_and_bias;

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{CoordinateId, Degrees, Joint, LinkId, Mechanism, Motion, PositionId};
+use super::{CoordinateId, Degrees, Joint, LinkId, Mechanism, Mimic, Motion, PositionId};
 
 impl Mechanism {
     /// PoseNumbers the positions and velocities, in the order of the links; a joint with `mimic` gets those of
@@ -72,6 +72,19 @@ impl Mechanism {
         let columns = joint.degrees.columns(joint.kind.motion, joint.axis);
         let own = columns.iter().find(|(j, _)| *j == coordinate);
         own.is_some_and(|(_, column)| column.angular.0.iter().all(|&x| x == Dd::ZERO))
+    }
+
+    /// Returns the joints with `mimic`, each with its relation, its leader's coordinate, and whether the unit of
+    /// its own velocity is m/s.
+    pub fn followers(&self) -> impl Iterator<Item = (&Joint, Mimic, CoordinateId, bool)> {
+        let joints = self.links.iter().map(|link| &link.joint);
+        joints.filter_map(|joint| {
+            let mimic = joint.degrees.mimic?;
+            let columns = joint.degrees.columns(joint.kind.motion, joint.axis);
+            let (coordinate, column) = columns.first()?;
+            let linear = column.angular.0.iter().all(|&x| x == Dd::ZERO);
+            Some((joint, mimic, *coordinate, linear))
+        })
     }
 
     /// Returns whether a coordinate's velocity is not the rate of a position.

@@ -43,7 +43,10 @@ impl Scene {
             &mut Faults::default(),
         );
         let layout = &laid_out.layout;
-        let known_input = |name: &str| layout.inputs.iter().any(|i| i.name == name);
+        let known_input = |name: &str| {
+            let held = layout.quasi_joints.iter().any(|joint| joint.name == name);
+            held || layout.inputs.iter().any(|i| i.name == name)
+        };
         written.inputs.retain(|raw| known_input(&raw.name.value));
         // Other efforts may need other modes: they are determined again.
         written.modes = Some(Vec::new());

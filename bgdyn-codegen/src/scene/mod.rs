@@ -19,16 +19,17 @@ use crate::fault::Location;
 use crate::fault::wording;
 use crate::format::{Located, Raw};
 pub use crate::layout::{
-    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition,
-    Variable,
+    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout,
+    StatePosition, Variable,
 };
+use crate::math::Ring;
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
 pub use check::{Verdict, check, check_alone};
 pub use integration::{Integration, IntegratorName, StepControl};
 pub use overrides::{Override, OverrideKind};
-pub use signal::{InputSource, Waveform};
+pub use signal::{InputSource, PoseHold, PoseTarget, Waveform};
 
 /// A scene that passed every check.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,7 +121,11 @@ impl QuasiJoint {
 
 /// Returns the unit quaternion x, y, z, w of turns about the fixed axes x, then y, then z, rad.
 pub fn quaternion_of_rpy(rpy: [Dd; 3]) -> [Dd; 4] {
-    let halves = rpy.map(|angle| (angle * Dd::from_f64(0.5)).sin_cos());
+    quaternion_of_half_turns(rpy.map(|angle| (angle * Dd::from_f64(0.5)).sin_cos()))
+}
+
+/// Returns the same for the sines and cosines of half of each angle.
+pub(crate) fn quaternion_of_half_turns<E: Ring>(halves: [(E, E); 3]) -> [E; 4] {
     let [(sx, cx), (sy, cy), (sz, cz)] = halves;
     [
         cz * cy * sx - sz * sy * cx,

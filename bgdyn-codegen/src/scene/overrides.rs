@@ -173,17 +173,18 @@ impl Scene {
         };
         let layout = &self.layout;
         for (j, c) in layout.coordinates.iter().enumerate() {
-            let with = c.starts_with.as_ref();
-            let Some(k) = with.and_then(|name| layout.coordinate_named(name)) else {
+            let (with, start) = (c.starts_with.as_ref(), &mut scene.initial);
+            let motion = with.and_then(|name| layout.motion_of(name, &start.q, &start.v));
+            let Some((position, velocity)) = motion else {
                 continue;
             };
-            if let (Some(own), Some(other)) = (c.position, layout.coordinates[k].position)
+            if let (Some(own), Some(position)) = (c.position, position)
                 && !given(&c.name)
             {
-                scene.initial.q[own] = scene.initial.q[other];
+                start.q[own] = position;
             }
             if !given(&c.rate_name) {
-                scene.initial.v[j] = scene.initial.v[k];
+                start.v[j] = velocity;
             }
         }
         Ok(scene)

@@ -4,6 +4,7 @@ use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Raw};
+use crate::layout::QuasiJoint;
 
 /// A course in time.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,33 +71,75 @@ pub enum InputSource {
         /// d, 1/s
         damping: Dd,
     },
+    /// One effort of a controller that holds a joint's position or orientation, by its index.
+    Hold(Box<PoseHold>, usize),
+}
+
+/// A controller that holds the position or the orientation of a joint with quasi-velocities, by efforts in
+/// link axes: two forces of a planar joint, otherwise three forces or three moments.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseHold {
+    /// The joint.
+    pub joint: QuasiJoint,
+    /// What it is held at.
+    pub target: PoseTarget,
+    /// N/m along the axes of the joint's origin, or N·m/rad about link axes.
+    pub stiffness: Vec<Dd>,
+    /// N·s/m along the axes of the joint's origin, or N·m·s/rad about link axes.
+    pub damping: Vec<Dd>,
+}
+
+/// The target of a [`PoseHold`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum PoseTarget {
+    /// Place of the link's origin in the joint's origin, m: x, y and, unless the joint is planar, z.
+    Position(Vec<Waveform>),
+    /// The unit quaternion x, y, z, w from link axes to origin axes.
+    Quaternion([Dd; 4]),
+    /// Turns about the fixed axes x, then y, then z, rad.
+    Rpy([Waveform; 3]),
+}
+
+impl PoseTarget {
+    /// Returns its courses in time.
+    fn courses(&self) -> &[Waveform] {
+        match self {
+            PoseTarget::Position(courses) => courses,
+            PoseTarget::Quaternion(_) => &[],
+            PoseTarget::Rpy(courses) => courses,
+        }
+    }
 }
 
 impl InputSource {
-    /// Returns whether it follows a coordinate.
+    /// Returns whether it follows a coordinate or a pose.
     pub fn is_controller(&self) -> bool {
         matches!(
             self,
-            InputSource::Pd { .. } | InputSource::ComputedTorque { .. }
+            InputSource::Pd { .. } | InputSource::ComputedTorque { .. } | InputSource::Hold(..)
         )
     }
 
     /// The instants, s, at which its course or its target bends.
     pub fn corners(&self) -> impl Iterator<Item = Dd> {
-        let course = match self {
-            InputSource::Given | InputSource::RateOf(_) => None,
-            InputSource::Waveform(course) => Some(course),
+        let courses: &[Waveform] = match self {
+            InputSource::Given | InputSource::RateOf(_) => &[],
+            InputSource::Waveform(course) => std::slice::from_ref(course),
             InputSource::Pd { target, .. } | InputSource::ComputedTorque { target, .. } => {
-                Some(target)
+                std::slice::from_ref(target)
             }
+            InputSource::Hold(hold, _) => hold.target.courses(),
         };
-        course.into_iter().flat_map(Waveform::corners)
+        courses.iter().flat_map(Waveform::corners)
     }
 }
 
 /// The words that a drive may begin with.
 pub(super) const BUILT_IN: &str =
     "constant, ramp, harmonic, table, pd, computed_torque, or `given` for values from Rust code";
+
+/// The word of a controller that holds the pose of a joint with quasi-velocities.
+pub(super) const HOLD: &str = "hold";
 
 /// Reads what drives an input of this dimension; `follows` is the dimension of the coordinate that
 /// a controller would follow, `effort` whether the input is that coordinate's own effort.
@@ -119,6 +162,10 @@ pub(super) fn drive(
         return None;
     };
     let word = only.name.value.as_str();
+    if word == HOLD {
+        faults.push(wording::hold_of_one_degree(&only.name.location));
+        return None;
+    }
     if !matches!(word, "pd" | "computed_torque") {
         return signal(raw, dimension, faults).map(InputSource::Waveform);
     }

@@ -12,12 +12,14 @@ mod equations;
 mod holds;
 mod idle;
 mod jacobian;
+mod pose_hold;
 mod range;
 mod reference;
 mod signals;
 mod slope;
 mod start;
 mod summed;
+mod waveform;
 
 use bgdyn_runtime::Dd;
 use summed::summed;
@@ -214,6 +216,11 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     let driven = layout.inputs.iter().filter_map(|input| input.drives);
     let driven = driven.map(|j| layout.coordinates[j].name.clone()).collect();
     let mut network = BondNetwork::of_mechanism(graph, driven);
+    for follower in &layout.followers {
+        let leader = &layout.coordinates[follower.leader].name;
+        let ratio = format!("{} of mimic", follower.ratio.to_f64());
+        network.follow(&follower.name, leader, ratio);
+    }
     for (at, element) in scene.elements.iter().enumerate() {
         network.begin(at);
         effect::of(element).elements(element, &scene.elements, &mut network);

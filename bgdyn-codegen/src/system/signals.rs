@@ -1,21 +1,19 @@
 //! The sources of the inputs, as expressions: signals in time and controllers.
 
-use super::summed::summed;
-use bgdyn_runtime::Dd;
-
 use super::dynamics::efforts;
+use super::pose_hold;
+use super::summed::summed;
+use super::waveform::{course, rate};
 use super::{ActuatorEfforts, EffortSums, SceneEquations};
-use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
-use crate::scene::{InputSource, Waveform};
+use crate::expr::{Builder, Expr, Leaf};
+use crate::scene::InputSource;
 
 /// Returns every input: by its source in the scene, or as given by the caller.
 pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let layout = &system.scene.layout;
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
-    let followed = |i: usize| {
-        let name = layout.inputs[i].follows.as_deref();
-        name.and_then(|name| layout.coordinate_named(name))
-    };
+    let name = |i: usize| layout.inputs[i].follows.as_deref().unwrap_or_default();
+    let followed = |i: usize| layout.coordinate_named(name(i));
     let torques = computed_torques(system, b, &sums, &followed);
     let mut values: Vec<Expr<'g>> = Vec::new();
     for (i, drive) in system.scene.drives.iter().enumerate() {
@@ -28,12 +26,11 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
                 stiffness,
                 damping,
             } => {
-                let wanted = course(b, target);
-                let j = followed(i).unwrap_or(0);
-                (wanted - sums.position_of(j)) * *stiffness
-                    + (rate(b, wanted) - sums.v[j]) * *damping
+                let (wanted, port) = (course(b, target), sums.coordinate(name(i)));
+                (wanted - port.displacement) * *stiffness + (rate(b, wanted) - port.rate) * *damping
             }
             InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
+            InputSource::Hold(hold, k) => pose_hold::efforts(&sums, hold).0[*k],
         });
     }
     values
@@ -78,46 +75,4 @@ fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
         InputSource::Waveform(signal) => course(b, signal),
         _ => b.leaf(Leaf::Input(i)),
     }
-}
-
-/// Returns the derivative by time.
-fn rate<'g>(b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
-    let seed = |g: &mut Graph, leaf| (leaf == Leaf::Time).then(|| g.constant(Dd::ONE));
-    let x = x.signed();
-    let rate = b.with_graph(|g| Tangent::new(seed).of(g, x));
-    b.expr(rate)
-}
-
-/// Returns a signal in time.
-fn course<'g>(b: &'g Builder, signal: &Waveform) -> Expr<'g> {
-    let t = b.leaf(Leaf::Time);
-    match signal {
-        Waveform::Constant(x) => b.constant(*x),
-        Waveform::Ramp { from, rate } => b.constant(*from) + t * *rate,
-        Waveform::Harmonic {
-            amplitude,
-            frequency,
-            phase,
-            offset,
-        } => {
-            let turn = Dd::PI * Dd::from_f64(2.0);
-            let (_, sine) = b.cos_sin(&[t * (*frequency * turn)], *phase);
-            b.constant(*offset) + sine * *amplitude
-        }
-        Waveform::Table(points) => table(b, t, points),
-    }
-}
-
-/// Interpolates linearly between points; constant before the first and after the last.
-fn table<'g>(b: &'g Builder, t: Expr<'g>, points: &[[Dd; 2]]) -> Expr<'g> {
-    let number = |x: Dd| b.constant(x);
-    let last = points[points.len() - 1];
-    let pieces = points.windows(2).rev();
-    let after_first = pieces.fold(number(last[1]), |later, pair| {
-        let ([t0, y0], [t1, y1]) = (pair[0], pair[1]);
-        let slope = (y1 - y0) / (t1 - t0);
-        let line = number(y0) + (t - number(t0)) * slope;
-        t.if_less(number(t1), line, later)
-    });
-    t.if_less(number(points[0][0]), number(points[0][1]), after_first)
 }

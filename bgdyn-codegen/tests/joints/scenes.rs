@@ -12,14 +12,14 @@ use super::findings::*;
 const EFFECTS: &str = "effects: [inertia, velocity_products, gravity";
 
 /// Reads a scene of a slide `grip` and this joint, with these effects and keys.
-fn read(joint: &str, effects: &str, keys: &str) -> Result<SceneEquations, Refusal> {
+pub(super) fn read(joint: &str, effects: &str, keys: &str) -> Result<SceneEquations, Refusal> {
     let scene = format!("scene: 1\nmechanism: arm.yaml\n{EFFECTS}{effects}]\n{keys}\n");
     let mechanism = with_joints(&[LEADER, joint]);
     read_scene(&scene, "scene", |_| Ok(mechanism)).map(|(system, _)| system)
 }
 
 /// Asserts that a scene is refused by one fault of this rule, whose text and advice have these words.
-fn refused((joint, effects, keys): (&str, &str, &str), rule: &str, words: &[&str]) {
+pub(super) fn refused((joint, effects, keys): (&str, &str, &str), rule: &str, words: &[&str]) {
     let faults = match read(joint, effects, keys) {
         Err(Refusal::Spec(faults)) => faults,
         other => panic!("{joint}{effects}{keys}: {:?}", other.map(|_| "accepted")),
@@ -43,11 +43,11 @@ fn refused((joint, effects, keys): (&str, &str, &str), rule: &str, words: &[&str
     }
 }
 
-const BALL: &str = "name: ball, type: spherical";
-const FREE: &str = "name: free, type: floating";
-const CART: &str = "name: cart, type: planar";
+pub(super) const BALL: &str = "name: ball, type: spherical";
+pub(super) const FREE: &str = "name: free, type: floating";
+pub(super) const CART: &str = "name: cart, type: planar";
 const SCREW: &str = "name: feed, type: helical, lead: 5 mm";
-const FOLLOWER: &str = "name: other, type: prismatic, mimic: { joint: grip }";
+pub(super) const FOLLOWER: &str = "name: other, type: prismatic, mimic: { joint: grip }";
 
 /// Names of positions, velocities and coordinates.
 #[test]
@@ -125,24 +125,6 @@ fn a_joint_of_several_degrees_is_not_among_all_joints() {
         names.contains(&"e_grip") && !names.contains(&"e_free_x"),
         "{names:?}"
     );
-}
-
-#[test]
-fn effects_on_followers_name_the_leader() {
-    let spring = ", k: { type: spring, joint: other, stiffness: 3 N/m }";
-    refused(
-        (FOLLOWER, spring, ""),
-        "follower",
-        &["`other`", "joint: grip"],
-    );
-}
-
-#[test]
-fn controllers_do_not_follow_quasi_velocities() {
-    let input = "inputs: { ball_rx: { pd: { target: 0, stiffness: 1, damping: 1 } } }";
-    refused((BALL, "", input), "drive", &["`ball_rx`", "difference"]);
-    let accepted = read(BALL, "", "inputs: { ball_rx: { constant: 1 } }");
-    assert!(accepted.is_ok(), "{:?}", accepted.err());
 }
 
 #[test]

@@ -38,6 +38,10 @@ pub const WRITTEN: &[(&str, &str)] = &[
     ),
     ("spring", "{ type: spring, joint: slide, stiffness: 50 }"),
     (
+        "orientation_spring",
+        "{ type: orientation_spring, between: [anchor, tip], stiffness: 20, damping: 1 }",
+    ),
+    (
         "damper",
         "{ type: damper, between: [anchor, tip], damping: 5 }",
     ),

@@ -92,10 +92,19 @@ pub(crate) fn no_position(
 
 pub(crate) fn effect_on_follower(location: &Location, joint: &str, leader: &str) -> Fault {
     let message = format!(
-        "`{joint}` has `mimic`: it follows `{leader}` and has no velocity of its own to act on"
+        "`{joint}` has `mimic`: it follows `{leader}`, and has no drive of its own for this effect to act on"
     );
     Fault::new(location, "follower", message).with_help(format!(
-        "write `joint: {leader}`: efforts times the ratio of `mimic`, dampings and stiffnesses times its square"
+        "write `joint: {leader}`, which has the drive of both"
+    ))
+}
+
+pub(crate) fn rotor_ratio_on_follower(location: &Location, joint: &str, leader: &str) -> Fault {
+    let message = format!(
+        "`{joint}` has `mimic`: a rotor there turns by its `ratio` times that of `mimic`, and this `ratio` is a run-time parameter"
+    );
+    Fault::new(location, "follower", message).with_help(format!(
+        "write a number, or `joint: {leader}` with the product of both ratios"
     ))
 }
 

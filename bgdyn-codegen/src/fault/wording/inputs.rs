@@ -1,5 +1,6 @@
 //! Messages about a scene's inputs: signals, controllers, tables.
 
+use super::scene::length_of_quaternion;
 use super::{quote, unknown_name};
 use crate::fault::{Fault, Location};
 
@@ -35,18 +36,123 @@ pub(crate) fn controller_without_joint(location: &Location, word: &str) -> Fault
         .with_help("use `constant`, `harmonic`, `table` or `given`")
 }
 
-pub(crate) fn controller_of_quasi_velocity(location: &Location, velocity: &str) -> Fault {
+/// `joint` is the joint of the velocity.
+pub(crate) fn controller_of_quasi_velocity(
+    location: &Location,
+    velocity: &str,
+    joint: &str,
+) -> Fault {
     let message = format!(
         "a controller follows a position, and `{velocity}` is a velocity in link axes: no position has it as its rate"
     );
-    Fault::new(location, "drive", message).with_help(
-        "write `given` and compute the effort in Rust code: `difference` of the mechanism is the error of a pose",
-    )
+    Fault::new(location, "drive", message).with_help(format!(
+        "write `{joint}: {{ hold: … }}`, which holds the pose of the joint; or `given`, and compute the effort in Rust code: `difference` of the mechanism is the error of a pose"
+    ))
 }
 
 pub(crate) fn controller_without_target(location: &Location) -> Fault {
     Fault::new(location, "missing-key", "the controller has no `target`")
         .with_help("add `target: …`: a number, or a signal such as `{ ramp: … }`")
+}
+
+// Holds of poses
+
+pub(crate) fn hold_of_one_degree(location: &Location) -> Fault {
+    let message = "`hold` holds the pose of a planar, spherical or floating joint, by the joint's name; this input is a single effort";
+    Fault::new(location, "drive", message)
+        .with_help("use `pd` for the effort of a joint of one degree of freedom")
+}
+
+/// `first` is the first of its efforts.
+pub(crate) fn not_a_hold(
+    location: &Location,
+    (joint, kind): (&str, &str),
+    first: &str,
+    example: &str,
+) -> Fault {
+    let message = format!(
+        "`{joint}` is a {kind} joint with several efforts; the only source for all of them is `hold`"
+    );
+    let example = example.trim_matches('`');
+    Fault::new(location, "drive", message).with_help(format!(
+        "write `{joint}: {{ hold: {example} }}`, or drive each effort by its name: `{first}: …`"
+    ))
+}
+
+pub(crate) fn hold_of_nothing(location: &Location, known: &[&str]) -> Fault {
+    let known = known.join("`, `");
+    Fault::new(location, "missing-key", "the joint is held at nothing")
+        .with_help(format!("add one or more of `{known}`"))
+}
+
+pub(crate) fn unknown_part_of_pose(
+    location: &Location,
+    key: &str,
+    (joint, kind): (&str, &str),
+    known: &[&str],
+) -> Fault {
+    let message = unknown_name("part of the pose", key, known, &known.join(", "));
+    Fault::new(location, "unknown-key", message).with_help(format!(
+        "`{joint}` is a {kind} joint: it holds {}",
+        known.join(" and ")
+    ))
+}
+
+pub(crate) fn hold_without_key(location: &Location, part: &str, key: &str) -> Fault {
+    let message = format!("`{part}` has no `{key}`");
+    let help = match (key, part) {
+        ("target", "attitude") => {
+            "add `target: { rpy: [0, 0, 90 deg] }` or `target: { quaternion: [0, 0, 0, 1] }`"
+        }
+        ("target", "position") => "add `target: […]`: a number or a signal for each axis",
+        ("target", _) => "add `target: …`: a number or a signal",
+        _ => "add `stiffness: …`: a number, or a list with one for each axis",
+    };
+    Fault::new(location, "missing-key", message).with_help(help)
+}
+
+pub(crate) fn not_one_orientation(location: &Location) -> Fault {
+    Fault::new(
+        location,
+        "drive",
+        "the target of an attitude is one orientation",
+    )
+    .with_help("write `{ rpy: [0, 0, 90 deg] }` or `{ quaternion: [0, 0, 0, 1] }`")
+}
+
+pub(crate) fn target_of_other_length(
+    location: &Location,
+    found: usize,
+    wanted: usize,
+    example: &str,
+) -> Fault {
+    let message = format!("a list of {found}; {wanted} are needed");
+    Fault::new(location, "drive", message).with_help(format!("for example {example}"))
+}
+
+pub(crate) fn target_quaternion_length(
+    location: &Location,
+    joint: &str,
+    any: bool,
+    length: f64,
+) -> Fault {
+    let message = length_of_quaternion(joint, any, length);
+    Fault::new(location, "quaternion-length", message)
+        .with_help("write the angles: `target: { rpy: [0, 0, 90 deg] }`")
+}
+
+pub(crate) fn negative_gain(location: &Location, key: &str, text: &str) -> Fault {
+    let message = format!("`{key}` is {text}: it must not be negative");
+    let why = match key {
+        "damping" => "a negative damping would drive the motion",
+        _ => "a negative stiffness pushes away from the target",
+    };
+    Fault::new(location, "drive", message).with_help(why)
+}
+
+pub(crate) fn input_held_too(location: &Location, input: &str, joint: &str) -> Fault {
+    let message = format!("`{input}` has a source, and the `hold` of `{joint}` is another one");
+    Fault::new(location, "drive", message).with_help("leave one of them out")
 }
 
 // Tables

@@ -40,7 +40,15 @@ pub(super) fn elements(
     let locked = all
         .into_iter()
         .filter(|name| !free.contains(&name.as_str()));
-    let mut context = NameScope::of(reduced, locked.collect());
+    let mut locked: Vec<String> = locked.collect();
+    let followers = whole.mechanism.followers();
+    let still = |name: &str| reduced.followers().all(|(joint, ..)| joint.name != name);
+    locked.extend(
+        followers
+            .map(|(joint, ..)| joint.name.clone())
+            .filter(|name| still(name)),
+    );
+    let mut context = NameScope::of(reduced, locked);
     context.refused = refused.clone();
     let context = context.with(wanted.iter());
     check_unique_names(&wanted, &whole.mechanism, faults);

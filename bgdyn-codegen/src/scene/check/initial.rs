@@ -138,18 +138,18 @@ pub(super) fn initial(
     }
     // The default initial position and velocity of a drive are those of its joint.
     for (j, c) in layout.coordinates.iter().enumerate() {
-        let with = c
-            .starts_with
-            .as_ref()
-            .and_then(|name| layout.coordinate_named(name));
-        let Some(k) = with else { continue };
-        if let (Some(own), Some(other)) = (c.position, layout.coordinates[k].position)
+        let name = c.starts_with.as_ref();
+        let with = name.and_then(|name| layout.motion_of(name, &initial.q, &initial.v));
+        let Some((position, velocity)) = with else {
+            continue;
+        };
+        if let (Some(own), Some(position)) = (c.position, position)
             && !given.contains(&(0, own))
         {
-            initial.q[own] = initial.q[other];
+            initial.q[own] = position;
         }
         if !given.contains(&(1, j)) {
-            initial.v[j] = initial.v[k];
+            initial.v[j] = velocity;
         }
     }
     initial

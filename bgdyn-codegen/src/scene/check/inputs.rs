@@ -1,22 +1,62 @@
 //! Checks the inputs of a scene and their sources.
 
 use super::super::signal::{self, InputSource};
+use super::hold;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
 use crate::format::Raw;
-use crate::layout::{StateCoordinate, StateLayout};
+use crate::layout::{QuasiJoint, StateCoordinate, StateLayout};
 
-/// Adds as inputs the drives of coordinates that the scene names.
+/// Adds as inputs the drives of coordinates that the scene names, or whose pose it holds.
 pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
     for raw in inputs {
-        let name = &raw.name.value;
-        let known = layout.inputs.iter().any(|input| input.name == *name);
-        let own = |c: &StateCoordinate| c.name == *name && c.moves();
-        if !known && layout.coordinates.iter().any(own) {
-            let about = format!("effort at `{name}`");
-            layout.drive(name.clone(), name, name, about);
+        let names = match joint_of(layout, raw) {
+            Some(joint) => {
+                let driven = hold::driven(raw, joint).into_iter();
+                driven.map(|j| layout.coordinates[j].name.clone()).collect()
+            }
+            None => vec![raw.name.value.clone()],
+        };
+        for name in names {
+            let known = layout.inputs.iter().any(|input| input.name == name);
+            let own = |c: &StateCoordinate| c.name == name && c.moves();
+            if !known && layout.coordinates.iter().any(own) {
+                let about = format!("effort at `{name}`");
+                layout.drive(name.clone(), &name, &name, about);
+            }
         }
     }
+}
+
+/// Returns the joint with quasi-velocities that an entry drives as a whole.
+fn joint_of<'a>(layout: &'a StateLayout, raw: &Raw) -> Option<&'a QuasiJoint> {
+    let name = &raw.name.value;
+    let input = layout.inputs.iter().any(|input| input.name == *name);
+    let mut joints = layout.quasi_joints.iter();
+    joints.find(|joint| joint.name == *name && !input)
+}
+
+/// Returns the inputs that the entries of whole joints drive, each with its joint, and sets their sources.
+fn holds<'a>(
+    layout: &'a StateLayout,
+    inputs: &[Raw],
+    drives: &mut [InputSource],
+    faults: &mut Faults,
+) -> Vec<(usize, &'a str)> {
+    let mut held = Vec::new();
+    for raw in inputs {
+        let Some(joint) = joint_of(layout, raw) else {
+            continue;
+        };
+        for (j, source) in hold::read(raw, joint, layout, faults) {
+            let name = &layout.coordinates[j].name;
+            if let Some(i) = layout.inputs.iter().position(|part| part.name == *name) {
+                drives[i] = source;
+                held.push((i, joint.name.as_str()));
+            }
+        }
+    }
+    held
 }
 
 /// Returns the source of each input.
@@ -27,14 +67,17 @@ pub(super) fn drives(
     faults: &mut Faults,
 ) -> Vec<InputSource> {
     let mut drives = vec![InputSource::Given; layout.inputs.len()];
-    for raw in inputs {
+    let held = holds(layout, inputs, &mut drives, faults);
+    for raw in inputs.iter().filter(|raw| joint_of(layout, raw).is_none()) {
         let name = &raw.name.value;
         let Some(i) = layout.inputs.iter().position(|part| part.name == *name) else {
             let known: Vec<&str> = layout.inputs.iter().map(|p| p.name.as_str()).collect();
             let efforts = layout.coordinates.iter().filter(|c| c.moves());
+            let joints = layout.quasi_joints.iter().map(|joint| joint.name.as_str());
             let all: Vec<&str> = known
                 .into_iter()
                 .chain(efforts.map(|c| c.name.as_str()))
+                .chain(joints)
                 .collect();
             let fault = wording::unknown_input(&raw.name.location, name, &all);
             faults.push(match refused.may_bring(name) {
@@ -43,6 +86,10 @@ pub(super) fn drives(
             });
             continue;
         };
+        if let Some((_, joint)) = held.iter().find(|(held, _)| *held == i) {
+            faults.push(wording::input_held_too(&raw.name.location, name, joint));
+            continue;
+        }
         let part = &layout.inputs[i];
         let follows = part.follows.as_ref().map(|name| layout.position_of(name));
         let effort = part.drives.is_some_and(|j| layout.coordinates[j].moves());
@@ -54,7 +101,13 @@ pub(super) fn drives(
             });
             if let (Some(velocity), true) = (quasi, drive.is_controller()) {
                 let location = &raw.name.location;
-                faults.push(wording::controller_of_quasi_velocity(location, velocity));
+                let index = layout.coordinate_named(velocity).unwrap_or_default();
+                let mut joints = layout.quasi_joints.iter();
+                let joint = joints.find(|joint| joint.coordinates.contains(&index));
+                let joint = joint.map_or("", |joint| &joint.name);
+                faults.push(wording::controller_of_quasi_velocity(
+                    location, velocity, joint,
+                ));
                 continue;
             }
             drives[i] = drive;

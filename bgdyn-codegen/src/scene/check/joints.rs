@@ -4,7 +4,9 @@
 use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use crate::format::Dimension;
-use crate::layout::{MomentumStore, QuasiJoint, StateCoordinate, StateLayout, StatePosition};
+use crate::layout::{
+    MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout, StatePosition,
+};
 use crate::mechanism::{Degrees, Joint, Mechanism, Motion};
 
 /// Returns the layout of the joints' positions and velocities.
@@ -48,6 +50,16 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         }
         layout.quasi_joints.extend(quasi_joint(joint));
     }
+    let followers = mechanism.followers();
+    layout.followers = followers
+        .map(|(joint, mimic, leader, linear)| StateFollower {
+            name: joint.name.clone(),
+            leader: leader.0,
+            ratio: mimic.ratio,
+            offset: mimic.offset,
+            dimensions: dimensions(linear),
+        })
+        .collect();
     layout
 }
 

@@ -1,6 +1,7 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
+mod hold;
 mod initial;
 mod inputs;
 mod joints;

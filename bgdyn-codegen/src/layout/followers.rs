@@ -1,0 +1,51 @@
+//! Joints with `mimic` in a scene's state: they have no part of it, and the motion of their leader.
+
+use bgdyn_runtime::Dd;
+
+use super::{StateFollower, StateLayout};
+use crate::unit::Dimension;
+
+impl StateLayout {
+    /// Returns the joint with `mimic` of this name.
+    pub fn follower_named(&self, name: &str) -> Option<&StateFollower> {
+        self.followers.iter().find(|follower| follower.name == name)
+    }
+
+    /// Returns the dimensions of position, velocity and effort of a coordinate, or of a joint with `mimic`.
+    pub fn dimensions_of(&self, name: &str) -> Option<[Dimension; 3]> {
+        match self.coordinate_named(name) {
+            Some(j) => Some(self.coordinates[j].dimensions),
+            None => self.follower_named(name).map(|f| f.dimensions),
+        }
+    }
+
+    /// Returns the dimension of a coordinate's position; an angle if no coordinate has this name.
+    pub fn position_of(&self, name: &str) -> Dimension {
+        self.dimensions_of(name)
+            .map_or(Dimension::Angle, |[position, ..]| position)
+    }
+
+    /// Returns position and velocity of a coordinate, or of a joint with `mimic`, in a state; the position only
+    /// if it has one.
+    pub fn motion_of(&self, name: &str, q: &[Dd], v: &[Dd]) -> Option<(Option<Dd>, Dd)> {
+        let at = |j: usize| (self.coordinates[j].position.map(|p| q[p]), v[j]);
+        if let Some(j) = self.coordinate_named(name) {
+            return Some(at(j));
+        }
+        let follower = self.follower_named(name)?;
+        let (position, velocity) = at(follower.leader);
+        let moved = position.map(|q| q * follower.ratio + follower.offset);
+        Some((moved, velocity * follower.ratio))
+    }
+
+    /// Returns whose `motion` (slip, rate) a contact of this joint has, in words: its own, or that of its leader.
+    pub fn motion_in_words(&self, joint: &str, motion: &str) -> String {
+        match self.follower_named(joint) {
+            Some(follower) => {
+                let leader = &self.coordinates[follower.leader].name;
+                format!("the {motion} of `{leader}`")
+            }
+            None => format!("its {motion}"),
+        }
+    }
+}
