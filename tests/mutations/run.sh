@@ -160,7 +160,7 @@ mutate "rotation folded into a quaternion" $recursion/rotation.rs \
 mutate "round bodies at a ball" $recursion/inertia.rs \
     'Rotation::AboutZ(_) if self.round() => *self,' '_ if self.round() => *self,' \
     "${codegen[@]}" joints tidy::
-mutate "moving base" $recursion/frames.rs \
+mutate "moving base" $recursion/body_joint.rs \
     'angular: base.omega_dot,' 'angular: base.omega,' "${codegen[@]}" joints moving_base::
 mutate "followers in the mass matrix" $recursion/mass_matrix.rs \
     'm.along(column) * column.effort * m.effort' 'm.along(column) * m.effort' "${codegen[@]}" joints mimic::

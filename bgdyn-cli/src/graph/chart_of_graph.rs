@@ -12,6 +12,9 @@ use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, Velocit
 use super::notation::{coordinates, number, subscript, superscript};
 use super::unfold::Unfolding;
 
+/// What a drawing says of a base whose motion is given.
+const MOVING_BASE: &str = "The base moves: its motion is given and not drawn. Flows are relative to it; the efforts of its motion add to the weights, which are those of a base at rest.";
+
 impl Chart {
     /// Returns the drawing of a mechanism's bond graph.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
@@ -45,6 +48,8 @@ impl Chart {
             graph.transformers.iter().any(|t| junctions.contains(&t.to))
         };
         let (moving, still): (Vec<_>, Vec<_>) = links.into_iter().partition(moved);
+        let base = |i: &LinkId| graph.frames[i.0].motion.is_given();
+        let still = still.into_iter().filter(|i| !base(i));
         let name = |i: LinkId| graph.frames[i.0].name.clone();
         let moving = moving
             .into_iter()
@@ -60,9 +65,9 @@ impl Chart {
             links,
             lines: Vec::new(),
             sites: Vec::new(),
-            still: still.into_iter().map(name).collect(),
+            still: still.map(name).collect(),
             folded,
-            notes: Vec::new(),
+            notes: graph.base.iter().map(|_| MOVING_BASE.to_owned()).collect(),
         }
     }
 }

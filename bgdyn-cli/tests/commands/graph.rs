@@ -392,3 +392,17 @@ fn the_pictures_of_the_page_are_up_to_date() {
         assert!(kept == svg(file), "bgdyn graph {file} -o {picture}");
     }
 }
+
+/// The base is no link of the drawing; a note says that it moves.
+#[test]
+fn a_base_whose_motion_is_given_is_a_note() {
+    let file = root().join("tests/free_joints/boom.yaml");
+    let drawn = bgdyn(&["graph", &file.display().to_string()]).good();
+    let words: String = drawn
+        .split('<')
+        .filter_map(|part| part.split_once('>'))
+        .fold(String::new(), |text, (_, words)| text + words.trim() + " ");
+    assert!(words.contains("4 velocities, 2 links"), "{words}");
+    assert!(words.contains("The base moves"), "{words}");
+    assert!(!words.contains("moving_base"), "{words}");
+}

@@ -14,7 +14,7 @@ use crate::bond_graph::{BondGraph, Multibody};
 use crate::expr::Inputs;
 use crate::formulation::geometry::{Body, angle_of, geometry};
 use crate::math::Vec3;
-use crate::mechanism::{BaseMotion, Motion, ParameterId, Value};
+use crate::mechanism::{BaseMotion, Motion, Value};
 use crate::random::Random;
 
 /// Number of random states.
@@ -158,11 +158,9 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     );
     let parameters = graph.parameters.iter();
     let mut parameters: Vec<f64> = parameters.map(|p| p.default.to_f64()).collect();
-    let base = graph.base.iter().flat_map(BaseMotion::numbers);
-    for (value, size) in base.zip([2.0 * fast; 3].into_iter().chain([10.0; 6])) {
-        if let Value::Parameter(ParameterId(p)) = value {
-            parameters[p] = random.signed() * size;
-        }
+    let base = graph.base.iter().flat_map(BaseMotion::parameters);
+    for (p, size) in base.zip([2.0 * fast; 3].into_iter().chain([10.0; 6])) {
+        parameters[p.0] = random.signed() * size;
     }
     Inputs {
         q,

@@ -77,7 +77,7 @@ fn moves_with_base(method: Method) -> bool {
 }
 
 fn base_state<'g>(b: &'g Builder, motion: &BaseMotion) -> BaseState<'g> {
-    let read = |v: Vec3<Value>| v.map(|x| value(b, x));
+    let read = |v: Vec3<ParameterId>| v.map(|p| value(b, Value::Parameter(p)));
     BaseState {
         omega: read(motion.angular_velocity),
         omega_dot: read(motion.angular_acceleration),

@@ -1,5 +1,6 @@
 //! Checks a spec: the only code that constructs a [`Mechanism`], and the faults that prevent it.
 
+mod base;
 mod direction;
 mod inertia;
 mod joint;
@@ -12,11 +13,11 @@ mod solid;
 
 use bgdyn_runtime::Dd;
 
-use super::base_motion::{BaseMotion, base_link};
-use super::{BASE_PARAMETERS, Frame, Inertial, Link, LinkId, Mechanism, Tensor, Value};
+use super::{BaseMotion, Frame, Inertial, Link, LinkId, Mechanism, Tensor, Value};
 use crate::fault::{Faults, wording};
 use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
+use base::{at_rest, base_is_given, base_link};
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use joint::CheckedJoints;
@@ -67,8 +68,8 @@ pub(crate) fn check(
         let gravity = gravity?;
         let mut parameters = parameters.into_all();
         let base = given.then(|| {
-            let (motion, own) = BaseMotion::at_rest(gravity, parameters.len());
-            parameters.extend(own);
+            let motion = BaseMotion::from_parameter(parameters.len());
+            parameters.extend(at_rest(gravity));
             motion
         });
         let mut mechanism = Mechanism {
@@ -99,29 +100,6 @@ fn format(spec: &Spec, faults: &mut Faults) {
             &format.value.text,
             FORMAT,
         ));
-    }
-}
-
-/// Returns whether the motion of the base is given at run time. Its parameters are fields of their own.
-fn base_is_given(spec: &Spec, parameters: &Parameters<'_>, faults: &mut Faults) -> bool {
-    let Some(base) = spec.base.given() else {
-        return false;
-    };
-    match base.value.as_str() {
-        "fixed" => false,
-        "given" => {
-            for (name, location) in parameters.names() {
-                let taken = |(own, ..): &(&str, &str, &str)| name.starts_with(own);
-                if BASE_PARAMETERS.iter().any(taken) {
-                    faults.push(wording::parameter_of_base(location, name));
-                }
-            }
-            true
-        }
-        other => {
-            faults.push(wording::unknown_base(&base.location, other));
-            false
-        }
     }
 }
 
