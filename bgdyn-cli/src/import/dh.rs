@@ -8,7 +8,7 @@ use super::joint_type::JointType;
 use super::model::{Frame, Inertial, Joint, JointEffects, Limits, Link, Model};
 use super::naming::shown;
 use super::number::Num;
-use super::placement::{Placement, Pose, about, displaced};
+use super::placement::{Pose, about, displaced};
 use super::xml::{At, fault};
 use crate::table::{self, TableRow};
 use anyhow::{Result, bail};
@@ -109,7 +109,7 @@ fn base() -> Link {
         name: "base".into(),
         at: (1, 1),
         inertial: None,
-        place: Some(Placement::identity()),
+        place: None,
     }
 }
 

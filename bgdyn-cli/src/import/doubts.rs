@@ -91,8 +91,8 @@ pub(super) fn six_digits(value: f64) -> String {
     Digits::new(value, 6).to_string()
 }
 
-/// Names the links that are fixed to the world by default, with the mass that is fixed: the author may have
-/// meant a moving base.
+/// Names the links with mass that are fixed to the world by default: the author may have meant a moving
+/// base. The line that says what was written names every link that is fixed, also those without mass.
 fn grounded(model: &Model, tree: &Tree) -> Option<String> {
     let heavy = |root: &usize| {
         let mut rigid = vec![*root];
@@ -106,18 +106,17 @@ fn grounded(model: &Model, tree: &Tree) -> Option<String> {
             });
             rigid.extend(fixed.map(|(_, (_, child))| *child));
         }
-        let name = shown(&model.links[*root].name);
-        match mass {
-            0.0 => format!("`{name}` (no mass)"),
-            mass => format!("`{name}` ({} kg)", six_digits(mass)),
-        }
+        (mass != 0.0).then(|| {
+            let mass = six_digits(mass);
+            format!("`{}` ({mass} kg)", shown(&model.links[*root].name))
+        })
     };
     // A root with this name is meant to be fixed to the world.
     let said = |root: &&usize| {
         let link = &model.links[**root];
         link.name != WORLD && link.place.is_none()
     };
-    let heavy: Vec<String> = tree.roots.iter().filter(said).map(heavy).collect();
+    let heavy: Vec<String> = tree.roots.iter().filter(said).filter_map(heavy).collect();
     (!heavy.is_empty()).then(|| {
         format!(
             "fixed to the world, since no joint carries it: {}; for a base that drives, walks or flies: \
