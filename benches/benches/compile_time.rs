@@ -42,6 +42,8 @@ const RELEASE: Profile = Profile {
     name: "release",
     folder: "release",
 };
+/// The spec from elsewhere that the page has a section about.
+const HUMANOID: &str = "g1";
 /// A program without a model.
 const EMPTY: &str = "fn main() {}\n";
 /// Number of builds of each crate.
@@ -173,6 +175,9 @@ fn measure_outside(spec: &Path, docs: bool) -> Result<(), String> {
     println!("{table}");
     if !docs {
         return Ok(());
+    }
+    if stem(&spec) != HUMANOID {
+        return Err(format!("--docs writes the section about `{HUMANOID}.yaml`"));
     }
     let (path, specs, _) = page()?;
     let section = format!(

@@ -10,7 +10,7 @@ use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::explain;
 use bgdyn_runtime::Dd;
 
-use super::robot::{Robot, Way, close, dot, full, largest, scale, times};
+use super::robot::{Robot, State, Way, close, cross, dot, full, largest, scale, times, turned};
 use super::specs;
 
 const WAYS: [Way; 4] = [None, Some("recursion"), Some("subspaces"), Some("literal")];
@@ -64,39 +64,31 @@ fn both(floating: &Robot, given: &Robot, seed: u64) -> Both {
     }
     // Rᵀ g, by the rotation with the conjugate quaternion.
     let conjugate = [-q[3], -q[4], -q[5], q[6]];
-    let gravity = rotated(&conjugate, &floating.mechanism.gravity().0);
-    let turned = cross(&v[3..6], &v[..3]);
-    let force: Vec<Dd> = (0..3).map(|k| a[k] + turned[k] - gravity[k]).collect();
+    let gravity = turned(&conjugate, &floating.mechanism.gravity().0);
+    let carried = cross(&v[3..6], &v[..3]);
+    let force: Vec<Dd> = (0..3).map(|k| a[k] + carried[k] - gravity[k]).collect();
     let parameters = [&v[3..6], &a[3..6], &force].concat();
-    let inputs = |q: &[Dd], v: &[Dd], a: &[Dd], u: &[Dd], parameters: Vec<Dd>| Inputs {
+    assert_eq!(given.mechanism.parameters().len(), parameters.len());
+    Both {
+        given: inputs([&q[NQ..], &v[NV..], &a[NV..], &u[NV..]], parameters),
+        floating: inputs([&q, &v, &a, &u], vec![]),
+    }
+}
+
+fn inputs([q, v, a, u]: [&[Dd]; 4], parameters: Vec<Dd>) -> Inputs<Dd> {
+    Inputs {
         q: q.to_vec(),
         v: v.to_vec(),
         a: a.to_vec(),
         u: u.to_vec(),
         parameters,
         ..Inputs::default()
-    };
-    assert_eq!(given.mechanism.parameters().len(), parameters.len());
-    Both {
-        given: inputs(&q[NQ..], &v[NV..], &a[NV..], &u[NV..], parameters),
-        floating: inputs(&q, &v, &a, &u, vec![]),
     }
 }
 
-fn cross(a: &[Dd], b: &[Dd]) -> [Dd; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// u + 2 w (p × u) + 2 p × (p × u) for a unit quaternion (p, w).
-fn rotated(q: &[Dd; 4], u: &[Dd; 3]) -> [Dd; 3] {
-    let once = cross(&q[..3], u);
-    let twice = cross(&q[..3], &once);
-    let two = Dd::from_f64(2.0);
-    std::array::from_fn(|i| u[i] + two * (q[3] * once[i] + twice[i]))
+fn of_state(state: &State<Dd>, parameters: Vec<Dd>) -> Inputs<Dd> {
+    let State { q, v, a, u } = state;
+    inputs([q, v, a, u], parameters)
 }
 
 fn value(robot: &Robot, way: Way, method: Method, at: &Inputs<Dd>) -> Vec<Dd> {
@@ -212,14 +204,7 @@ fn a_base_at_rest_is_a_fixed_base() {
         let (fixed, own) = (Robot::read(&text), Robot::read(&given(&text)));
         let state = own.state(12);
         let parameters = own.mechanism.parameters().iter();
-        let at = |parameters: Vec<Dd>| Inputs {
-            q: state.q.clone(),
-            v: state.v.clone(),
-            a: state.a.clone(),
-            u: state.u.clone(),
-            parameters,
-            ..Inputs::default()
-        };
+        let at = |parameters: Vec<Dd>| of_state(&state, parameters);
         let defaults: Vec<Dd> = parameters.map(|p| p.default).collect();
         for method in [
             Method::InverseDynamics,
@@ -349,7 +334,7 @@ fn a_ball_on_a_turning_base_obeys_euler() {
         .map(Dd::from_f64)
         .to_vec();
     let conjugate = [-state.q[0], -state.q[1], -state.q[2], state.q[3]];
-    let own = |v: &[Dd]| rotated(&conjugate, &[v[0], v[1], v[2]]);
+    let own = |v: &[Dd]| turned(&conjugate, v);
     let (carried, change) = (own(&base[..3]), own(&base[3..6]));
     let omega: Vec<Dd> = (0..3).map(|k| carried[k] + state.v[k]).collect();
     // The base's angular velocity, seen from the body, turns with −ω relative.
@@ -357,15 +342,11 @@ fn a_ball_on_a_turning_base_obeys_euler() {
     let rate: Vec<Dd> = (0..3).map(|k| change[k] + seen[k] + state.a[k]).collect();
     let inertia = [0.5, 0.75, 1.0].map(Dd::from_f64);
     let momentum: Vec<Dd> = (0..3).map(|k| inertia[k] * omega[k]).collect();
-    let turned = cross(&omega, &momentum);
-    let expected: Vec<Dd> = (0..3).map(|k| inertia[k] * rate[k] + turned[k]).collect();
-    let at = Inputs {
-        q: state.q,
-        v: state.v,
-        a: state.a,
-        parameters: base,
-        ..Inputs::default()
-    };
+    let gyroscopic = cross(&omega, &momentum);
+    let expected: Vec<Dd> = (0..3)
+        .map(|k| inertia[k] * rate[k] + gyroscopic[k])
+        .collect();
+    let at = of_state(&state, base);
     for way in WAYS {
         let found = value(&robot, way, Method::InverseDynamics, &at);
         close(&found, &expected, EXACT, 1.0, &format!("{way:?}"));

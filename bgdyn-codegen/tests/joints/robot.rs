@@ -194,19 +194,20 @@ fn half_product(q: &[Dd], w: &[Dd]) -> [Dd; 4] {
     .map(|e| e * 0.5_f64.into())
 }
 
+/// The product of two vectors.
+pub fn cross(a: &[Dd], b: &[Dd]) -> [Dd; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
 /// The vector part of q∘(u, 0)∘q*, for a unit quaternion.
-fn turned(q: &[Dd], u: &[Dd]) -> [Dd; 3] {
+pub fn turned(q: &[Dd], u: &[Dd]) -> [Dd; 3] {
     let two = Dd::from_f64(2.0);
-    let cross = |a: [Dd; 3], b: [Dd; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
-    let (axis, u) = ([q[0], q[1], q[2]], [u[0], u[1], u[2]]);
-    let once = cross(axis, u);
-    let twice = cross(axis, once);
+    let once = cross(&q[..3], u);
+    let twice = cross(&q[..3], &once);
     std::array::from_fn(|i| u[i] + two * (q[3] * once[i] + twice[i]))
 }
 

@@ -259,7 +259,12 @@ impl Hard {
         let joint = |i: usize| {
             let size = terms[i] + s.tau[i].abs() + self.bias[i].abs();
             let unmet = met[i].abs();
-            let unmet = if unmet > noise { unmet } else { 0.0 };
+            // A NaN, and anything beside an infinite size, stays.
+            let unmet = if unmet <= noise && noise.is_finite() {
+                0.0
+            } else {
+                unmet
+            };
             (unmet, 8.0 * self.n as f64 * T::EPS * size)
         };
         (0..self.n).map(joint).collect()

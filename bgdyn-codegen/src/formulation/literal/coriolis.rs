@@ -74,7 +74,8 @@ impl<'g> LiteralSum<'_, 'g> {
         matrix
     }
 
-    /// Adds the gyroscopic efforts of a turning base, a skew matrix:
+    /// Adds the gyroscopic efforts of a turning base, a skew matrix. A scene, which is where rotors are, has no
+    /// such base:
     ///
     /// G_jk = Σ_i [ ∂r_i/∂q_j · 2 m_i ω × ∂r_i/∂q_k + ρ_j · (J_i (ω × ρ_k) + ω × J_i ρ_k + ρ_k × J_i ω) ].
     fn add_base(&self, base: &BaseState<'g>, matrix: &mut [Expr<'g>]) {
@@ -95,14 +96,6 @@ impl<'g> LiteralSum<'_, 'g> {
                     tensor * omega.cross(*y) + omega.cross(tensor * *y) + y.cross(tensor * omega);
                 let angular = moduli.angular.iter();
                 angular.for_each(|(j, x)| add(*j, *k, x.dot(moment)));
-            }
-            for (l, h) in self.spinning(i) {
-                let moment = omega.cross(h);
-                for (j, x) in &moduli.angular {
-                    let effort = x.dot(moment);
-                    add(*j, l, effort);
-                    add(l, *j, -effort);
-                }
             }
         }
     }

@@ -28,7 +28,7 @@ pub(super) struct LiteralSum<'a, 'g> {
     /// A_i, and the poses of the joints.
     placement: Placement<'g>,
     /// r_i: centres of mass.
-    pub(super) positions: Vec<Vec3<Expr<'g>>>,
+    positions: Vec<Vec3<Expr<'g>>>,
     pub(super) moduli: Vec<Moduli<'g>>,
 }
 

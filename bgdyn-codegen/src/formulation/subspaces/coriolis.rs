@@ -52,9 +52,6 @@ impl<'g> Bodies<'_, 'g> {
             }
         }
         self.add_rotors(&twists, &mut matrix);
-        if let Some(carried) = &carried {
-            self.add_carried_rotors(carried, &mut matrix);
-        }
         matrix
     }
 
@@ -73,38 +70,11 @@ impl<'g> Bodies<'_, 'g> {
         twists
     }
 
-    /// Returns 2 B(v) + 2 I [v]× = [v]×* I + [I v] + I [v]× for the twist of a body with the base: a skew
-    /// matrix, that of the gyroscopic wrenches.
+    /// Returns [v]×* I + [I v] + I [v]× for the twist of a body with the base: a skew matrix, that of the
+    /// gyroscopic wrenches. A scene, which is where rotors are, has no such base.
     fn gyroscopic(&self, inertia: &SpatialMatrix<'g>, twist: Spatial<'g>) -> SpatialMatrix<'g> {
-        let half = self.coupling(inertia, twist);
-        let [[a, c], [d, e]] = inertia.0;
-        let (w, v) = (skew(twist.0, self.b.zero()), skew(twist.1, self.b.zero()));
-        let moved = SpatialMatrix([[a * w + c * v, c * w], [d * w + e * v, e * w]]);
-        let whole = half.plus(&moved);
-        whole.plus(&whole)
-    }
-
-    /// Adds the full rotors on a turning base: ω × h along the columns that move the carrier, against the
-    /// effort of the rotor's joint.
-    fn add_carried_rotors(&self, carried: &[Spatial<'g>], matrix: &mut [Expr<'g>]) {
-        let n = self.graph.coordinates.len();
-        for (i, carrier) in self.bodies.iter().enumerate() {
-            for &(j, h) in &carrier.rotors {
-                let mut moment = carried[i].0.cross(h);
-                let mut at = i;
-                loop {
-                    let body = &self.bodies[at];
-                    for (k, column) in &body.columns {
-                        let effort = column.angular.dot(moment);
-                        add(matrix, k * n + j, effort);
-                        add(matrix, j * n + k, -effort);
-                    }
-                    let Some(p) = body.parent else { break };
-                    moment = body.inward(self.b, moment);
-                    at = p;
-                }
-            }
-        }
+        let [left, middle, right] = self.products(inertia, twist);
+        left.plus(&middle).plus(&right)
     }
 
     /// Returns the entries of body i's columns with themselves and with those of the bodies that carry it.
@@ -188,20 +158,27 @@ impl<'g> Bodies<'_, 'g> {
 
     /// Returns B = ½ ([v]×* I + [I v] − I [v]×).
     fn coupling(&self, inertia: &SpatialMatrix<'g>, twist: Spatial<'g>) -> SpatialMatrix<'g> {
+        let [left, middle, right] = self.products(inertia, twist).map(|product| product.0);
+        let half = Dd::from_f64(0.5);
+        let entry =
+            |i: usize, j: usize| (left[i][j] + middle[i][j] - right[i][j]).map(|x| x * half);
+        SpatialMatrix([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
+    }
+
+    /// Returns [v]×* I, [I v] and I [v]×, with [v]×* = [ω, v; 0, ω], [v]× = [ω, 0; v, ω] and
+    /// s ×* (n, f) = (ω × n + v × f, ω × f).
+    fn products(&self, inertia: &SpatialMatrix<'g>, twist: Spatial<'g>) -> [SpatialMatrix<'g>; 3] {
         let zero = Mat3([[self.b.zero(); 3]; 3]);
         let cross = |v: Vec3<Expr<'g>>| skew(v, self.b.zero());
         let (w, v) = (cross(twist.0), cross(twist.1));
         let (moment, force) = inertia.times(twist);
         let (n, f) = (cross(-moment), cross(-force));
-        let half = Dd::from_f64(0.5);
         let [[a, c], [d, e]] = inertia.0;
-        // [v]×* = [ω, v; 0, ω], [v]× = [ω, 0; v, ω], s ×* (n, f) = (ω × n + v × f, ω × f)
-        let left = [[w * a + v * d, w * c + v * e], [w * d, w * e]];
-        let right = [[a * w + c * v, c * w], [d * w + e * v, e * w]];
-        let middle = [[n, f], [f, zero]];
-        let entry =
-            |i: usize, j: usize| (left[i][j] + middle[i][j] - right[i][j]).map(|x| x * half);
-        SpatialMatrix([[entry(0, 0), entry(0, 1)], [entry(1, 0), entry(1, 1)]])
+        [
+            SpatialMatrix([[w * a + v * d, w * c + v * e], [w * d, w * e]]),
+            SpatialMatrix([[n, f], [f, zero]]),
+            SpatialMatrix([[a * w + c * v, c * w], [d * w + e * v, e * w]]),
+        ]
     }
 }
 
