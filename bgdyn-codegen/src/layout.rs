@@ -69,7 +69,7 @@ pub struct StatePosition {
     /// Its dimension.
     pub dimension: Dimension,
     /// The coordinate whose velocity is its rate; `None` for a position of a [`QuasiJoint`], whose rates
-    /// are q̇ = N(q) v.
+    /// are q̇ = N(q) v, and for that of a joint whose velocity alone follows others.
     pub coordinate: Option<usize>,
     /// Its value in the neutral position.
     pub neutral: Dd,
@@ -92,17 +92,17 @@ pub struct QuasiJoint {
     pub any_length: bool,
 }
 
-/// A joint with `mimic`: its position is ratio · q + offset of its leader's position q, its velocity ratio · v.
+/// A joint that follows others: its position is Σ ratio · q + offset, its velocity Σ ratio · v.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateFollower {
     /// Its name.
     pub name: String,
-    /// The coordinate of its leader.
-    pub leader: usize,
-    /// Its units per unit of the leader.
-    pub ratio: Dd,
-    /// Its position where the leader's position is 0, rad or m.
+    /// The positions that its own follows, with ratios; its own position with ratio 1 if it has one.
+    pub positions: Vec<(usize, Dd)>,
+    /// Its position where the others' are 0, rad or m.
     pub offset: Dd,
+    /// The coordinates whose velocities its own follows, with ratios.
+    pub leaders: Vec<(usize, Dd)>,
     /// The dimensions of its position, velocity and effort.
     pub dimensions: [Dimension; 3],
 }
@@ -165,7 +165,7 @@ pub struct StateLayout {
     pub positions: Vec<StatePosition>,
     /// The joints with quasi-velocities, in the order of their positions.
     pub quasi_joints: Vec<QuasiJoint>,
-    /// The joints with `mimic`, which have no part of the state.
+    /// The joints that follow others: they have no velocity in the state.
     pub followers: Vec<StateFollower>,
     /// Velocities: joints, then other coordinates with positions, then currents.
     pub coordinates: Vec<StateCoordinate>,

@@ -141,9 +141,9 @@ impl Options {
             "the formulation `{}` does not serve the joint of link `{}`, which {}: use {}",
             formulation.name(),
             link.name,
-            match link.degrees.mimic {
-                Some(_) => "follows another joint (`mimic`)",
-                None => "is no rotation about an axis and no translation along one",
+            match link.degrees.own_velocities() {
+                false => "follows another joint",
+                true => "is no rotation about an axis and no translation along one",
             },
             served.join(" or ")
         );

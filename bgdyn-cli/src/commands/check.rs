@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Location, Severity};
-use bgdyn_codegen::mechanism::{Mechanism, Parameter, Snapped};
+use bgdyn_codegen::mechanism::{Coupling, Joint, Mechanism, Parameter, Snapped};
 use bgdyn_codegen::scene::{Solved, Variable};
 use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
@@ -129,6 +129,9 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
         found
             .lines
             .push(format!("ok: {}, {sizes}: {names}", m.name()));
+        found
+            .lines
+            .extend(m.followers().map(|follower| follows(&m, follower)));
         let snapped = m.snapped().map(snapped_words);
         found
             .lines
@@ -270,4 +273,20 @@ fn finding(fault: &Fault) -> Value {
         "message": fault.message,
         "help": fault.help,
     })
+}
+
+/// Returns "follows: tip = 0.5 · knuckle + 0.1", and whether the relation is one of velocities only.
+fn follows(mechanism: &Mechanism, (joint, coupling, _): (&Joint, &Coupling, bool)) -> String {
+    let leaders = mechanism.leaders(coupling);
+    let terms = coupling.velocities.iter().zip(&leaders);
+    let terms = terms.map(|(leader, name)| format!("{} · {name}", leader.ratio.to_f64()));
+    let sum = terms.collect::<Vec<_>>().join(" + ");
+    let offset = match coupling.offset.to_f64() {
+        0.0 => String::new(),
+        offset => format!(" + {offset}"),
+    };
+    match coupling.of_positions() {
+        true => format!("follows: {} = {sum}{offset}", joint.name),
+        false => format!("follows: velocity of {} = {sum}", joint.name),
+    }
 }

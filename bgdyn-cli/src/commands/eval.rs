@@ -93,11 +93,7 @@ fn positions(mechanism: &Mechanism, state: &Value) -> Result<Vec<f64>, Failure> 
         let Motion::Compound(motion) = joint.kind.motion else {
             continue;
         };
-        let (Some(first), None, false) = (
-            motion.quaternion(),
-            joint.degrees.mimic,
-            joint.degrees.any_length,
-        ) else {
+        let (Some(first), false) = (motion.quaternion(), joint.degrees.any_length) else {
             continue;
         };
         let at = joint.degrees.positions[first].0;

@@ -37,9 +37,9 @@ impl Chart {
         let links = depth_first(&graph.frames);
         let own = |i: &LinkId| {
             let degrees = &graph.frames[i.0].degrees;
-            match degrees.mimic {
-                None => degrees.velocities.clone(),
-                Some(_) => Vec::new(),
+            match degrees.own_velocities() {
+                true => degrees.velocities.clone(),
+                false => Vec::new(),
             }
         };
         let order: Vec<CoordinateId> = links.iter().flat_map(own).collect();

@@ -5,7 +5,7 @@ use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::format::{Dimension, Reads};
 use serde_json::{Value, json};
 
-use super::parts::{described, identifier, object, triple, value};
+use super::parts::{described, identifier, object, quantity, triple, value};
 
 /// Returns the keys by the word of the key `type`.
 pub(super) fn effects() -> Value {
@@ -56,6 +56,12 @@ pub(super) fn reads(reads: Reads) -> Value {
         Reads::Vector(fit) => triple(value(fit)),
         Reads::Words(words) => json!({ "type": "array", "items": { "enum": words } }),
         Reads::Group(names, fit) => group(names, fit),
+        Reads::Coefficients(fit) => json!({
+            "type": "object",
+            "propertyNames": identifier(),
+            "additionalProperties": quantity(fit),
+            "minProperties": 1,
+        }),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Builds the JSON Schema of a mechanism's file.
 
-use bgdyn_codegen::format::{Dimension, LENGTHS, LIMIT_PARTS};
+use bgdyn_codegen::format::{Dimension, Key, LENGTHS, LIMIT_PARTS};
+use bgdyn_codegen::mechanism::constraint_types;
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use serde_json::{Value, json};
 
-use super::effects::effects;
+use super::effects::{effects, reads};
 use super::parts::{axis, described, file, identifier, object, quantity, text, triple, value};
 
 /// Returns the schema of a mechanism's file.
@@ -47,6 +48,23 @@ pub fn mechanism() -> Value {
                 json!({ "type": "array", "items": { "$ref": "#/$defs/frame" } }),
             ),
             (
+                "constraints",
+                json!({
+                    "type": "object",
+                    "description": "relations between joints, by name: each makes one joint follow others",
+                    "propertyNames": identifier(),
+                    "additionalProperties": { "$ref": "#/$defs/constraint" },
+                }),
+            ),
+            (
+                "independent",
+                json!({
+                    "type": "array",
+                    "description": "joints that follow no others, although constraints contain them",
+                    "items": identifier(),
+                }),
+            ),
+            (
                 "effects",
                 json!({
                     "type": "object",
@@ -67,6 +85,7 @@ pub fn mechanism() -> Value {
             "inertia": inertia(),
             "frame": frame(),
             "effect": effects(),
+            "constraint": constraints(),
         }),
     )
 }
@@ -205,6 +224,20 @@ fn limit_keys() -> [(&'static str, Value); 4] {
             ),
         ),
     ]
+}
+
+/// Returns the constraints: one of the types, each with its keys.
+fn constraints() -> Value {
+    let one = |(keyword, keys): (&'static str, &'static [Key])| {
+        let own = keys
+            .iter()
+            .map(|key| (key.name, described(key.about, reads(key.reads))));
+        let word = ("type", json!({ "const": keyword }));
+        let needed = keys.iter().filter(|key| key.needed).map(|key| key.name);
+        let needed: Vec<&str> = needed.chain(["type"]).collect();
+        object(&own.chain([word]).collect::<Vec<_>>(), &needed)
+    };
+    json!({ "oneOf": constraint_types().map(one).collect::<Vec<_>>() })
 }
 
 fn mimic() -> Value {

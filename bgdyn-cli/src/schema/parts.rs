@@ -79,11 +79,13 @@ pub(super) fn axis() -> Value {
 pub(super) fn quantity(fit: &[Dimension]) -> Value {
     let units = fit.iter().flat_map(|dimension| dimension.units());
     let units: Vec<String> = units.map(escaped).collect();
-    if units.is_empty() {
-        return json!({ "type": "number" });
-    }
-    let number = r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
-    let pattern = format!("^{number} *({})$", units.join("|"));
+    let decimal = r"([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?";
+    let fraction = format!("[-+]?{decimal}/[-+]?{decimal}");
+    let number = format!("[-+]?{decimal}(/[-+]?{decimal})?");
+    let pattern = match units.as_slice() {
+        [] => format!("^{fraction}$"),
+        _ => format!("^({number} *({})|{fraction})$", units.join("|")),
+    };
     json!({ "anyOf": [{ "type": "number" }, { "type": "string", "pattern": pattern }] })
 }
 

@@ -229,9 +229,12 @@ fn identity(i: usize, j: usize) -> Modulus {
 
 /// Returns the columns of a joint's motion subspace in fixed axes.
 fn columns(frame: &LinkFrame, place: &PosePattern) -> Vec<(CoordinateId, Column<Modulus>)> {
-    if let Some((j, factors)) = frame.degrees.axial(frame.motion) {
-        let [angular, linear] = factors.map(|k| place.axis.scale(Modulus::constant(k)));
-        return vec![(j, Column { angular, linear })];
+    if let Some(columns) = frame.degrees.axial(frame.motion) {
+        let of = |(j, factors): (CoordinateId, [Dd; 2])| {
+            let [angular, linear] = factors.map(|k| place.axis.scale(Modulus::constant(k)));
+            (j, Column { angular, linear })
+        };
+        return columns.into_iter().map(of).collect();
     }
     let fixed = |v: Vec3<Dd>| place.rotation * v.map(Modulus::constant);
     let of = |(j, column): (CoordinateId, Column<Dd>)| {
@@ -243,7 +246,7 @@ fn columns(frame: &LinkFrame, place: &PosePattern) -> Vec<(CoordinateId, Column<
 
 /// Returns the pattern of position k of a joint: it varies with the coordinates that change it.
 fn position(frame: &LinkFrame, k: usize) -> Modulus {
-    let one_by_one = frame.degrees.positions.len() == frame.degrees.velocities.len();
+    let one_by_one = frame.degrees.positions.len() == 1 && frame.degrees.velocities.len() == 1;
     let moved = match (frame.motion, frame.degrees.velocities.get(k)) {
         (Motion::Rotation | Motion::Translation, Some(&j)) if one_by_one => Coordinates::one(j),
         _ => {
@@ -286,7 +289,7 @@ fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
         path.push(l);
         link = graph.frames[l.0].parent;
     }
-    // A coordinate moves link i through its own joint and through joints that mimic it.
+    // A coordinate moves link i through its own joint and through joints that follow it.
     let mut sums: Vec<(CoordinateId, Column<Modulus>)> = Vec::new();
     for l in path.into_iter().rev() {
         let columns = columns(&graph.frames[l.0], &places[l.0]);

@@ -39,7 +39,7 @@ pub struct LinkFrame {
     pub motion: Motion,
     /// Unit vector of the joint's axis in link axes.
     pub axis: Vec3<Dd>,
-    /// The coordinate of a rotation or translation that mimics no other joint.
+    /// The coordinate of a rotation or translation that follows no other joint.
     pub coordinate: Option<CoordinateId>,
     /// Positions and velocities of a joint of any type.
     pub degrees: Degrees,
@@ -156,7 +156,7 @@ impl Multibody {
         self.first_compound().is_none()
     }
 
-    /// Returns the first link whose joint has several degrees of freedom, a lead, or `mimic`; the base if its
+    /// Returns the first link whose joint has several degrees of freedom or a lead, or is coupled; the base if its
     /// motion is given.
     pub fn first_compound(&self) -> Option<&LinkFrame> {
         let plain = |f: &&LinkFrame| f.coordinate.is_some() || f.motion == Motion::None;
@@ -166,13 +166,9 @@ impl Multibody {
     /// Returns q̇ = N(q) v.
     pub fn position_rates(&self, q: &[Dd], v: &[Dd]) -> Vec<Dd> {
         let mut rates = vec![Dd::ZERO; self.positions.len()];
-        for frame in self.frames.iter().filter(|f| f.degrees.mimic.is_none()) {
-            let Degrees {
-                positions,
-                velocities,
-                ..
-            } = &frame.degrees;
-            let own: Vec<Dd> = velocities.iter().map(|j| v[j.0]).collect();
+        for frame in self.frames.iter().filter(|f| f.degrees.own_positions()) {
+            let positions = &frame.degrees.positions;
+            let own = frame.degrees.velocities_of(|j| v[j.0]);
             let own = match frame.motion {
                 Motion::Compound(motion) => {
                     let q: Vec<Dd> = positions.iter().map(|p| q[p.0]).collect();

@@ -33,8 +33,8 @@ pub struct BondNetwork {
     pub ports: Vec<PlacePort>,
     /// The 1-junctions of the coordinates by name, including coordinates that effects add.
     velocities: Vec<(String, GraphNodeId)>,
-    /// Joints with `mimic`: name, leader, text of the ratio.
-    followers: Vec<(String, String, String)>,
+    /// Joints that follow others: name, and each leader with the text of the ratio.
+    followers: Vec<(String, Vec<(String, String)>)>,
     /// The coordinates that move each site.
     movers: BTreeMap<String, BTreeSet<CoordinateId>>,
     pressures: BTreeMap<String, NodePressure>,
@@ -82,9 +82,8 @@ impl BondNetwork {
 
     /// Names a joint with `mimic`, and the joint that it follows. The junction of its velocity is added where an
     /// effect acts on it.
-    pub fn follow(&mut self, joint: &str, leader: &str, ratio: String) {
-        let names = (joint.to_owned(), leader.to_owned(), ratio);
-        self.followers.push(names);
+    pub fn follow(&mut self, joint: &str, leaders: Vec<(String, String)>) {
+        self.followers.push((joint.to_owned(), leaders));
     }
 
     /// Adds the 1-junction of a link's flow with its store, its source and its transformers.
@@ -181,24 +180,33 @@ impl BondNetwork {
     }
 
     /// Returns the 1-junction of the coordinate with this name. The junction of a coordinate that an
-    /// effect adds is created at the first call; that of a joint with `mimic` likewise, with the transformer from
-    /// its leader.
+    /// effect adds is created at the first call; that of a joint that follows others likewise, with the
+    /// transformers from those, and a 0-junction that adds their flows if there are several.
     pub fn velocity(&mut self, name: &str) -> GraphNodeId {
         if let Some((_, found)) = self.velocities.iter().find(|(own, _)| own == name) {
             return *found;
         }
-        let follower = self.followers.iter().find(|(own, ..)| own == name).cloned();
+        let follower = self.followers.iter().find(|(own, _)| own == name).cloned();
         let text = match follower {
             Some(_) => format!("q̇ {name}"),
             None => format!("θ̇ {name}"),
         };
         let one = self.add(NodeKind::One, text);
         self.velocities.push((name.to_owned(), one));
-        if let Some((_, leader, ratio)) = follower {
+        let leaders = follower.map_or(vec![], |(_, leaders)| leaders);
+        let end = match leaders.len() {
+            0 | 1 => one,
+            _ => {
+                let sum = self.add(NodeKind::Zero, format!("sum of flows for {name}"));
+                self.bond(sum, one);
+                sum
+            }
+        };
+        for (leader, ratio) in leaders {
             let leading = self.velocity(&leader);
             let transformer = self.add(NodeKind::Transformer, ratio);
             self.bond(leading, transformer);
-            self.bond(transformer, one);
+            self.bond(transformer, end);
         }
         one
     }

@@ -174,7 +174,7 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
 
 /// Scales every quaternion to length 1; one of length 0 becomes the identity.
 pub(crate) fn normalize<T: Scalar>(graph: &Multibody, q: &mut [T]) {
-    for frame in graph.frames.iter().filter(|f| f.degrees.mimic.is_none()) {
+    for frame in graph.frames.iter().filter(|f| f.degrees.own_positions()) {
         let Motion::Compound(motion) = frame.motion else {
             continue;
         };

@@ -140,7 +140,9 @@ impl Declaration {
                     words.iter().map(|w| w.value.clone()).collect(),
                 ))
             }
-            (ParsedValue::Number(_) | ParsedValue::Group(_), _) => None,
+            (ParsedValue::Number(_) | ParsedValue::Coefficients(_) | ParsedValue::Group(_), _) => {
+                None
+            }
         }
     }
 }
@@ -188,9 +190,12 @@ fn known<'a>(
         }
         Reads::Site | Reads::Sites => context.sites.names().iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
-        Reads::Joints | Reads::Input | Reads::Number(_) | Reads::Vector(_) | Reads::Group(..) => {
-            return None;
-        }
+        Reads::Joints
+        | Reads::Input
+        | Reads::Number(_)
+        | Reads::Vector(_)
+        | Reads::Coefficients(_)
+        | Reads::Group(..) => return None,
     })
 }
 
@@ -214,8 +219,8 @@ fn unknown(
     }
     let mut followers = context.followers.iter();
     let follower = followers.find(|(name, ..)| name == word);
-    if let (Some((_, leader, _)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {
-        return wording::effect_on_follower(location, word, leader);
+    if let (Some((_, leaders, _)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {
+        return wording::effect_on_follower(location, word, leaders);
     }
     let what = match key.reads {
         Reads::Coordinate | Reads::Joint => "moving joint",

@@ -111,8 +111,8 @@ pub trait EffectKind: Sync {
         true
     }
 
-    /// Returns whether it can act on a joint with `mimic`: its law reads and adds to a port only. An effect that
-    /// reads the drive of a joint cannot, because a joint with `mimic` has none.
+    /// Returns whether it can act on a joint that follows others: its law reads and adds to a port only. An
+    /// effect that reads the drive of a joint cannot, because a follower has none.
     fn acts_on_followers(&self) -> bool {
         true
     }

@@ -4,7 +4,7 @@ use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
 use crate::format::{Key, ParsedValue};
 use crate::mechanism::{
-    CoordinateId, Joint, Limits, LinkId, Mechanism, Mimic, Motion, SiteOrigins,
+    CoordinateId, Coupling, Joint, Limits, LinkId, Mechanism, Motion, SiteOrigins,
 };
 
 /// The names that an effect may refer to.
@@ -14,8 +14,8 @@ pub struct NameScope {
     pub coordinates: Vec<(String, Motion)>,
     /// Velocities that are not the rate of a position, with their joint's type.
     pub quasi_velocities: Vec<(String, &'static str)>,
-    /// Joints with `mimic`, with the joint that each follows, and their motions.
-    pub followers: Vec<(String, String, Motion)>,
+    /// Joints that follow others, with the names of those, and their motions.
+    pub followers: Vec<(String, Vec<String>, Motion)>,
     /// Limits of the joints that have limits.
     pub limits: Vec<(String, Limits)>,
     /// Names of the coordinates that are no joints.
@@ -45,9 +45,12 @@ impl NameScope {
             let quasi = mechanism.is_quasi_velocity(CoordinateId(j));
             quasi.then(|| (name.clone(), joint.kind.keyword))
         };
-        let follower = |(joint, mimic, _, linear): (&Joint, Mimic, CoordinateId, bool)| {
-            let leader = &mechanism.links()[mimic.leader.0].joint.name;
-            (joint.name.clone(), leader.clone(), motion(linear))
+        let follower = |(joint, coupling, linear): (&Joint, &Coupling, bool)| {
+            (
+                joint.name.clone(),
+                mechanism.leaders(coupling),
+                motion(linear),
+            )
         };
         let limits = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;

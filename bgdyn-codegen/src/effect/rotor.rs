@@ -9,7 +9,7 @@ use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
-use crate::mechanism::{CoordinateId, Mechanism, Mimic, Parameter, ParameterId, Value};
+use crate::mechanism::{CoordinateId, Mechanism, Parameter, ParameterId, Value};
 
 pub(super) struct RotorEffect;
 
@@ -74,10 +74,19 @@ impl EffectKind for RotorEffect {
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
         let joint = element.name("joint").unwrap_or_default();
-        let Some((_, mimic)) = follower(beside.mechanism, joint) else {
+        let mut followers = beside.mechanism.followers();
+        let Some((_, coupling, _)) = followers.find(|(own, ..)| own.name == joint) else {
             return;
         };
-        let leader = &beside.mechanism.links()[mimic.leader.0].joint.name;
+        let leaders = beside.mechanism.leaders(coupling);
+        let [leader] = leaders.as_slice() else {
+            let location = &element.location;
+            let keyword = self.keyword();
+            faults.push(wording::effect_on_follower_of_several(
+                location, keyword, joint, &leaders,
+            ));
+            return;
+        };
         if let Some(ratio) = element.quantity("ratio").filter(|q| q.parameter.is_some()) {
             let location = &ratio.location;
             faults.push(wording::rotor_ratio_on_follower(location, joint, leader));
@@ -95,11 +104,12 @@ impl EffectKind for RotorEffect {
     }
 }
 
-/// Returns the coordinate of a joint with `mimic`, and the relation to its leader.
-fn follower(mechanism: &Mechanism, joint: &str) -> Option<(CoordinateId, Mimic)> {
+/// Returns the coordinate that a joint follows, and the ratio of the two.
+fn follower(mechanism: &Mechanism, joint: &str) -> Option<(CoordinateId, Dd)> {
     let mut followers = mechanism.followers();
-    let (_, mimic, coordinate, _) = followers.find(|(own, ..)| own.name == joint)?;
-    Some((coordinate, mimic))
+    let (own, coupling, _) = followers.find(|(own, ..)| own.name == joint)?;
+    let leader = coupling.velocities.first()?;
+    Some((*own.degrees.velocities.first()?, leader.ratio))
 }
 
 impl Effect for RotorEffect {
@@ -115,8 +125,8 @@ impl Effect for RotorEffect {
             }
         };
         let joint = element.name("joint").unwrap_or_default();
-        let (coordinate, mimic) = match follower(mechanism, joint) {
-            Some((leader, mimic)) => (Some(leader), mimic.ratio),
+        let (coordinate, factor) = match follower(mechanism, joint) {
+            Some((leader, factor)) => (Some(leader), factor),
             None => (graph.coordinate_named(joint), Dd::ONE),
         };
         let Some(coordinate) = coordinate else {
@@ -124,7 +134,7 @@ impl Effect for RotorEffect {
         };
         // Turns of the rotor per turn of the leader.
         let ratio = match value("ratio", 1.0) {
-            Value::Fixed(ratio) => Value::Fixed(ratio * mimic),
+            Value::Fixed(ratio) => Value::Fixed(ratio * factor),
             parameter => parameter,
         };
         let carrier = element.name("on").and_then(|name| {

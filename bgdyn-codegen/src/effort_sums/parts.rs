@@ -17,7 +17,7 @@ pub struct Port<'g> {
 
 impl Port<'_> {
     /// Returns the velocity of the port per unit velocity of its coordinate, for the port of a joint: 1, or the
-    /// ratio of `mimic`.
+    /// ratio to the joint that it follows.
     pub(super) fn factor(&self) -> Dd {
         let first = self.transformers.first();
         first

@@ -59,8 +59,8 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         self.x[self.part("state", &self.scene.layout.states, name)]
     }
 
-    /// Returns the mode of a contact at a port, as the sign of the port's slip. At a joint with `mimic` whose ratio
-    /// is negative it is the negative of the mode, which is the sign of the leader's slip.
+    /// Returns the mode of a contact at a port, as the sign of the port's slip. At a joint that follows another
+    /// with a negative ratio it is the negative of the mode, which is the sign of the leader's slip.
     ///
     /// # Panics
     /// If no effect of the scene declares the mode.
@@ -134,18 +134,23 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         SiteId(found.unwrap_or_else(|| undeclared(self.element_at_work(), "site", name)))
     }
 
-    /// Returns a coordinate as a port. The port of a joint with `mimic` has the transformer ratio to its
-    /// leader's coordinate.
+    /// Returns a coordinate as a port. The port of a joint that follows others has the transformers ratio to
+    /// their coordinates.
     ///
     /// # Panics
     /// If the scene has no coordinate and no such joint with this name.
     pub fn coordinate(&self, name: &str) -> Port<'g> {
         if let Some(follower) = self.scene.layout.follower_named(name) {
-            let (j, ratio) = (follower.leader, self.b.constant(follower.ratio));
+            let scaled = |of: &[Expr<'g>], terms: &[(usize, Dd)]| {
+                let terms = terms.iter().map(|&(k, ratio)| of[k] * ratio);
+                terms.fold(self.b.zero(), |sum, term| sum + term)
+            };
+            let offset = self.b.constant(follower.offset);
+            let transformer = |&(j, ratio): &(usize, Dd)| (j, self.b.constant(ratio));
             return Port {
-                displacement: self.position_of(j) * ratio + self.b.constant(follower.offset),
-                rate: self.v[j] * ratio,
-                transformers: vec![(j, ratio)],
+                displacement: scaled(&self.q, &follower.positions) + offset,
+                rate: scaled(&self.v, &follower.leaders),
+                transformers: follower.leaders.iter().map(transformer).collect(),
             };
         }
         let j = self.coordinate_index(name);
@@ -211,7 +216,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
         let x = x.signed();
         let one = |g: &mut Graph| g.constant(Dd::ONE);
-        if self.scene.layout.quasi_joints.is_empty() {
+        if self.scene.layout.coupled().is_empty() {
             let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| one(g));
             return self
                 .b

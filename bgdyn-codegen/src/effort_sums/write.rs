@@ -90,7 +90,7 @@ impl<'g> EffortSums<'g, '_> {
     }
 
     /// Adds a contact that can hold its coordinate at the rate of a counterpart; `reference` is the rate
-    /// and acceleration of the counterpart. A contact of a joint with `mimic` holds its leader: slip, reference
+    /// and acceleration of the counterpart. A contact of a joint that follows another holds its leader: slip, reference
     /// and efforts become those of the leader.
     ///
     /// # Panics

@@ -23,7 +23,7 @@ pub(super) fn joint_access(mechanism: &Mechanism) -> JointAccess {
         let Motion::Compound(motion) = link.joint.kind.motion else {
             continue;
         };
-        if motion.manifold.is_empty() || link.joint.degrees.mimic.is_some() {
+        if motion.manifold.is_empty() || !link.joint.degrees.own_velocities() {
             continue;
         }
         constants.extend(ranges(link, motion));

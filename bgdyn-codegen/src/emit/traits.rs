@@ -24,7 +24,7 @@ pub(super) struct Traits<'a> {
 const QUATERNION: usize = 4;
 
 /// The positions and velocities of a joint that follow each other in q and v.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) struct JointSegment {
     /// Its module of `bgdyn_runtime::manifold`; empty if q̇ = v.
     manifold: &'static str,
@@ -34,6 +34,8 @@ pub(super) struct JointSegment {
     turns: bool,
     /// Whether its quaternion may have any length.
     any_length: bool,
+    /// For a position whose rate is a sum of velocities of other joints: their indices with ratios.
+    leaders: Vec<(usize, f64)>,
 }
 
 impl JointSegment {
@@ -44,12 +46,13 @@ impl JointSegment {
         nv: 1,
         turns: true,
         any_length: false,
+        leaders: Vec::new(),
     };
 }
 
 /// Returns the joints in the order of q and v.
 pub(super) fn segments(graph: &Multibody) -> Vec<JointSegment> {
-    let own = graph.frames.iter().filter(|f| f.degrees.mimic.is_none());
+    let own = graph.frames.iter().filter(|f| f.degrees.own_positions());
     let moving = own.filter(|frame| frame.motion != Motion::None);
     let segment = |frame: &LinkFrame| JointSegment {
         manifold: match frame.motion {
@@ -57,11 +60,26 @@ pub(super) fn segments(graph: &Multibody) -> Vec<JointSegment> {
             _ => "",
         },
         nq: frame.motion.nq(),
-        nv: frame.motion.nv(),
+        nv: match frame.degrees.own_velocities() {
+            true => frame.motion.nv(),
+            false => 0,
+        },
         turns: frame.motion != Motion::Translation,
         any_length: frame.degrees.any_length,
+        leaders: leaders(frame),
     };
     moving.map(segment).collect()
+}
+
+/// Returns the velocities that a joint's follows, with ratios; none for a joint with a velocity of its own.
+fn leaders(frame: &LinkFrame) -> Vec<(usize, f64)> {
+    let degrees = &frame.degrees;
+    if degrees.own_velocities() {
+        return vec![];
+    }
+    let velocities = degrees.velocities.iter().map(|j| j.0);
+    let ratios = degrees.velocity_ratios().into_iter();
+    velocities.zip(ratios.map(|ratio| ratio.to_f64())).collect()
 }
 
 impl Traits<'_> {
@@ -245,6 +263,18 @@ impl Traits<'_> {
         let (mut statements, mut results) = (TokenStream::new(), Vec::new());
         for (j, segment) in joints.iter().enumerate() {
             let own: Vec<&Vec<Ident>> = arrays.iter().map(|array| &array[j]).collect();
+            if !segment.leaders.is_empty() && positions {
+                let velocities: Option<Vec<Ident>> = (arguments.iter().zip(&arrays))
+                    .find(|((.., of), _)| !of)
+                    .map(|(_, array)| array.iter().flatten().cloned().collect());
+                results.push(following(
+                    name,
+                    &segment.leaders,
+                    &own,
+                    velocities.as_deref(),
+                ));
+                continue;
+            }
             if segment.manifold.is_empty() {
                 results.extend((0..segment.nq).map(|k| plain(name, segment.turns, &own, k)));
                 continue;
@@ -283,6 +313,29 @@ impl Traits<'_> {
             #statements
             __rt::vector([#(#results),*])
         }
+    }
+}
+
+/// Returns the position, or its rate, of a joint whose velocity is the sum of ratio · velocity over others.
+fn following(
+    name: &str,
+    leaders: &[(usize, f64)],
+    own: &[&Vec<Ident>],
+    velocities: Option<&[Ident]>,
+) -> TokenStream {
+    let position = own.first().and_then(|array| array.first());
+    let moved = velocities.map(|all| {
+        let terms = leaders.iter().map(|&(j, ratio)| {
+            let (v, ratio) = (&all[j], number(ratio));
+            quote! { T::from_f64(#ratio) * #v }
+        });
+        quote! { #(#terms)+* }
+    });
+    match (name, position, moved) {
+        ("integrate", Some(q), Some(moved)) => quote! { #q + (#moved) },
+        ("position_rates", _, Some(moved)) => moved,
+        ("normalize", Some(q), _) => quote! { #q },
+        _ => quote! { T::from_f64(0.0) },
     }
 }
 

@@ -1,6 +1,7 @@
 //! All messages about specs and scenes, one function for each fault.
 
 mod checking;
+mod constraints;
 mod effect_rules;
 mod effects;
 mod inertia;
@@ -15,6 +16,7 @@ use bgdyn_runtime::Digits;
 pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
+pub(crate) use constraints::*;
 pub(crate) use effect_rules::*;
 pub(crate) use effects::*;
 pub(crate) use inertia::*;

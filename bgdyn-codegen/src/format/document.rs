@@ -1,6 +1,6 @@
 //! A mechanism's file as data: links, joints, inertias, frames.
 
-use super::{Field, Number, Raw, Vector};
+use super::{Field, Located, Number, Raw, Vector};
 use crate::fault::Location;
 
 /// A mechanism's file.
@@ -28,6 +28,10 @@ pub struct Spec {
     pub links: Field<Vec<LinkSpec>>,
     /// The named frames; entries that are no mapping are omitted.
     pub frames: Field<Vec<FrameSpec>>,
+    /// The constraints, by name, not parsed.
+    pub constraints: Field<Vec<Raw>>,
+    /// Joints that follow no others, although constraints contain them.
+    pub independent: Field<Vec<Located<String>>>,
     /// The effects besides the links, by name, not parsed.
     pub effects: Field<Vec<Raw>>,
 }

@@ -1,4 +1,5 @@
-//! Parses a number: a decimal with up to 32 digits, and a unit of the expected dimension.
+//! Parses a number: a decimal with up to 32 digits or a quotient of two such, and a unit of the expected
+//! dimension.
 
 use bgdyn_runtime::Dd;
 
@@ -22,6 +23,7 @@ pub(super) fn number(
     }
     let (mantissa, exponent, rest) =
         decimal(text).ok_or_else(|| wording::not_a_number(location, text, fit))?;
+    let (divisor, rest) = divisor(rest);
     if kind == YamlKind::Number && !rest.is_empty() {
         return Err(wording::not_decimal(location, text));
     }
@@ -31,7 +33,14 @@ pub(super) fn number(
     };
     let value =
         value(mantissa, exponent, unit).ok_or_else(|| wording::out_of_range(location, text))?;
-    if unit.is_none() && kind != YamlKind::Number {
+    let value = match divisor {
+        None => value,
+        Some(divisor) if divisor == Dd::ZERO => {
+            return Err(wording::division_by_zero(location, text));
+        }
+        Some(divisor) => value / divisor,
+    };
+    if unit.is_none() && divisor.is_none() && kind != YamlKind::Number {
         return Err(wording::number_as_text(
             location,
             text,
@@ -92,6 +101,18 @@ fn decimal(text: &str) -> Option<(&str, i32, &str)> {
     let spaced =
         rest.is_empty() || !rest.starts_with(|c: char| "_.,".contains(c) || c.is_ascii_digit());
     spaced.then_some((mantissa, exponent, rest.trim_start()))
+}
+
+/// Splits `/50 mm` into 50 and `mm`; a text that begins with no divisor is not split.
+fn divisor(text: &str) -> (Option<Dd>, &str) {
+    let quotient = text.strip_prefix('/').and_then(|after| decimal(after));
+    let Some((mantissa, exponent, rest)) = quotient else {
+        return (None, text);
+    };
+    match value(mantissa, exponent, None) {
+        Some(divisor) => (Some(divisor), rest),
+        None => (None, text),
+    }
 }
 
 /// Splits `e-3 mm` into −3 and ` mm`; a text that begins with no power of ten is not split.

@@ -32,6 +32,8 @@ impl Reader {
             "snap",
             "links",
             "frames",
+            "constraints",
+            "independent",
             "effects",
         ];
         let map = self.mapping(at, ("a mapping", "`format: 1`, `links: …`"), &keys)?;
@@ -72,6 +74,12 @@ impl Reader {
                     .filter_map(|at| r.frame(at))
                     .collect(),
                 )
+            }),
+            constraints: self.field(&map, "constraints", |r, at| {
+                r.table(at, ("constraints by name", "`name: { type: gear, … }`"))
+            }),
+            independent: self.field(&map, "independent", |r, at| {
+                r.names_list(at, ("a list of joints", "`[crank, wrist]`"))
             }),
             effects: self.field(&map, "effects", |r, at| {
                 r.table(at, ("effects by name", "`name: { type: viscous, … }`"))

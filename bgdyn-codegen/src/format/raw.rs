@@ -46,6 +46,8 @@ pub enum Reads {
     Vector(&'static [Dimension]),
     /// Some of these words.
     Words(&'static [&'static str]),
+    /// Names of joints, each with a number of one of these dimensions.
+    Coefficients(&'static [Dimension]),
     /// Numbers of these dimensions with names of their own, `com.x` for the key `com`; each is a number or
     /// a run-time parameter. Three may be a list.
     Group(&'static [&'static str], &'static [Dimension]),
@@ -77,6 +79,8 @@ pub enum ParsedValue {
     Vector(Box<Vector>),
     /// Words.
     Words(Vec<Located<String>>),
+    /// Names, each with a number.
+    Coefficients(Vec<(Located<String>, Located<Number>)>),
     /// Numbers with names of their own.
     Group(Vec<(&'static str, Located<Number>)>),
 }
@@ -124,6 +128,12 @@ impl Fields {
                 }
                 ParsedValue::Pair(names) => {
                     names.iter_mut().for_each(|n| n.location = location.clone())
+                }
+                ParsedValue::Coefficients(numbers) => {
+                    numbers.iter_mut().for_each(|(name, number)| {
+                        name.location = location.clone();
+                        number.location = location.clone();
+                    });
                 }
                 ParsedValue::Group(numbers) => {
                     numbers
@@ -296,21 +306,11 @@ impl Reader {
             Reads::Joints if !matches!(at.tree.data, Data::List(_)) => {
                 self.text(at).map(ParsedValue::Text)
             }
-            Reads::Words(_) | Reads::Joints => {
-                let items = self.list(at, ("a list of words", "`[fx, fz]`"))?;
-                let word = |at: &At<'_>| {
-                    Some(Located {
-                        value: self.text(at)?,
-                        location: at.location.clone(),
-                    })
-                };
-                items
-                    .iter()
-                    .map(word)
-                    .collect::<Option<_>>()
-                    .map(ParsedValue::Words)
-            }
+            Reads::Words(_) | Reads::Joints => self
+                .names_list(at, ("a list of words", "`[fx, fz]`"))
+                .map(ParsedValue::Words),
             Reads::Group(names, fit) => self.group(at, names, fit).map(ParsedValue::Group),
+            Reads::Coefficients(fit) => self.coefficients(at, fit).map(ParsedValue::Coefficients),
             Reads::Sites => {
                 let items = self.list(at, ("two names", "`[one, other]`"))?;
                 let mut names = items.iter().map(|at| {
@@ -329,6 +329,38 @@ impl Reader {
                 Some(ParsedValue::Pair(pair))
             }
         }
+    }
+
+    /// Parses a list of words.
+    pub(super) fn names_list(
+        &mut self,
+        at: &At<'_>,
+        what: Wanted<'_>,
+    ) -> Option<Vec<Located<String>>> {
+        let items = self.list(at, what)?;
+        let word = |at: &At<'_>| {
+            Some(Located {
+                value: self.text(at)?,
+                location: at.location.clone(),
+            })
+        };
+        items.iter().map(word).collect()
+    }
+
+    /// Parses numbers by names of the file.
+    fn coefficients(
+        &mut self,
+        at: &At<'_>,
+        fit: &[Dimension],
+    ) -> Option<Vec<(Located<String>, Located<Number>)>> {
+        let entries = self.names(at, ("coefficients by joint", "`{ left: 1, right: -1 }`"))?;
+        let one = |(name, at): (Located<String>, At<'_>)| {
+            let value = self.number(&at, fit)?;
+            let location = at.location.clone();
+            Some((name, Located { value, location }))
+        };
+        let read: Vec<Option<_>> = entries.into_iter().map(one).collect();
+        read.into_iter().collect()
     }
 
     /// Parses named numbers by their names; three of them also in their order.

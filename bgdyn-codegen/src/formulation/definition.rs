@@ -19,7 +19,7 @@ pub trait Formulation: Sync {
     }
 
     /// Returns the first link whose joint it does not serve. By default it serves rotations and translations
-    /// that mimic no other joint.
+    /// that follow no other joint.
     fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
         graph.first_compound()
     }

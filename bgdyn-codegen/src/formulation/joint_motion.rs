@@ -22,26 +22,31 @@ impl<'g> PoseNumbers<Expr<'g>> for &'g Builder {
     }
 }
 
-/// Returns the positions of a joint; for one with `mimic` ratio · q + offset of its leader's.
+/// Returns the positions of a joint; for one that follows others Σ ratio · q + offset.
 pub(super) fn joint_positions<'g>(
     b: &'g Builder,
     frame: &LinkFrame,
     q: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
-    let read = |p: &crate::mechanism::PositionId| match frame.degrees.mimic {
-        None => q[p.0],
-        Some(mimic) => q[p.0] * mimic.ratio + b.constant(mimic.offset),
-    };
-    frame.degrees.positions.iter().map(read).collect()
+    let degrees = &frame.degrees;
+    let read = degrees.positions.iter().map(|p| q[p.0]);
+    if degrees.coupling.is_none() {
+        return read.collect();
+    }
+    let terms = read.zip(degrees.position_ratios());
+    let sum = terms.fold(b.zero(), |sum, (q, ratio)| sum + q * ratio);
+    vec![sum + b.constant(degrees.offset())]
 }
 
-/// Returns the velocities of a joint, or its accelerations; for one with `mimic` ratio times its leader's.
-pub(super) fn joint_rates<'g>(frame: &LinkFrame, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    let read = |j: &CoordinateId| match frame.degrees.mimic {
-        None => v[j.0],
-        Some(mimic) => v[j.0] * mimic.ratio,
-    };
-    frame.degrees.velocities.iter().map(read).collect()
+/// Returns the velocities of a joint, or its accelerations; for a coupled joint Σ ratio · v.
+pub(super) fn joint_rates<'g>(b: &'g Builder, frame: &LinkFrame, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let degrees = &frame.degrees;
+    let read = degrees.velocities.iter().map(|j| v[j.0]);
+    if degrees.coupling.is_none() {
+        return read.collect();
+    }
+    let terms = read.zip(degrees.velocity_ratios());
+    vec![terms.fold(b.zero(), |sum, (v, ratio)| sum + v * ratio)]
 }
 
 /// Returns the pose of the link whose joint has several degrees of freedom, in the joint's origin: the rotation
@@ -54,7 +59,7 @@ pub(crate) fn pose_in_joint<'g>(
     q: &[Expr<'g>],
 ) -> Option<(Mat3<Expr<'g>>, Vec3<Expr<'g>>)> {
     let first = Some(&CoordinateId(first));
-    let own = |f: &&LinkFrame| f.degrees.mimic.is_none() && f.degrees.velocities.first() == first;
+    let own = |f: &&LinkFrame| f.degrees.own_velocities() && f.degrees.velocities.first() == first;
     let frame = graph.frames.iter().find(own)?;
     match frame.motion {
         Motion::Compound(motion) => {
@@ -72,14 +77,14 @@ pub(crate) fn position_rates<'g>(
     (q, v): (&[Expr<'g>], &[Expr<'g>]),
 ) -> Vec<Expr<'g>> {
     let mut rates = vec![b.zero(); graph.positions.len()];
-    for frame in graph.frames.iter().filter(|f| f.degrees.mimic.is_none()) {
+    for frame in graph.frames.iter().filter(|f| f.degrees.own_positions()) {
         let positions = &frame.degrees.positions;
         let own = match frame.motion {
             Motion::Compound(motion) => {
                 let q: Vec<Expr<'g>> = positions.iter().map(|p| q[p.0]).collect();
-                motion.position_rates(&frame.constants(), (&q, &joint_rates(frame, v)), &b)
+                motion.position_rates(&frame.constants(), (&q, &joint_rates(b, frame, v)), &b)
             }
-            _ => joint_rates(frame, v),
+            _ => joint_rates(b, frame, v),
         };
         for (p, rate) in positions.iter().zip(own) {
             rates[p.0] = rate;

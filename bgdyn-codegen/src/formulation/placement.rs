@@ -64,9 +64,12 @@ impl<'g> Placement<'g> {
         frame: &LinkFrame,
     ) -> Vec<(CoordinateId, Column<Expr<'g>>)> {
         // The joint's own rotation does not change its axis.
-        if let Some((j, factors)) = frame.degrees.axial(frame.motion) {
-            let [angular, linear] = factors.map(|k| self.axes[i].scale(b.constant(k)));
-            return vec![(j, Column { angular, linear })];
+        if let Some(columns) = frame.degrees.axial(frame.motion) {
+            let of = |(j, factors): (CoordinateId, [Dd; 2])| {
+                let [angular, linear] = factors.map(|k| self.axes[i].scale(b.constant(k)));
+                (j, Column { angular, linear })
+            };
+            return columns.into_iter().map(of).collect();
         }
         let fixed = |v: Vec3<Dd>| self.rotations[i] * b.vector(v);
         let of = |(j, column): (CoordinateId, Column<Dd>)| {

@@ -63,6 +63,9 @@ impl Interface {
             parameters,
             base,
             certain: links.iter().all(is_plain)
+                && spec
+                    .as_ref()
+                    .is_some_and(|spec| spec.constraints.is_absent())
                 && !faults.0.iter().any(|f| shapes_the_tree(&f.path)),
         })
     }

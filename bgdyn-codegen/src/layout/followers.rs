@@ -1,4 +1,4 @@
-//! Joints with `mimic` in a scene's state: they have no part of it, and the motion of their leader.
+//! Joints that follow others in a scene's state: their motion is a sum over those.
 
 use bgdyn_runtime::Dd;
 
@@ -6,12 +6,12 @@ use super::{StateFollower, StateLayout};
 use crate::unit::Dimension;
 
 impl StateLayout {
-    /// Returns the joint with `mimic` of this name.
+    /// Returns the joint of this name that follows others.
     pub fn follower_named(&self, name: &str) -> Option<&StateFollower> {
         self.followers.iter().find(|follower| follower.name == name)
     }
 
-    /// Returns the dimensions of position, velocity and effort of a coordinate, or of a joint with `mimic`.
+    /// Returns the dimensions of position, velocity and effort of a coordinate, or of a joint that follows others.
     pub fn dimensions_of(&self, name: &str) -> Option<[Dimension; 3]> {
         match self.coordinate_named(name) {
             Some(j) => Some(self.coordinates[j].dimensions),
@@ -25,7 +25,7 @@ impl StateLayout {
             .map_or(Dimension::Angle, |[position, ..]| position)
     }
 
-    /// Returns position and velocity of a coordinate, or of a joint with `mimic`, in a state; the position only
+    /// Returns position and velocity of a coordinate, or of a joint that follows others, in a state; the position only
     /// if it has one.
     pub fn motion_of(&self, name: &str, q: &[Dd], v: &[Dd]) -> Option<(Option<Dd>, Dd)> {
         let at = |j: usize| (self.coordinates[j].position.map(|p| q[p]), v[j]);
@@ -33,19 +33,24 @@ impl StateLayout {
             return Some(at(j));
         }
         let follower = self.follower_named(name)?;
-        let (position, velocity) = at(follower.leader);
-        let moved = position.map(|q| q * follower.ratio + follower.offset);
-        Some((moved, velocity * follower.ratio))
+        let positions = follower.positions.iter();
+        let position = positions.fold(follower.offset, |sum, &(p, ratio)| q[p] * ratio + sum);
+        let leaders = follower.leaders.iter();
+        let velocity = leaders.fold(Dd::ZERO, |sum, &(j, ratio)| v[j] * ratio + sum);
+        Some((Some(position), velocity))
     }
 
     /// Returns whose `motion` (slip, rate) a contact of this joint has, in words: its own, or that of its leader.
     pub fn motion_in_words(&self, joint: &str, motion: &str) -> String {
-        match self.follower_named(joint) {
-            Some(follower) => {
-                let leader = &self.coordinates[follower.leader].name;
+        match self
+            .follower_named(joint)
+            .map(|follower| &follower.leaders[..])
+        {
+            Some([(leader, _)]) => {
+                let leader = &self.coordinates[*leader].name;
                 format!("the {motion} of `{leader}`")
             }
-            None => format!("its {motion}"),
+            _ => format!("its {motion}"),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Checks a spec: the only code that constructs a [`Mechanism`], and the faults that prevent it.
 
 mod base;
+mod constraint;
 mod direction;
 mod inertia;
 mod joint;
@@ -18,6 +19,7 @@ use crate::fault::{Faults, wording};
 use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
 use base::{at_rest, base_is_given, base_link};
+pub use constraint::constraint_types;
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use joint::CheckedJoints;
@@ -60,7 +62,8 @@ pub(crate) fn check(
     let gravity = direction::vector_or(&spec.gravity, standard_gravity());
     let given = base_is_given(spec, &parameters, faults);
     let whole = || {
-        let (links, places) = assemble(bodies, &tree, given, faults)?;
+        let (mut links, places) = assemble(bodies, &tree, given, faults)?;
+        constraint::apply(spec, &mut links, faults)?;
         let mut frames = all(frames)?;
         for frame in &mut frames {
             frame.link = frame.link.and_then(|LinkId(i)| places.get(i).copied());

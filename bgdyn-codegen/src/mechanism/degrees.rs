@@ -9,27 +9,53 @@ use crate::math::Vec3;
 /// The positions and velocities of a joint.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Degrees {
-    /// Its positions; those of the leader for a joint with `mimic`.
+    /// Its positions; those of the joints it follows if its coupling has such.
     pub positions: Vec<PositionId>,
-    /// Its velocities; those of the leader for a joint with `mimic`.
+    /// Its velocities; those of the joints it follows if it is coupled.
     pub velocities: Vec<CoordinateId>,
-    /// The leader, for a joint with `mimic`.
-    pub mimic: Option<Mimic>,
+    /// Its relation to other joints: `mimic`, or a constraint with constant coefficients.
+    pub coupling: Option<Coupling>,
     /// Advance along the axis of a helical joint, m/rad.
     pub advance: Dd,
     /// Whether its quaternion may have any length.
     pub any_length: bool,
 }
 
-/// The relation of a joint to another: position = ratio · q + offset, velocity = ratio · v.
+/// A joint that another one follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mimic {
-    /// The link of the other joint.
-    pub leader: LinkId,
-    /// Units of this joint per unit of the other.
+pub struct Leader {
+    /// The link of the joint that is followed.
+    pub link: LinkId,
+    /// Units of the follower per unit of this joint.
     pub ratio: Dd,
-    /// Position where the other joint's position is zero.
+}
+
+/// The relation of a joint with one degree of freedom to others: position = Σ ratio · q + offset,
+/// velocity = Σ ratio · v.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// The joints that its position follows; empty if it has a position of its own.
+    pub positions: Vec<Leader>,
+    /// Its position where those of the joints it follows are zero.
     pub offset: Dd,
+    /// The joints that its velocity follows.
+    pub velocities: Vec<Leader>,
+}
+
+impl Coupling {
+    /// Returns the relation to one joint: position = ratio · q + offset.
+    pub fn single(leader: Leader, offset: Dd) -> Self {
+        Coupling {
+            positions: vec![leader],
+            offset,
+            velocities: vec![leader],
+        }
+    }
+
+    /// Returns whether the joint has no position of its own.
+    pub fn of_positions(&self) -> bool {
+        !self.positions.is_empty()
+    }
 }
 
 impl Degrees {
@@ -42,8 +68,59 @@ impl Degrees {
         }
     }
 
+    /// Returns whether it has positions of its own.
+    pub fn own_positions(&self) -> bool {
+        !self.coupling.as_ref().is_some_and(Coupling::of_positions)
+    }
+
+    /// Returns whether it has velocities of its own.
+    pub fn own_velocities(&self) -> bool {
+        self.coupling.is_none()
+    }
+
+    /// Returns the factors from [`Degrees::positions`] to the position of a joint with one.
+    pub fn position_ratios(&self) -> Vec<Dd> {
+        let coupling = self.coupling.as_ref().filter(|c| c.of_positions());
+        coupling.map_or(vec![Dd::ONE], |c| ratios(&c.positions))
+    }
+
+    /// Returns the position of a joint with one where [`Degrees::positions`] are zero.
+    pub fn offset(&self) -> Dd {
+        self.coupling.as_ref().map_or(Dd::ZERO, |c| c.offset)
+    }
+
+    /// Returns the factors from [`Degrees::velocities`] to the velocity of a joint with one.
+    pub fn velocity_ratios(&self) -> Vec<Dd> {
+        let coupling = self.coupling.as_ref();
+        coupling.map_or(vec![Dd::ONE], |c| ratios(&c.velocities))
+    }
+
+    /// Returns the joint's positions, from the values of [`Degrees::positions`].
+    pub fn positions_of(&self, value: impl Fn(&PositionId) -> Dd) -> Vec<Dd> {
+        let values: Vec<Dd> = self.positions.iter().map(value).collect();
+        match &self.coupling {
+            None => values,
+            Some(_) => {
+                let terms = values.into_iter().zip(self.position_ratios());
+                vec![terms.fold(self.offset(), |sum, (q, ratio)| ratio * q + sum)]
+            }
+        }
+    }
+
+    /// Returns the joint's velocities, from the values of [`Degrees::velocities`].
+    pub fn velocities_of(&self, value: impl Fn(&CoordinateId) -> Dd) -> Vec<Dd> {
+        let values: Vec<Dd> = self.velocities.iter().map(value).collect();
+        match &self.coupling {
+            None => values,
+            Some(_) => {
+                let terms = values.into_iter().zip(self.velocity_ratios());
+                vec![terms.fold(Dd::ZERO, |sum, (v, ratio)| ratio * v + sum)]
+            }
+        }
+    }
+
     /// Returns the columns of the motion subspace by coordinate, in link axes at the link's origin. For a
-    /// joint with `mimic` they are per unit velocity of the leader.
+    /// coupled joint they are per unit velocity of the joints that it follows.
     pub fn columns(&self, motion: Motion, axis: Vec3<Dd>) -> Vec<(CoordinateId, Column<Dd>)> {
         let zero = Vec3([Dd::ZERO; 3]);
         let own = match motion {
@@ -58,26 +135,40 @@ impl Degrees {
             }],
             Motion::Compound(compound) => compound.columns(&self.constants(axis)),
         };
-        let ratio = self.mimic.map_or(Dd::ONE, |mimic| mimic.ratio);
-        let scaled = own.into_iter().map(|column| Column {
-            angular: column.angular.scale(ratio),
-            linear: column.linear.scale(ratio),
-        });
-        self.velocities.iter().copied().zip(scaled).collect()
+        let velocities = self.velocities.iter().copied();
+        match (&self.coupling, own.as_slice()) {
+            (Some(_), [column]) => {
+                let scaled = self.velocity_ratios().into_iter().map(|ratio| Column {
+                    angular: column.angular.scale(ratio),
+                    linear: column.linear.scale(ratio),
+                });
+                velocities.zip(scaled).collect()
+            }
+            _ => velocities.zip(own).collect(),
+        }
     }
 }
 
 impl Degrees {
-    /// Returns the column of a motion about and along an axis, as factors of the axis: rad and m per unit
+    /// Returns the columns of a motion about and along an axis, as factors of the axis: rad and m per unit
     /// velocity. `None` for other motions.
-    pub fn axial(&self, motion: Motion) -> Option<(CoordinateId, [Dd; 2])> {
-        let ratio = self.mimic.map_or(Dd::ONE, |mimic| mimic.ratio);
-        let factors = match motion {
-            Motion::Rotation => [ratio, Dd::ZERO],
-            Motion::Translation => [Dd::ZERO, ratio],
-            Motion::Compound(compound) if compound.axial => [ratio, ratio * self.advance],
+    pub fn axial(&self, motion: Motion) -> Option<Vec<(CoordinateId, [Dd; 2])>> {
+        let [angular, linear] = match motion {
+            Motion::Rotation => [Dd::ONE, Dd::ZERO],
+            Motion::Translation => [Dd::ZERO, Dd::ONE],
+            Motion::Compound(compound) if compound.axial => [Dd::ONE, self.advance],
             Motion::None | Motion::Compound(_) => return None,
         };
-        Some((*self.velocities.first()?, factors))
+        let velocities = self.velocities.iter().copied();
+        let scaled = self.velocity_ratios().into_iter();
+        Some(
+            velocities
+                .zip(scaled.map(|r| [r * angular, r * linear]))
+                .collect(),
+        )
     }
+}
+
+fn ratios(leaders: &[Leader]) -> Vec<Dd> {
+    leaders.iter().map(|leader| leader.ratio).collect()
 }

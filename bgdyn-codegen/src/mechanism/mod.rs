@@ -8,6 +8,7 @@ mod check;
 mod degrees;
 mod id;
 pub mod joint;
+mod lock;
 mod numbering;
 mod places;
 mod symbolic;
@@ -21,7 +22,8 @@ use crate::math::{Mat3, Vec3};
 pub use base_motion::{BASE_PARAMETERS, BaseMotion, base_parameter_names};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
-pub use degrees::{Degrees, Mimic};
+pub use check::constraint_types;
+pub use degrees::{Coupling, Degrees, Leader};
 pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
 pub use joint::{JointType, Motion};
 pub(crate) use places::SiteOrigins;
@@ -134,7 +136,7 @@ pub struct Joint {
     pub origin: Pose,
     /// Limits of the spec.
     pub limits: Limits,
-    /// The coordinate of a rotation or a translation that mimics no other joint: its position and velocity
+    /// The coordinate of a rotation or a translation that follows no other joint: its position and velocity
     /// are this joint's alone. `None` for other joints.
     pub coordinate: Option<CoordinateId>,
     /// The positions and velocities of a joint of any type.
@@ -256,19 +258,6 @@ impl Mechanism {
     /// changed.
     pub fn snapped(&self) -> Option<&Snapped> {
         self.snapped.as_ref()
-    }
-
-    /// Returns the mechanism with these links welded to their parents in these poses.
-    pub fn welded(&self, welds: &[(LinkId, Pose)]) -> Self {
-        let mut welded = self.clone();
-        for (link, pose) in welds {
-            let joint = &mut welded.links[link.0].joint;
-            joint.kind = joint::fixed();
-            joint.origin = *pose;
-            joint.degrees = Degrees::default();
-        }
-        welded.number();
-        welded
     }
 
     /// Adds a body of this name, fixed to a link or at a frame on one. A site in the world adds nothing.

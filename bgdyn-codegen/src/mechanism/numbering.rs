@@ -1,12 +1,12 @@
-//! PoseNumbers the positions and velocities of a mechanism's joints, and names them.
+//! Numbers the positions and velocities of a mechanism's joints, and names them.
 
 use bgdyn_runtime::Dd;
 
-use super::{CoordinateId, Degrees, Joint, LinkId, Mechanism, Mimic, Motion, PositionId};
+use super::{CoordinateId, Coupling, Joint, Leader, LinkId, Mechanism, Motion, PositionId};
 
 impl Mechanism {
-    /// PoseNumbers the positions and velocities, in the order of the links; a joint with `mimic` gets those of
-    /// its leader.
+    /// Numbers the positions and velocities, in the order of the links; a coupled joint gets those of the
+    /// joints that it follows.
     pub(super) fn number(&mut self) {
         let (mut positions, mut coordinates) = (Vec::new(), Vec::new());
         for (i, link) in self.links.iter_mut().enumerate() {
@@ -14,15 +14,19 @@ impl Mechanism {
             let motion = joint.kind.motion;
             joint.coordinate = None;
             (joint.degrees.positions, joint.degrees.velocities) = (vec![], vec![]);
-            if joint.degrees.mimic.is_some() {
+            for _ in 0..if joint.degrees.own_positions() {
+                motion.nq()
+            } else {
+                0
+            } {
+                joint.degrees.positions.push(PositionId(positions.len()));
+                positions.push(LinkId(i));
+            }
+            if !joint.degrees.own_velocities() {
                 continue;
             }
             if matches!(motion, Motion::Rotation | Motion::Translation) {
                 joint.coordinate = Some(CoordinateId(coordinates.len()));
-            }
-            for _ in 0..motion.nq() {
-                joint.degrees.positions.push(PositionId(positions.len()));
-                positions.push(LinkId(i));
             }
             for _ in 0..motion.nv() {
                 joint
@@ -33,14 +37,18 @@ impl Mechanism {
             }
         }
         for i in 0..self.links.len() {
-            if let Some(mimic) = self.links[i].joint.degrees.mimic {
-                let Degrees {
-                    positions,
-                    velocities,
-                    ..
-                } = self.links[mimic.leader.0].joint.degrees.clone();
-                let own = &mut self.links[i].joint.degrees;
-                (own.positions, own.velocities) = (positions, velocities);
+            let Some(coupling) = self.links[i].joint.degrees.coupling.clone() else {
+                continue;
+            };
+            let degrees = |leader: &Leader| &self.links[leader.link.0].joint.degrees;
+            let first = |leader: &Leader| degrees(leader).velocities.first().copied();
+            let velocities = coupling.velocities.iter().filter_map(first).collect();
+            let first = |leader: &Leader| degrees(leader).positions.first().copied();
+            let positions: Vec<_> = coupling.positions.iter().filter_map(first).collect();
+            let own = &mut self.links[i].joint.degrees;
+            own.velocities = velocities;
+            if coupling.of_positions() {
+                own.positions = positions;
             }
         }
         (self.positions, self.coordinates) = (positions, coordinates);
@@ -74,17 +82,19 @@ impl Mechanism {
         own.is_some_and(|(_, column)| column.angular.0.iter().all(|&x| x == Dd::ZERO))
     }
 
-    /// Returns the joints with `mimic`, each with its relation, its leader's coordinate, and whether the unit of
-    /// its own velocity is m/s.
-    pub fn followers(&self) -> impl Iterator<Item = (&Joint, Mimic, CoordinateId, bool)> {
+    /// Returns the coupled joints, each with its relation, and whether the unit of its own velocity is m/s.
+    pub fn followers(&self) -> impl Iterator<Item = (&Joint, &Coupling, bool)> {
         let joints = self.links.iter().map(|link| &link.joint);
         joints.filter_map(|joint| {
-            let mimic = joint.degrees.mimic?;
-            let columns = joint.degrees.columns(joint.kind.motion, joint.axis);
-            let (coordinate, column) = columns.first()?;
-            let linear = column.angular.0.iter().all(|&x| x == Dd::ZERO);
-            Some((joint, mimic, *coordinate, linear))
+            let coupling = joint.degrees.coupling.as_ref()?;
+            Some((joint, coupling, joint.kind.motion == Motion::Translation))
         })
+    }
+
+    /// Returns the names of the joints that a coupled one follows.
+    pub fn leaders(&self, coupling: &Coupling) -> Vec<String> {
+        let name = |leader: &Leader| self.links[leader.link.0].joint.name.clone();
+        coupling.velocities.iter().map(name).collect()
     }
 
     /// Returns whether a coordinate's velocity is not the rate of a position.
@@ -103,7 +113,7 @@ impl Mechanism {
         kept.map(|j| names[j].clone()).collect()
     }
 
-    /// Returns the joints that are not plain: more than one degree, a screw, or `mimic`; that of a base whose
+    /// Returns the joints that are not plain: more than one degree, a screw, or coupled; that of a base whose
     /// motion is given, too.
     pub fn compound_joints(&self) -> impl Iterator<Item = &Joint> {
         let joints = self.links.iter().map(|link| &link.joint);

@@ -79,14 +79,8 @@ fn link_poses(mechanism: &Mechanism, k: usize) -> Vec<Pose> {
 
 /// Returns the pose of a joint's link in its origin at sampled position `k`.
 fn moved(joint: &Joint, k: usize) -> Pose {
-    let own = |p: &PositionId| {
-        let q = sampled(p.0, k);
-        joint
-            .degrees
-            .mimic
-            .map_or(q, |mimic| mimic.ratio * q + mimic.offset)
-    };
-    let mut q: Vec<Dd> = joint.degrees.positions.iter().map(own).collect();
+    let own = |p: &PositionId| sampled(p.0, k);
+    let mut q = joint.degrees.positions_of(own);
     match joint.kind.motion {
         Motion::None => Pose::IDENTITY,
         Motion::Rotation => {

@@ -7,7 +7,6 @@ mod ablate;
 mod causality;
 mod check;
 mod integration;
-mod lock;
 mod overrides;
 mod signal;
 

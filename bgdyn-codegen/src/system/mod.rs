@@ -217,9 +217,14 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     let driven = driven.map(|j| layout.coordinates[j].name.clone()).collect();
     let mut network = BondNetwork::of_mechanism(graph, driven);
     for follower in &layout.followers {
-        let leader = &layout.coordinates[follower.leader].name;
-        let ratio = format!("{} of mimic", follower.ratio.to_f64());
-        network.follow(&follower.name, leader, ratio);
+        let leader = |&(j, ratio): &(usize, Dd)| {
+            let name = layout.coordinates[j].name.clone();
+            (name, format!("{} of coupling", ratio.to_f64()))
+        };
+        network.follow(
+            &follower.name,
+            follower.leaders.iter().map(leader).collect(),
+        );
     }
     for (at, element) in scene.elements.iter().enumerate() {
         network.begin(at);

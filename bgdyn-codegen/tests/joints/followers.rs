@@ -214,7 +214,7 @@ fn the_bond_graph_has_a_transformer_to_the_follower() {
     for (on_tail, _) in PAIRS {
         let network = scene(TAIL, on_tail).network;
         let mut nodes = network.nodes.iter();
-        let transformer = nodes.position(|node| node.text == "-2.5 of mimic");
+        let transformer = nodes.position(|node| node.text == "-2.5 of coupling");
         let transformer = transformer.unwrap_or_else(|| panic!("{on_tail}: no transformer"));
         assert_eq!(network.nodes[transformer].kind, NodeKind::Transformer);
         let causality = Causality::of(&network);
@@ -223,7 +223,11 @@ fn the_bond_graph_has_a_transformer_to_the_follower() {
         assert_eq!(with.count(), 1, "{on_tail}");
     }
     let none = scene(TAIL, "type: viscous, joint: grip, damping: 1").network;
-    assert!(none.nodes.iter().all(|node| !node.text.contains("mimic")));
+    assert!(
+        none.nodes
+            .iter()
+            .all(|node| !node.text.contains("coupling"))
+    );
 }
 
 /// Friction at both fingers of a gripper holds with the sum of both.

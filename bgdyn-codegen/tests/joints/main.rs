@@ -1,7 +1,11 @@
-//! Tests joints with several degrees of freedom and joints that mimic others: golden values, laws of
+//! Tests joints with several degrees of freedom and joints that follow others: golden values, laws of
 //! mechanics, equal mechanisms written in two ways, the generator's own check, faults.
 
+mod constraint_references;
+mod constraints;
+mod coupled_scenes;
 mod equal;
+mod faults_of_constraints;
 mod faults_of_keys;
 mod faults_of_mimic;
 mod faults_of_names;

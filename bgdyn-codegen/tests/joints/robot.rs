@@ -128,7 +128,7 @@ impl Robot {
     /// Returns where each quaternion starts in q.
     pub fn quaternions(&self) -> Vec<usize> {
         let links = self.mechanism.links().iter();
-        let own = links.filter(|link| link.joint.degrees.mimic.is_none());
+        let own = links.filter(|link| link.joint.degrees.own_positions());
         let first = |link: &bgdyn_codegen::mechanism::Link| {
             let positions = &link.joint.degrees.positions;
             match link.joint.kind.keyword {
@@ -145,7 +145,13 @@ impl Robot {
         let mut rates = vec![Dd::ZERO; q.len()];
         for link in self.mechanism.links() {
             let joint = &link.joint;
-            if joint.degrees.mimic.is_some() {
+            if let Some(coupling) = &joint.degrees.coupling {
+                if let (false, Some(p)) = (coupling.of_positions(), joint.degrees.positions.first())
+                {
+                    let terms = coupling.velocities.iter().zip(&joint.degrees.velocities);
+                    let terms = terms.map(|(leader, j)| leader.ratio * v[j.0]);
+                    rates[p.0] = terms.fold(Dd::ZERO, |sum, term| sum + term);
+                }
                 continue;
             }
             let at = joint.degrees.positions.first().map_or(0, |p| p.0);

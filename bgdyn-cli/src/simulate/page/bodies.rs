@@ -20,16 +20,13 @@ fn drawn_as(motion: Motion) -> &'static str {
 /// Returns the least and the largest position of a joint of one degree.
 fn own_travel(link: &Link, travel: &[(f64, f64)]) -> (f64, f64) {
     let degrees = &link.joint.degrees;
-    let Some(&(low, high)) = degrees.positions.first().and_then(|p| travel.get(p.0)) else {
-        return (0.0, 0.0);
-    };
-    let own = |q: f64| {
-        degrees
-            .mimic
-            .map_or(q, |m| m.ratio.to_f64() * q + m.offset.to_f64())
-    };
-    let (a, b) = (own(low), own(high));
-    (a.min(b), a.max(b))
+    let start = (degrees.offset().to_f64(), degrees.offset().to_f64());
+    let terms = degrees.positions.iter().zip(degrees.position_ratios());
+    terms.fold(start, |(low, high), (p, ratio)| {
+        let own = travel.get(p.0).copied().unwrap_or_default();
+        let (a, b) = (ratio.to_f64() * own.0, ratio.to_f64() * own.1);
+        (low + a.min(b), high + a.max(b))
+    })
 }
 
 /// The bodies of a scene, and the poses of its links on them.

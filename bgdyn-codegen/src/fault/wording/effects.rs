@@ -1,6 +1,6 @@
 //! Messages about effects: their types, their keys, the names that they refer to and define.
 
-use super::unknown_name;
+use super::{quoted_list, unknown_name};
 use crate::fault::{Fault, Location};
 
 // Types
@@ -90,21 +90,42 @@ pub(crate) fn no_position(
     )
 }
 
-pub(crate) fn effect_on_follower(location: &Location, joint: &str, leader: &str) -> Fault {
+pub(crate) fn effect_on_follower(location: &Location, joint: &str, leaders: &[String]) -> Fault {
+    let names = leaders.iter().map(String::as_str);
     let message = format!(
-        "`{joint}` has `mimic`: it follows `{leader}`, and has no drive of its own for this effect to act on"
+        "`{joint}` follows {}, and has no drive of its own for this effect to act on",
+        quoted_list(names)
     );
-    Fault::new(location, "follower", message).with_help(format!(
-        "write `joint: {leader}`, which has the drive of both"
-    ))
+    let help = match leaders {
+        [leader] => format!("write `joint: {leader}`, which has the drive of both"),
+        _ => format!("let `{joint}` be one of the `independent` joints"),
+    };
+    Fault::new(location, "follower", message).with_help(help)
 }
 
 pub(crate) fn rotor_ratio_on_follower(location: &Location, joint: &str, leader: &str) -> Fault {
     let message = format!(
-        "`{joint}` has `mimic`: a rotor there turns by its `ratio` times that of `mimic`, and this `ratio` is a run-time parameter"
+        "`{joint}` follows `{leader}`: a rotor there turns by its `ratio` times that of the two joints, and this `ratio` is a run-time parameter"
     );
     Fault::new(location, "follower", message).with_help(format!(
         "write a number, or `joint: {leader}` with the product of both ratios"
+    ))
+}
+
+/// `keyword` is the type of the effect: a rotor, or a law that can hold its joint at rest.
+pub(crate) fn effect_on_follower_of_several(
+    location: &Location,
+    keyword: &str,
+    joint: &str,
+    leaders: &[String],
+) -> Fault {
+    let names = leaders.iter().map(String::as_str);
+    let message = format!(
+        "`{joint}` follows {} together, and `{keyword}` acts on joints with a velocity of their own or that of one other joint",
+        quoted_list(names)
+    );
+    Fault::new(location, "follower", message).with_help(format!(
+        "let `{joint}` be one of the `independent` joints, so that another joint follows"
     ))
 }
 

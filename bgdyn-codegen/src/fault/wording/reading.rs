@@ -162,6 +162,12 @@ pub(crate) fn not_decimal(location: &Location, text: &str) -> Fault {
     .with_help("write it as a decimal: `16`, `1.6e-3`")
 }
 
+pub(crate) fn division_by_zero(location: &Location, text: &str) -> Fault {
+    let message = format!("{} divides by zero", quote(text));
+    Fault::new(location, "division-by-zero", message)
+        .with_help("write a decimal, or a fraction such as `1/50`")
+}
+
 pub(crate) fn number_as_text(location: &Location, text: &str, quoted: bool) -> Fault {
     if quoted {
         return Fault::new(

@@ -1,6 +1,6 @@
 //! Messages about a scene: its mechanism, its locked joints, its state, its outputs, its integration.
 
-use super::{six_digits, unknown_name};
+use super::{quoted_list, six_digits, unknown_name};
 use crate::fault::{Fault, Location};
 
 pub(crate) fn unknown_scene_version(location: &Location, text: &str) -> Fault {
@@ -42,10 +42,22 @@ pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&s
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
-pub(crate) fn lock_of_follower(location: &Location, joint: &str, leader: &str) -> Fault {
-    let message = format!("`{joint}` has `mimic`: it follows `{leader}`");
-    Fault::new(location, "follower", message)
-        .with_help(format!("lock `{leader}`: its followers are locked with it"))
+pub(crate) fn lock_of_follower(location: &Location, joint: &str, leaders: &[String]) -> Fault {
+    let leaders = quoted_list(leaders.iter().map(String::as_str));
+    let message = format!("`{joint}` follows {leaders}");
+    Fault::new(location, "follower", message).with_help(format!(
+        "lock {leaders}: joints that follow locked ones are locked with them"
+    ))
+}
+
+pub(crate) fn velocity_constraint(location: &Location, joint: &str, leaders: &[String]) -> Fault {
+    let message = format!(
+        "the velocity of `{joint}` follows {}, and its position is its own: scenes do not support such constraints yet",
+        quoted_list(leaders.iter().map(String::as_str))
+    );
+    Fault::new(location, "velocity-constraint", message).with_help(
+        "a constraint `gear` has the same velocities, and positions that follow too; the mechanism's own methods support `linear`",
+    )
 }
 
 pub(crate) fn lock_of_several(location: &Location, joint: &str, kind: &str) -> Fault {

@@ -24,24 +24,23 @@ impl BodyJoint<'_> {
         if self.body.opposite { -e } else { e }
     }
 
-    /// Returns its position, without the offset of a joint with `mimic`: as a rotation about or a
-    /// translation along z.
-    fn position<'g>(&self, x: &Arguments<'g>) -> Expr<'g> {
-        let q = self.signed(x.q[self.link.degrees.positions[0].0]);
-        match self.link.degrees.mimic {
-            Some(mimic) => q * mimic.ratio,
-            None => q,
-        }
+    /// Returns its position, without the offset of a coupled joint: as a rotation about or a translation
+    /// along z.
+    fn position<'g>(&self, b: &'g Builder, x: &Arguments<'g>) -> Expr<'g> {
+        let degrees = &self.link.degrees;
+        let terms = degrees.positions.iter().zip(degrees.position_ratios());
+        let terms = terms.map(|(p, ratio)| self.signed(x.q[p.0]) * ratio);
+        terms.fold(b.zero(), |sum, term| sum + term)
     }
 
     fn offset(&self) -> Dd {
-        let offset = self.link.degrees.mimic.map_or(Dd::ZERO, |m| m.offset);
+        let offset = self.link.degrees.offset();
         if self.body.opposite { -offset } else { offset }
     }
 
     /// Returns the angle about z, if it rotates: its variable part, and cosine and sine of its constant
     /// part.
-    pub fn angle<'g>(&self, x: &Arguments<'g>) -> (Option<Expr<'g>>, (Dd, Dd)) {
+    pub fn angle<'g>(&self, b: &'g Builder, x: &Arguments<'g>) -> (Option<Expr<'g>>, (Dd, Dd)) {
         let offset = self.offset();
         if self.body.motion == Motion::Translation {
             return (None, (Dd::ONE, Dd::ZERO));
@@ -52,7 +51,7 @@ impl BodyJoint<'_> {
         } else {
             (cos, sin)
         };
-        (Some(self.position(x)), offset)
+        (Some(self.position(b, x)), offset)
     }
 
     /// Returns a position with the displacement along z.
@@ -67,7 +66,7 @@ impl BodyJoint<'_> {
             Motion::Translation => Dd::ONE / self.unit,
             _ => self.link.degrees.advance / self.unit,
         };
-        let moved = self.position(x) * per_position;
+        let moved = self.position(b, x) * per_position;
         place.0[2] = place.0[2] + moved;
         if self.offset() != Dd::ZERO {
             place.0[2] = place.0[2] + b.constant(self.offset() * per_position);
@@ -82,19 +81,18 @@ impl BodyJoint<'_> {
         columns: &[JointColumn],
         x: &Arguments<'g>,
     ) -> (Expr<'g>, Expr<'g>) {
-        match columns {
-            [column] if self.body.axial => {
-                let signed = |e: Expr<'g>| match column.effort < Dd::ZERO {
-                    true => -e * -column.effort,
-                    false => e * column.effort,
-                };
-                (
-                    signed(x.v[column.coordinate]),
-                    signed(x.a[column.coordinate]),
-                )
-            }
-            _ => (b.zero(), b.zero()),
+        let still = (b.zero(), b.zero());
+        if !self.body.axial {
+            return still;
         }
+        columns.iter().fold(still, |(rate, second), column| {
+            let signed = |e: Expr<'g>| match column.effort < Dd::ZERO {
+                true => -e * -column.effort,
+                false => e * column.effort,
+            };
+            let (v, a) = (x.v[column.coordinate], x.a[column.coordinate]);
+            (rate + signed(v), second + signed(a))
+        })
     }
 
     /// Returns the twist of a joint with several velocities, and its rate for constant columns.
@@ -111,7 +109,7 @@ impl BodyJoint<'_> {
                 angular: still,
                 linear: still,
             };
-            let rates = joint_rates(self.link, rates);
+            let rates = joint_rates(b, self.link, rates);
             let columns = self.link.columns().into_iter().zip(rates);
             columns.fold(start, |sum, ((_, column), rate)| Column {
                 angular: sum.angular + b.vector(column.angular).scale(rate),

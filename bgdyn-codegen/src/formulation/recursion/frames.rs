@@ -136,7 +136,7 @@ impl<'g> Frames<'g> {
                 turn,
             } = match body.axial {
                 true => {
-                    let (angle, constant) = own.angle(x);
+                    let (angle, constant) = own.angle(b, x);
                     terms.extend(angle);
                     phase = after(after(start, constant), phase);
                     let local = b.vector(offset.scale(Dd::ONE / plan.unit));

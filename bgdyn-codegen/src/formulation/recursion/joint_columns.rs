@@ -44,7 +44,7 @@ pub(super) struct JointColumn {
     /// Factor from the component in that direction to the joint's effort, and from the velocity to the
     /// rate in that direction.
     pub effort: Dd,
-    /// Whether the joint mimics another one.
+    /// Whether the joint follows others.
     pub mimics: bool,
 }
 
@@ -56,18 +56,22 @@ pub(super) fn joint_columns(
     unit: Dd,
 ) -> Vec<JointColumn> {
     let sign = if body.opposite { -Dd::ONE } else { Dd::ONE };
-    let ratio = frame.degrees.mimic.map_or(Dd::ONE, |mimic| mimic.ratio);
+    let ratios = frame.degrees.velocity_ratios();
+    let each = |direction: ColumnDirection, factor: Dd| -> Vec<(ColumnDirection, Dd)> {
+        let scaled = ratios.iter().map(|&ratio| (direction, factor * ratio));
+        scaled.collect()
+    };
     let per_length = Dd::ONE / unit;
     let pitch = frame.degrees.advance * per_length;
     let directions: Vec<(ColumnDirection, Dd)> = match body.motion {
         Motion::None => Vec::new(),
-        Motion::Rotation => vec![(ColumnDirection::About(2), sign * ratio)],
-        Motion::Translation => vec![(ColumnDirection::Along(2), sign * ratio * per_length)],
+        Motion::Rotation => each(ColumnDirection::About(2), sign),
+        Motion::Translation => each(ColumnDirection::Along(2), sign * per_length),
         Motion::Compound(motion) => (motion.velocities.iter())
-            .map(|part| match part.twist {
-                Twist::Linear(k) => (ColumnDirection::Along(k), per_length),
-                Twist::Angular(k) => (ColumnDirection::About(k), Dd::ONE),
-                Twist::Screw => (ColumnDirection::Screw(pitch), sign * ratio),
+            .flat_map(|part| match part.twist {
+                Twist::Linear(k) => vec![(ColumnDirection::Along(k), per_length)],
+                Twist::Angular(k) => vec![(ColumnDirection::About(k), Dd::ONE)],
+                Twist::Screw => each(ColumnDirection::Screw(pitch), sign),
             })
             .collect(),
     };
@@ -78,7 +82,7 @@ pub(super) fn joint_columns(
             name: names(j.0),
             direction,
             effort,
-            mimics: frame.degrees.mimic.is_some(),
+            mimics: !frame.degrees.own_velocities(),
         })
         .collect()
 }

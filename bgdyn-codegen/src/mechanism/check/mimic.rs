@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Field, Located, MimicSpec, Number, check_unit};
 use crate::mechanism::joint::{JOINT_TYPES, JointType};
-use crate::mechanism::{Joint, Limits, Link, LinkId, Mimic, Motion};
+use crate::mechanism::{Coupling, Joint, Leader, Limits, Link, LinkId, Motion};
 
 /// The `mimic` of a link's joint, as in the file.
 pub(super) type Given = Option<Located<MimicSpec>>;
@@ -45,13 +45,13 @@ pub(super) fn resolve(links: &mut [Link], given: &[Given], faults: &mut Faults) 
             };
         }
         let limits = links[i].joint.limits;
-        links[i].joint.degrees.mimic = Some(Mimic {
-            leader: LinkId(whole.leader),
+        let leader = Leader {
+            link: LinkId(whole.leader),
             ratio: whole.ratio,
-            offset: whole.offset,
-        });
+        };
+        links[i].joint.degrees.coupling = Some(Coupling::single(leader, whole.offset));
         let leader = &mut links[whole.leader].joint;
-        narrow(&mut leader.limits, limits, &whole);
+        narrow(&mut leader.limits, limits, (whole.ratio, whole.offset));
         let empty =
             matches!((leader.limits.lower, leader.limits.upper), (Some(l), Some(u)) if l > u);
         if let (true, Some(mimic)) = (empty, &given[i]) {
@@ -181,8 +181,8 @@ fn circle(
 }
 
 /// Narrows the limits of a leader by those of a follower at ratio · q + offset.
-fn narrow(leader: &mut Limits, follower: Limits, relation: &Relation) {
-    let (ratio, offset) = (relation.ratio.to_f64(), relation.offset.to_f64());
+pub(super) fn narrow(leader: &mut Limits, follower: Limits, (ratio, offset): (Dd, Dd)) {
+    let (ratio, offset) = (ratio.to_f64(), offset.to_f64());
     let bound = |x: Option<f64>| x.map(|x| (x - offset) / ratio);
     let (mut lower, mut upper) = (bound(follower.lower), bound(follower.upper));
     if ratio < 0.0 {

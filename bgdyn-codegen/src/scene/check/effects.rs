@@ -65,6 +65,7 @@ pub(super) fn elements(
         elements: &elements,
         mechanism: reduced,
     };
+    held_followers(&elements, reduced, faults);
     // If one is missing, others of its kind would seem to have no connection.
     for element in &elements {
         if !refused.may_be(element.effect.family()) {
@@ -81,6 +82,30 @@ pub(super) fn elements(
         elements,
         chains,
         refused,
+    }
+}
+
+/// Refuses effects that can hold a joint at rest, which have modes, on joints that follow several others: the
+/// hold would couple those.
+fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faults) {
+    let several = mechanism
+        .followers()
+        .filter(|(_, coupling, _)| coupling.velocities.len() > 1);
+    for (joint, coupling, _) in several {
+        let on = |e: &&Element| e.name("joint") == Some(joint.name.as_str());
+        for element in elements.iter().filter(on) {
+            let mut layout = super::joints::layout(mechanism);
+            element.effect.declare(element, &mut layout);
+            if !layout.modes.is_empty() {
+                let (keyword, leaders) = (element.effect.keyword(), mechanism.leaders(coupling));
+                faults.push(wording::effect_on_follower_of_several(
+                    &element.location,
+                    keyword,
+                    &joint.name,
+                    &leaders,
+                ));
+            }
+        }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::format::Dimension;
 use crate::layout::{
     MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout, StatePosition,
 };
-use crate::mechanism::{Degrees, Joint, Mechanism, Motion};
+use crate::mechanism::{Coupling, Degrees, Joint, Mechanism, Motion};
 
 /// Returns the layout of the joints' positions and velocities.
 pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
@@ -15,7 +15,7 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
     let position_names = mechanism.position_names();
     let coordinate_names = mechanism.joint_names();
     let links = mechanism.links().iter().map(|link| &link.joint);
-    for joint in links.filter(|joint| joint.degrees.mimic.is_none()) {
+    for joint in links.filter(|joint| joint.degrees.own_positions()) {
         let Degrees {
             positions,
             velocities,
@@ -23,7 +23,8 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         } = &joint.degrees;
         let own_rates = joint.kind.motion.velocity_positions();
         for (k, p) in positions.iter().enumerate() {
-            let rate = own_rates.iter().position(|own| *own == Some(k));
+            let own = joint.degrees.own_velocities();
+            let rate = own_rates.iter().position(|rate| own && *rate == Some(k));
             layout.positions.push(StatePosition {
                 name: position_names[p.0].clone(),
                 dimension: position_dimension(joint.kind.motion, k),
@@ -31,7 +32,8 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
                 neutral: neutral(joint.kind.motion, k),
             });
         }
-        for (k, j) in velocities.iter().enumerate() {
+        let own = velocities.iter().filter(|_| joint.degrees.own_velocities());
+        for (k, j) in own.enumerate() {
             let name = coordinate_names[j.0].clone();
             let position = own_rates[k].map(|own| positions[own].0);
             let ending = if position.is_some() {
@@ -50,17 +52,21 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         }
         layout.quasi_joints.extend(quasi_joint(joint));
     }
-    let followers = mechanism.followers();
-    layout.followers = followers
-        .map(|(joint, mimic, leader, linear)| StateFollower {
-            name: joint.name.clone(),
-            leader: leader.0,
-            ratio: mimic.ratio,
-            offset: mimic.offset,
-            dimensions: dimensions(linear),
-        })
-        .collect();
+    layout.followers = mechanism.followers().map(follower).collect();
     layout
+}
+
+fn follower((joint, coupling, linear): (&Joint, &Coupling, bool)) -> StateFollower {
+    let degrees = &joint.degrees;
+    let positions = degrees.positions.iter().map(|p| p.0);
+    let velocities = degrees.velocities.iter().map(|j| j.0);
+    StateFollower {
+        name: joint.name.clone(),
+        positions: positions.zip(degrees.position_ratios()).collect(),
+        offset: coupling.offset,
+        leaders: velocities.zip(degrees.velocity_ratios()).collect(),
+        dimensions: dimensions(linear),
+    }
 }
 
 /// Returns the joint as one with quasi-velocities, if it is one.

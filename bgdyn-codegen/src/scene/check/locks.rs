@@ -2,18 +2,17 @@
 
 use bgdyn_runtime::Dd;
 
-use super::super::lock::locked_pose;
 use super::{effects, joints};
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::SceneSpec;
-use crate::mechanism::{LinkId, Mechanism, Pose};
+use crate::mechanism::{LinkId, Mechanism};
 
-/// Returns the locked joints, with the poses of their links, and the joints that follow them.
+/// Returns the links whose joints are locked, with the positions of the joints.
 pub(super) fn locks(
     spec: &SceneSpec,
     mechanism: &Mechanism,
     faults: &mut Faults,
-) -> Vec<(LinkId, Pose)> {
+) -> Vec<(LinkId, Dd)> {
     let mut locked = Vec::new();
     for raw in effects::given(&spec.lock) {
         let name = &raw.name.value;
@@ -34,9 +33,7 @@ pub(super) fn locks(
         let [position, ..] =
             joints::dimensions(mechanism.linear(crate::mechanism::CoordinateId(j)));
         if let Some(at) = raw.number(&[position], faults) {
-            let at = at.value.value;
-            locked.push((link, locked_pose(joint, at)));
-            locked.extend(followers(mechanism, link, at));
+            locked.push((link, at.value.value));
         }
     }
     locked
@@ -52,25 +49,10 @@ fn not_lockable(mechanism: &Mechanism, location: &Location, name: &str) -> Fault
     }
     let mut joints = mechanism.links().iter().map(|link| &link.joint);
     let follower = joints.find(|joint| joint.name == name);
-    if let Some(mimic) = follower.and_then(|joint| joint.degrees.mimic) {
-        let leader = &mechanism.links()[mimic.leader.0].joint.name;
-        return wording::lock_of_follower(location, name, leader);
+    if let Some(coupling) = follower.and_then(|joint| joint.degrees.coupling.as_ref()) {
+        return wording::lock_of_follower(location, name, &mechanism.leaders(coupling));
     }
     let known = mechanism.one_degree_names();
     let known: Vec<&str> = known.iter().map(String::as_str).collect();
     wording::unknown_locked_joint(location, name, &known)
-}
-
-/// Returns the links whose joints follow a locked one, with their poses.
-fn followers(
-    mechanism: &Mechanism,
-    leader: LinkId,
-    at: Dd,
-) -> impl Iterator<Item = (LinkId, Pose)> {
-    let links = mechanism.links().iter().enumerate();
-    links.filter_map(move |(i, link)| {
-        let mimic = link.joint.degrees.mimic.filter(|m| m.leader == leader)?;
-        let at = mimic.ratio * at + mimic.offset;
-        Some((LinkId(i), locked_pose(&link.joint, at)))
-    })
 }

@@ -87,7 +87,7 @@ fn scene(
     version(spec, faults);
     let name = name(spec, stem, faults);
     let locked = locks::locks(spec, &whole.mechanism, faults);
-    let mechanism = whole.mechanism.welded(&locked);
+    let mechanism = whole.mechanism.locked(&locked);
     let before = faults.count();
     let effects::Called {
         elements,
@@ -122,7 +122,8 @@ fn scene(
     let scene = assembled(empty, &refused, faults);
     canonical(spec, &scene, faults);
     let moving = moving_base(spec, &scene, faults);
-    let drawn = sound && !moving && scene.layout.repeated().is_none();
+    let free = velocity_constraint(spec, &scene, faults);
+    let drawn = sound && !moving && !free && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
     }
@@ -202,6 +203,19 @@ fn moving_base(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
         faults.push(wording::moving_base(&path.location, &path.value));
     }
     moving
+}
+
+/// Refuses a constraint on velocities only: integrators assume that a position outside of joints with
+/// quasi-velocities has a velocity of its own. Returns whether there is one.
+fn velocity_constraint(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
+    let mut followers = scene.mechanism.followers();
+    let found = followers.find(|(_, coupling, _)| !coupling.of_positions());
+    if let (Some((joint, coupling, _)), Some(path)) = (found, spec.mechanism.given()) {
+        let leaders = scene.mechanism.leaders(coupling);
+        let fault = wording::velocity_constraint(&path.location, &joint.name, &leaders);
+        faults.push(fault);
+    }
+    found.is_some()
 }
 
 /// Refuses the canonical form of joints with quasi-velocities.

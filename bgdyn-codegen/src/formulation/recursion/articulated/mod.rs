@@ -119,14 +119,14 @@ impl Formulation for Articulated {
     }
 }
 
-/// Returns the first link whose joint mimics another one.
+/// Returns the first link whose joint is coupled to others.
 fn first_follower(graph: &Multibody) -> Option<&LinkFrame> {
     let mut frames = graph.frames.iter();
-    frames.find(|frame| frame.degrees.mimic.is_some())
+    frames.find(|frame| !frame.degrees.own_velocities())
 }
 
 /// Returns whether articulated bodies support the method. A rotor that rotates with its carrier couples
-/// joints other than through their bodies, and so does a joint that mimics another.
+/// joints other than through their bodies, and so does a coupled joint.
 fn makes(graph: &Multibody, method: Method) -> bool {
     method == METHOD
         && first_follower(graph).is_none()

@@ -1,0 +1,160 @@
+//! Messages about constraints.
+
+use super::{quote, quoted_list, six_digits, suggestion};
+use crate::fault::{Fault, Location};
+use crate::format::Key;
+use crate::unit::Dimension;
+
+pub(crate) fn constraint_has_name_of_body(location: &Location, name: &str) -> Fault {
+    let message = format!("{} is the name of a link or a joint already", quote(name));
+    Fault::new(location, "repeated-name", message)
+        .with_help("choose another name for the constraint")
+}
+
+pub(crate) fn constraint_without_type(location: &Location, name: &str, words: &[&str]) -> Fault {
+    let message = format!("the constraint {} has no `type`", quote(name));
+    let words = quoted_list(words.iter().copied());
+    Fault::new(location, "missing-key", message)
+        .with_help(format!("add `type:` with one of {words}"))
+}
+
+pub(crate) fn unknown_constraint_type(location: &Location, word: &str, words: &[&str]) -> Fault {
+    let message = format!("{} is not a type of constraint", quote(word));
+    let list = format!("the types are {}", quoted_list(words.iter().copied()));
+    Fault::new(location, "unknown-constraint-type", message)
+        .with_help(suggestion(word, words, list))
+}
+
+pub(crate) fn constraint_without_key(location: &Location, name: &str, key: &Key) -> Fault {
+    let message = format!("the constraint {} has no `{}`", quote(name), key.name);
+    Fault::new(location, "missing-key", message)
+        .with_help(format!("add `{}`: {}", key.name, key.about))
+}
+
+pub(crate) fn unknown_constrained_joint(location: &Location, name: &str, known: &[&str]) -> Fault {
+    let message = format!("no joint has the name {}", quote(name));
+    let list = format!(
+        "the joints of one degree of freedom are {}",
+        quoted_list(known.iter().copied())
+    );
+    Fault::new(location, "unknown-name", message).with_help(suggestion(name, known, list))
+}
+
+pub(crate) fn constraint_on_joint(location: &Location, name: &str, keyword: &str) -> Fault {
+    let message = format!(
+        "{} is a {keyword} joint, and such constraints couple joints of one degree of freedom",
+        quote(name)
+    );
+    Fault::new(location, "constraint-on-joint", message)
+        .with_help("name revolute, continuous, prismatic or helical joints")
+}
+
+pub(crate) fn empty_row(location: &Location, name: &str) -> Fault {
+    let message = format!("the constraint {} contains no joint", quote(name));
+    Fault::new(location, "empty-row", message)
+        .with_help("list at least two joints with their coefficients: `{ left: 1, right: -1 }`")
+}
+
+pub(crate) fn zero_coefficient(location: &Location, joint: &str) -> Fault {
+    let message = format!("the coefficient of {} is 0", quote(joint));
+    Fault::new(location, "zero-coefficient", message).with_help("leave the joint out")
+}
+
+/// `dimensions` are those of the first term and of this one.
+pub(crate) fn mixed_row(
+    location: &Location,
+    joint: &str,
+    (first, own): (Dimension, Dimension),
+) -> Fault {
+    let word = |dimension: Dimension| match dimension {
+        Dimension::Length => "a length",
+        _ => "an angle",
+    };
+    let message = format!(
+        "the term of {} is {}, and the first term is {}",
+        quote(joint),
+        word(own),
+        word(first)
+    );
+    Fault::new(location, "mixed-row", message).with_help(
+        "give the coefficient a unit: `rad/m` makes a displacement an angle, `m/rad` or `mm/turn` makes an angle a displacement",
+    )
+}
+
+pub(crate) fn independent_follower(location: &Location, joint: &str, leaders: &[String]) -> Fault {
+    let message = format!(
+        "`{joint}` is listed as `independent`, and it has `mimic`: it follows {}",
+        quoted_list(leaders.iter().map(String::as_str))
+    );
+    Fault::new(location, "independent-follower", message)
+        .with_help("write a constraint `gear` in place of `mimic`, or list another joint")
+}
+
+pub(crate) fn row_of_independents(location: &Location, name: &str, joints: &[&str]) -> Fault {
+    let message = format!(
+        "the constraint {} relates {} only, which are all `independent`",
+        quote(name),
+        quoted_list(joints.iter().copied())
+    );
+    Fault::new(location, "too-many-independents", message)
+        .with_help("take one of them out of `independent`: each constraint makes one joint follow")
+}
+
+/// Returns "2 `a` − 1 `b`".
+fn combination(rows: &[(&str, f64)]) -> String {
+    let term = |(name, factor): &(&str, f64)| format!("{} · {}", six_digits(*factor), quote(name));
+    rows.iter().map(term).collect::<Vec<_>>().join(" + ")
+}
+
+pub(crate) fn dependent_row(location: &Location, name: &str, others: &[(&str, f64)]) -> Fault {
+    let message = match others {
+        [] => format!(
+            "the terms of the constraint {} cancel: it says nothing",
+            quote(name)
+        ),
+        _ => format!(
+            "the constraint {} follows from others: it is {}",
+            quote(name),
+            combination(others)
+        ),
+    };
+    Fault::new(location, "dependent-row", message).with_help("leave it out")
+}
+
+pub(crate) fn contradicting_row(
+    location: &Location,
+    name: &str,
+    others: &[(&str, f64)],
+    gap: f64,
+) -> Fault {
+    let gap = six_digits(gap);
+    let message = match others {
+        [] => format!(
+            "the terms of the constraint {} cancel, and their sum should be {gap}",
+            quote(name)
+        ),
+        _ => format!(
+            "the constraint {} contradicts others: its coefficients are those of {}, its offset differs by {gap}",
+            quote(name),
+            combination(others)
+        ),
+    };
+    Fault::new(location, "contradicting-rows", message)
+        .with_help("leave one of them out, or correct an `offset`")
+}
+
+pub(crate) fn no_motion_left(location: &Location, joint: &str, rows: &[&str], at: f64) -> Fault {
+    let message = format!(
+        "{} leaves the joint `{joint}` no motion: it is fixed at {}",
+        match rows {
+            [row] => format!("the constraint {}", quote(row)),
+            _ => format!(
+                "the constraints {} together",
+                quoted_list(rows.iter().copied())
+            ),
+        },
+        six_digits(at)
+    );
+    Fault::new(location, "no-motion-left", message)
+        .with_help("make the joint `fixed` there, or take one constraint away")
+}

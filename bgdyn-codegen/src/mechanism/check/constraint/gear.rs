@@ -1,0 +1,43 @@
+//! `gear`: Σ k q = offset, on positions and velocities.
+
+use bgdyn_runtime::Dd;
+
+use super::ConstraintType;
+use super::row::{COEFFICIENTS, Row, RowReader};
+use crate::format::{Dimension, Fields, Key, Reads};
+
+/// The type `gear`.
+pub(super) struct Gear;
+
+const JOINTS: Key = Key {
+    name: "joints",
+    reads: Reads::Coefficients(&COEFFICIENTS),
+    needed: true,
+    about: "the joints with their coefficients: `{ left: 1, right: -1/50 }`",
+};
+
+const OFFSET: Key = Key {
+    name: "offset",
+    reads: Reads::Number(&[Dimension::Angle, Dimension::Length]),
+    needed: false,
+    about: "the value of the sum; 0 without it",
+};
+
+impl ConstraintType for Gear {
+    fn keyword(&self) -> &'static str {
+        "gear"
+    }
+
+    fn keys(&self) -> &'static [Key] {
+        &[JOINTS, OFFSET]
+    }
+
+    fn row(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<Row> {
+        let (terms, dimension) = reader.terms(fields, JOINTS.name)?;
+        let offset = match fields.get(OFFSET.name) {
+            None => Dd::ZERO,
+            Some(entry) => reader.number(entry, dimension)?,
+        };
+        Some(reader.row(terms, Some(offset)))
+    }
+}

@@ -1,0 +1,147 @@
+//! Constraints with constant coefficients: which joints follow which, before any formulation sees them.
+//!
+//! A row is Σ k q = offset (`gear`) or Σ k v = 0 (`linear`). Each row makes one joint dependent: the last one
+//! in the order of the links that is not among the `independent` ones. The rows on positions are solved first
+//! (Gauss–Jordan), then those on velocities among the joints that are left. A type is a file and a line in
+//! [`CONSTRAINT_TYPES`].
+//!
+//! | file | does |
+//! |---|---|
+//! | `gear.rs`, `linear.rs` | the types: keys, and their row |
+//! | `row.rs` | a row from the coefficients in the file: names, units |
+//! | `elimination.rs` | solves rows for dependent joints |
+//! | `couple.rs` | sets the couplings of the joints, those with `mimic` included |
+
+mod couple;
+mod elimination;
+mod gear;
+mod linear;
+mod row;
+
+use crate::fault::{Faults, Location, wording};
+use crate::format::{Fields, Key, Raw, Reads, Spec};
+use crate::mechanism::{Link, LinkId};
+use crate::name::is_identifier;
+use row::{Row, RowReader};
+
+/// A type of constraint.
+trait ConstraintType: Sync {
+    /// Returns its word in files.
+    fn keyword(&self) -> &'static str;
+
+    /// Returns its keys.
+    fn keys(&self) -> &'static [Key];
+
+    /// Returns its row; `None` if a rule is broken.
+    fn row(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<Row>;
+}
+
+/// All types of constraints.
+static CONSTRAINT_TYPES: [&dyn ConstraintType; 2] = [&gear::Gear, &linear::Linear];
+
+/// Returns the words for the types of constraints, with their keys.
+pub fn constraint_types() -> impl Iterator<Item = (&'static str, &'static [Key])> {
+    CONSTRAINT_TYPES
+        .into_iter()
+        .map(|kind| (kind.keyword(), kind.keys()))
+}
+
+/// The key for the type.
+const TYPE: Key = Key {
+    name: "type",
+    reads: Reads::Word(&[]),
+    needed: true,
+    about: "what it is",
+};
+
+/// Reads the constraints and couples the joints that they make dependent. `None` if a rule is broken.
+pub(super) fn apply(spec: &Spec, links: &mut [Link], faults: &mut Faults) -> Option<()> {
+    let before = faults.count();
+    let raws = spec.constraints.value().map_or(&[][..], Vec::as_slice);
+    let rows: Vec<Row> = (raws.iter())
+        .filter_map(|raw| row(raw, links, faults))
+        .collect();
+    let kept = independent(spec, links, faults);
+    if faults.count() > before {
+        return None;
+    }
+    couple::couple(links, &rows, &kept, faults);
+    (faults.count() == before).then_some(())
+}
+
+fn row(raw: &Raw, links: &[Link], faults: &mut Faults) -> Option<Row> {
+    let name = &raw.name;
+    if !is_identifier(&name.value) {
+        faults.push(wording::not_identifier(&name.location, &name.value));
+    }
+    let taken = |link: &&Link| link.name == name.value || link.joint.name == name.value;
+    if links.iter().any(|link| taken(&link)) {
+        faults.push(wording::constraint_has_name_of_body(
+            &name.location,
+            &name.value,
+        ));
+    }
+    let words: Vec<&str> = CONSTRAINT_TYPES.iter().map(|kind| kind.keyword()).collect();
+    let Some(word) = raw.peek(TYPE.name) else {
+        let fault = wording::constraint_without_type(&raw.location, &name.value, &words);
+        faults.push(fault);
+        return None;
+    };
+    let mut kinds = CONSTRAINT_TYPES.into_iter();
+    let Some(kind) = kinds.find(|kind| kind.keyword() == word.value) else {
+        let fault = wording::unknown_constraint_type(&word.location, &word.value, &words);
+        faults.push(fault);
+        return None;
+    };
+    let mut keys = kind.keys().to_vec();
+    keys.push(TYPE);
+    let example = format!("`{{ type: {}, … }}`", kind.keyword());
+    let fields = raw.fields(("a constraint's keys", &example), &keys, faults)?;
+    let missing = kind
+        .keys()
+        .iter()
+        .find(|key| key.needed && fields.get(key.name).is_none());
+    if let Some(key) = missing {
+        let location = &raw.location;
+        faults.push(wording::constraint_without_key(location, &name.value, key));
+        return None;
+    }
+    let mut reader = RowReader {
+        links,
+        name,
+        location: &raw.location,
+        faults,
+    };
+    kind.row(&fields, &mut reader)
+}
+
+/// Returns the links of the joints that the file lists as `independent`.
+fn independent(spec: &Spec, links: &[Link], faults: &mut Faults) -> Vec<LinkId> {
+    let mut kept = Vec::new();
+    for name in spec.independent.value().into_iter().flatten() {
+        let known: Vec<&str> = one_degree(links)
+            .map(|(_, link)| link.joint.name.as_str())
+            .collect();
+        let found = one_degree(links).find(|(_, link)| link.joint.name == name.value);
+        match found {
+            Some((link, _)) => kept.push(link),
+            None => faults.push(unknown(&name.location, &name.value, links, &known)),
+        }
+    }
+    kept
+}
+
+/// Returns the links whose joints have one degree of freedom.
+fn one_degree(links: &[Link]) -> impl Iterator<Item = (LinkId, &Link)> {
+    let all = links.iter().enumerate().map(|(i, link)| (LinkId(i), link));
+    all.filter(|(_, link)| link.joint.kind.one_degree())
+}
+
+/// Returns the fault of a name that is not that of a joint of one degree.
+fn unknown(location: &Location, name: &str, links: &[Link], known: &[&str]) -> crate::fault::Fault {
+    let other = links.iter().find(|link| link.joint.name == name);
+    match other {
+        Some(link) => wording::constraint_on_joint(location, name, link.joint.kind.keyword),
+        None => wording::unknown_constrained_joint(location, name, known),
+    }
+}

@@ -1,0 +1,144 @@
+//! A row of a constraint from the coefficients in the file.
+
+use bgdyn_runtime::Dd;
+
+use super::{one_degree, unknown};
+use crate::fault::{Faults, Location, wording};
+use crate::format::{Dimension, Fields, Located, Number, ParsedValue, check_unit};
+use crate::mechanism::{Link, LinkId, Motion};
+
+/// The dimensions of coefficients.
+pub(super) const COEFFICIENTS: [Dimension; 3] =
+    [Dimension::One, Dimension::Lead, Dimension::AnglePerLength];
+
+/// A row: Σ coefficient · q = offset, or Σ coefficient · v = 0 without an offset.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    /// The name of its constraint.
+    pub(super) name: String,
+    /// The location of the constraint.
+    pub(super) location: Location,
+    /// The links of the joints, each once, with their coefficients.
+    pub(super) terms: Vec<(LinkId, Dd)>,
+    /// The value of the sum, rad or m; `None` for a row on velocities only.
+    pub(super) offset: Option<Dd>,
+}
+
+/// Reads the row of one constraint.
+pub(super) struct RowReader<'a> {
+    pub(super) links: &'a [Link],
+    pub(super) name: &'a Located<String>,
+    pub(super) location: &'a Location,
+    pub(super) faults: &'a mut Faults,
+}
+
+impl RowReader<'_> {
+    /// Returns the row with these terms.
+    pub(super) fn row(&self, terms: Vec<(LinkId, Dd)>, offset: Option<Dd>) -> Row {
+        Row {
+            name: self.name.value.clone(),
+            location: self.location.clone(),
+            terms,
+            offset,
+        }
+    }
+
+    /// Returns the joints of a key with their coefficients, and the dimension of the sum: an angle or a length.
+    pub(super) fn terms(
+        &mut self,
+        fields: &Fields,
+        key: &str,
+    ) -> Option<(Vec<(LinkId, Dd)>, Dimension)> {
+        let entry = fields.get(key)?;
+        let ParsedValue::Coefficients(entries) = &entry.value else {
+            return None;
+        };
+        let before = self.faults.count();
+        let read: Vec<_> = entries
+            .iter()
+            .filter_map(|(name, number)| self.term(name, number))
+            .collect();
+        if self.faults.count() > before {
+            return None;
+        }
+        let Some(&(_, _, dimension)) = read.first() else {
+            let fault = wording::empty_row(&entry.location, &self.name.value);
+            self.faults.push(fault);
+            return None;
+        };
+        for ((name, number), (.., own)) in entries.iter().zip(&read) {
+            if *own != dimension {
+                let others = (dimension, *own);
+                let fault = wording::mixed_row(&number.location, &name.value, others);
+                self.faults.push(fault);
+                return None;
+            }
+        }
+        Some((
+            read.into_iter().map(|(link, k, _)| (link, k)).collect(),
+            dimension,
+        ))
+    }
+
+    /// Returns the link of a joint, its coefficient, and the dimension of their product.
+    fn term(
+        &mut self,
+        name: &Located<String>,
+        number: &Located<Number>,
+    ) -> Option<(LinkId, Dd, Dimension)> {
+        let found = one_degree(self.links).find(|(_, link)| link.joint.name == name.value);
+        let Some((link, own)) = found else {
+            let known: Vec<&str> = one_degree(self.links)
+                .map(|(_, link)| link.joint.name.as_str())
+                .collect();
+            let fault = unknown(&name.location, &name.value, self.links, &known);
+            self.faults.push(fault);
+            return None;
+        };
+        let slides = own.joint.kind.motion == Motion::Translation;
+        let (plain, other, converting) = match slides {
+            true => (
+                Dimension::Length,
+                Dimension::Angle,
+                Dimension::AnglePerLength,
+            ),
+            false => (Dimension::Angle, Dimension::Length, Dimension::Lead),
+        };
+        if let Some(fault) = check_unit(number, &[Dimension::One, converting]) {
+            self.faults.push(fault);
+            return None;
+        }
+        if number.value.value == Dd::ZERO {
+            let fault = wording::zero_coefficient(&number.location, &name.value);
+            self.faults.push(fault);
+            return None;
+        }
+        let dimension = match number.value.unit.map(|unit| unit.dimension) {
+            Some(unit) if unit == converting => other,
+            _ => plain,
+        };
+        Some((link, number.value.value, dimension))
+    }
+
+    /// Returns a number of this dimension.
+    pub(super) fn number(
+        &mut self,
+        entry: &Located<ParsedValue>,
+        dimension: Dimension,
+    ) -> Option<Dd> {
+        let ParsedValue::Number(number) = &entry.value else {
+            return None;
+        };
+        let number = Located {
+            value: number.clone(),
+            location: entry.location.clone(),
+        };
+        match check_unit(&number, &[dimension]) {
+            Some(fault) => {
+                self.faults.push(fault);
+                None
+            }
+            None => Some(number.value.value),
+        }
+    }
+}

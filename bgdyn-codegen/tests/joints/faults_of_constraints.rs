@@ -1,0 +1,210 @@
+//! Faults of constraints: each with its place, its rule and the numbers seen.
+
+use super::findings::{found, with_joints};
+
+const JOINTS: [&str; 4] = [
+    "name: left, type: revolute",
+    "name: right, type: continuous, axis: y",
+    "name: slide, type: prismatic, axis: x",
+    "name: ball, type: spherical",
+];
+
+/// Asserts exactly one fault of a file with these constraints, and further keys.
+fn refused(constraints: &str, more: &str, rule: &str, path: &str, words: &[&str]) {
+    let text = format!("{}constraints:\n{constraints}{more}", with_joints(&JOINTS));
+    let faults = found(&text);
+    let shown = faults.render("arm.yaml", &text);
+    assert_eq!(faults.0.len(), 1, "{text}\n{shown}");
+    let fault = &faults.0[0];
+    assert_eq!((fault.rule, fault.path.as_str()), (rule, path), "{shown}");
+    let help = fault.help.clone().unwrap_or_default();
+    assert!(!help.is_empty(), "{rule}: no help");
+    for word in words {
+        let said = format!("{}\n{help}", fault.message);
+        assert!(said.contains(word), "{rule}: no {word:?} in {said:?}");
+    }
+}
+
+fn one(entry: &str, rule: &str, path: &str, words: &[&str]) {
+    let path = format!("constraints.c{path}");
+    refused(&format!("  c: {entry}\n"), "", rule, &path, words);
+}
+
+#[test]
+fn keys_and_types() {
+    one(
+        "{ joints: { left: 1 } }",
+        "missing-key",
+        "",
+        &["`c` has no `type`", "`gear`", "`linear`"],
+    );
+    one(
+        "{ type: geer }",
+        "unknown-constraint-type",
+        ".type",
+        &["`geer`", "did you mean `gear`?"],
+    );
+    one(
+        "{ type: gear }",
+        "missing-key",
+        "",
+        &["`c` has no `joints`", "-1/50"],
+    );
+    one("{ type: linear }", "missing-key", "", &["`c` has no `row`"]);
+    one(
+        "{ type: linear, joints: { left: 1 } }",
+        "unknown-key",
+        "",
+        &["`joints`", "`row`"],
+    );
+    one(
+        "{ type: gear, joints: {} }",
+        "empty-row",
+        ".joints",
+        &["`c` contains no joint", "at least two"],
+    );
+}
+
+#[test]
+fn names() {
+    one(
+        "{ type: gear, joints: { lift: 1, right: 1 } }",
+        "unknown-name",
+        ".joints.lift",
+        &["`lift`", "did you mean `left`?"],
+    );
+    one(
+        "{ type: gear, joints: { ball: 1, right: 1 } }",
+        "constraint-on-joint",
+        ".joints.ball",
+        &["spherical"],
+    );
+    refused(
+        "  left: { type: gear, joints: { left: 1, right: 1 } }\n",
+        "",
+        "repeated-name",
+        "constraints.left",
+        &["`left`"],
+    );
+    refused(
+        "  Left: { type: gear, joints: { left: 1, right: 1 } }\n",
+        "",
+        "name",
+        "constraints.Left",
+        &["`Left`"],
+    );
+}
+
+#[test]
+fn coefficients() {
+    one(
+        "{ type: gear, joints: { left: 0, right: 1 } }",
+        "zero-coefficient",
+        ".joints.left",
+        &["`left`"],
+    );
+    one(
+        "{ type: gear, joints: { left: 1/0, right: 1 } }",
+        "division-by-zero",
+        ".joints.left",
+        &["`1/0`", "1/50"],
+    );
+    one(
+        "{ type: gear, joints: { left: 1, slide: 3 } }",
+        "mixed-row",
+        ".joints.slide",
+        &["a length", "an angle", "`rad/m`"],
+    );
+    one(
+        "{ type: gear, joints: { left: 1 m/rad, right: 1 } }",
+        "mixed-row",
+        ".joints.right",
+        &["an angle", "a length"],
+    );
+    one(
+        "{ type: gear, joints: { left: 1 rad/m, right: 1 } }",
+        "unit-misfit",
+        ".joints.left",
+        &["rad/m"],
+    );
+    one(
+        "{ type: gear, joints: { left: 1, right: 1 }, offset: 3 mm }",
+        "unit-misfit",
+        ".offset",
+        &["3 mm"],
+    );
+}
+
+#[test]
+fn rows_that_determine_nothing() {
+    let pair = "  a: { type: gear, joints: { left: 1, right: 2 } }\n";
+    let twice = "  b: { type: gear, joints: { left: -3, right: -6 } }\n";
+    let other = "  b: { type: gear, joints: { left: -3, right: -6 }, offset: 0.3 }\n";
+    refused(
+        &format!("{pair}{twice}"),
+        "",
+        "dependent-row",
+        "constraints.a",
+        &["`a` follows from others", "-0.333333 · `b`"],
+    );
+    refused(
+        &format!("{pair}{other}"),
+        "",
+        "contradicting-rows",
+        "constraints.a",
+        &["`b`", "0.1"],
+    );
+    let rates = "  b: { type: linear, row: { left: 1/2, right: 1 } }\n";
+    refused(
+        &format!("{pair}{rates}"),
+        "",
+        "dependent-row",
+        "constraints.b",
+        &["`b`", "cancel"],
+    );
+    let both = "  b: { type: gear, joints: { left: 1, right: -2 }, offset: 0.5 }\n";
+    let text = format!("{}constraints:\n{pair}{both}", with_joints(&JOINTS));
+    let faults = found(&text);
+    let of = |word: &str| {
+        faults
+            .0
+            .iter()
+            .any(|f| f.rule == "no-motion-left" && f.message.contains(word))
+    };
+    assert!(
+        of("`left` no motion: it is fixed at 0.25"),
+        "{}",
+        faults.render("arm.yaml", &text)
+    );
+    assert!(
+        of("`right` no motion: it is fixed at -0.125"),
+        "{}",
+        faults.render("arm.yaml", &text)
+    );
+}
+
+#[test]
+fn independent_joints() {
+    let pair = "  a: { type: gear, joints: { left: 1, right: 2 } }\n";
+    refused(
+        pair,
+        "independent: [left, right]\n",
+        "too-many-independents",
+        "constraints.a",
+        &["`left`, `right`"],
+    );
+    refused(
+        pair,
+        "independent: [rigth]\n",
+        "unknown-name",
+        "independent[0]",
+        &["`rigth`", "`right`"],
+    );
+    refused(
+        pair,
+        "independent: [ball]\n",
+        "constraint-on-joint",
+        "independent[0]",
+        &["spherical"],
+    );
+}
