@@ -7,6 +7,7 @@ use bgdyn::{Dynamics, Scalar};
 use bgdyn_codegen::random::Random;
 
 use crate::any_length::AnyLength;
+use crate::coupled::Coupled;
 use crate::helical_universal_test::{self as every_type, HelicalUniversalTest};
 use crate::quadrotor_arm::{self, QuadrotorArm};
 use crate::spherical_chain3::SphericalChain3;
@@ -56,16 +57,21 @@ fn positions_and_velocities<M: Dynamics<Dd, NQ, NV>, const NQ: usize, const NV: 
 fn positions_and_velocities_fit_each_other() {
     positions_and_velocities(&HelicalUniversalTest::<Dd>::default());
     positions_and_velocities(&SphericalChain3::<Dd>::default());
+    positions_and_velocities(&Coupled::<Dd>::default());
 }
 
 #[test]
 fn gravity_is_the_derivative_of_potential_energy_along_the_tangent() {
-    let model = HelicalUniversalTest::<Dd>::default();
+    gravity_is_the_slope(&HelicalUniversalTest::<Dd>::default());
+    gravity_is_the_slope(&Coupled::<Dd>::default());
+}
+
+fn gravity_is_the_slope<M: Dynamics<Dd, NQ, NV>, const NQ: usize, const NV: usize>(model: &M) {
     let mut random = Random(5);
-    let q = position(&model, &mut random);
+    let q = position(model, &mut random);
     let found = model.gravity(&q);
     let h = Dd::from_f64(1e-9);
-    let slope = SVector::<Dd, { every_type::NV }>::from_fn(|j, _| {
+    let slope = SVector::<Dd, NV>::from_fn(|j, _| {
         let step = |h: Dd| SVector::from_fn(|i, _| if i == j { h } else { Dd::from_f64(0.0) });
         let [ahead, behind] =
             [h, -h].map(|h| model.potential_energy(&model.integrate(&q, &step(h))));
@@ -76,10 +82,14 @@ fn gravity_is_the_derivative_of_potential_energy_along_the_tangent() {
 
 #[test]
 fn forward_undoes_inverse_dynamics_and_momenta_give_the_energy() {
-    let model = HelicalUniversalTest::<Dd>::default();
+    forward_undoes_inverse(&HelicalUniversalTest::<Dd>::default());
+    forward_undoes_inverse(&Coupled::<Dd>::default());
+}
+
+fn forward_undoes_inverse<M: Dynamics<Dd, NQ, NV>, const NQ: usize, const NV: usize>(model: &M) {
     let mut random = Random(7);
     for _ in 0..5 {
-        let q = position(&model, &mut random);
+        let q = position(model, &mut random);
         let (v, a) = (numbers(&mut random, 2.0), numbers(&mut random, 5.0));
         let tau = model.inverse_dynamics(&q, &v, &a);
         let found = model
@@ -98,11 +108,18 @@ fn forward_undoes_inverse_dynamics_and_momenta_give_the_energy() {
 /// Ṁ = C + Cᵀ with Ṁ along the motion, also for quasi-velocities; C v is the bias without gravity.
 #[test]
 fn twice_the_coriolis_matrix_is_the_rate_of_the_mass_matrix_but_for_a_skew_part() {
-    let model = QuadrotorArm::<Dd>::default();
+    coriolis(&QuadrotorArm::<Dd>::default());
+    coriolis(&Coupled::<Dd>::default());
+}
+
+fn coriolis<M, const NQ: usize, const NV: usize>(model: &M)
+where
+    M: Dynamics<Dd, NQ, NV> + Coriolis<Dd, NQ, NV>,
+{
     let mut random = Random(11);
-    let q = position(&model, &mut random);
-    let v: SVector<Dd, { quadrotor_arm::NV }> = numbers(&mut random, 2.0);
-    let c = Coriolis::coriolis_matrix(&model, &q, &v);
+    let q = position(model, &mut random);
+    let v: SVector<Dd, NV> = numbers(&mut random, 2.0);
+    let c = model.coriolis_matrix(&q, &v);
     let h = Dd::from_f64(1e-8);
     let [ahead, behind] = [h, -h].map(|h| model.mass_matrix(&model.integrate(&q, &(v * h))));
     let rate = (ahead - behind).map(|x| x / (h + h));
@@ -117,19 +134,26 @@ fn twice_the_coriolis_matrix_is_the_rate_of_the_mass_matrix_but_for_a_skew_part(
 /// Derivatives along the tangent, by differences through `integrate`.
 #[test]
 fn derivatives_are_along_the_tangent() {
-    const NV: usize = quadrotor_arm::NV;
-    let model = QuadrotorArm::<Dd>::default();
+    derivatives(&QuadrotorArm::<Dd>::default());
+    derivatives(&Coupled::<Dd>::default());
+}
+
+fn derivatives<M, const NQ: usize, const NV: usize>(model: &M)
+where
+    M: Dynamics<Dd, NQ, NV> + Derivatives<Dd, NQ, NV>,
+{
     let mut random = Random(13);
-    let q = position(&model, &mut random);
+    let q = position(model, &mut random);
     let [v, a, tau]: [SVector<Dd, NV>; 3] = [2.0, 3.0, 4.0].map(|s| numbers(&mut random, s));
-    let [by_q, _] = Derivatives::inverse_dynamics_derivatives(&model, &q, &v, &a);
-    let [forward_by_q, ..] =
-        Derivatives::forward_dynamics_derivatives(&model, &q, &v, &tau).expect("it has inertia");
+    let [by_q, _] = model.inverse_dynamics_derivatives(&q, &v, &a);
+    let [forward_by_q, ..] = model
+        .forward_dynamics_derivatives(&q, &v, &tau)
+        .expect("it has inertia");
     let h = Dd::from_f64(1e-9);
     for j in 0..NV {
         let step = |h: Dd| SVector::from_fn(|i, _| if i == j { h } else { Dd::from_f64(0.0) });
         let ends = [h, -h].map(|h| model.integrate(&q, &step(h)));
-        let slope = |f: &dyn Fn(&SVector<Dd, { quadrotor_arm::NQ }>) -> SVector<Dd, NV>| {
+        let slope = |f: &dyn Fn(&SVector<Dd, NQ>) -> SVector<Dd, NV>| {
             let [ahead, behind] = [f(&ends[0]), f(&ends[1])];
             (ahead - behind).map(|x| x / (h + h))
         };

@@ -9,6 +9,7 @@ mod moving_base;
 bgdyn::bgdyn!("any_length.yaml");
 bgdyn::bgdyn!("boom.yaml");
 bgdyn::bgdyn!("boom_floating.yaml", frames = [carrier]);
+bgdyn::bgdyn!("coupled.yaml", derivatives = true);
 bgdyn::bgdyn!("helical_universal_test.yaml");
 bgdyn::bgdyn!("quadrotor_arm.yaml", derivatives = true);
 bgdyn::bgdyn!("satellite_arm6.yaml");

@@ -263,16 +263,12 @@ impl Traits<'_> {
         let (mut statements, mut results) = (TokenStream::new(), Vec::new());
         for (j, segment) in joints.iter().enumerate() {
             let own: Vec<&Vec<Ident>> = arrays.iter().map(|array| &array[j]).collect();
-            if !segment.leaders.is_empty() && positions {
+            if !segment.leaders.is_empty() {
                 let velocities: Option<Vec<Ident>> = (arguments.iter().zip(&arrays))
                     .find(|((.., of), _)| !of)
                     .map(|(_, array)| array.iter().flatten().cloned().collect());
-                results.push(following(
-                    name,
-                    &segment.leaders,
-                    &own,
-                    velocities.as_deref(),
-                ));
+                let result = following(name, &segment.leaders, &own, velocities.as_deref());
+                results.extend(positions.then_some(result));
                 continue;
             }
             if segment.manifold.is_empty() {

@@ -228,7 +228,7 @@ fn reads(key: &Key) -> String {
         Reads::Sites => "two links or frames".into(),
         Reads::Node => "a node".into(),
         Reads::Input => "name of an input".into(),
-        Reads::Group(..) => "numbers by name".into(),
+        Reads::Group(..) | Reads::Coefficients(_) => "numbers by name".into(),
     }
 }
 
