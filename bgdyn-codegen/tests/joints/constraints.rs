@@ -86,16 +86,17 @@ fn solve(mut a: Vec<Vec<Dd>>, mut b: Vec<Vec<Dd>>) -> Option<Vec<Vec<Dd>>> {
         if size(&best) < 1e-9 {
             return None;
         }
-        (a.swap(k, best), b.swap(k, best));
+        a.swap(k, best);
+        b.swap(k, best);
         for r in (0..n).filter(|&r| r != k) {
             let factor = a[r][k] / a[k][k];
             for c in 0..n {
                 let product = factor * a[k][c];
-                a[r][c] = a[r][c] - product;
+                a[r][c] -= product;
             }
             for c in 0..b[r].len() {
                 let product = factor * b[k][c];
-                b[r][c] = b[r][c] - product;
+                b[r][c] -= product;
             }
         }
     }

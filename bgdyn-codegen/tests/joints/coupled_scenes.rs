@@ -81,7 +81,7 @@ fn states(one: &SceneEquations, seed: u64) -> [Inputs<Dd>; 2] {
         passed: vec![],
     };
     let mut q = mapped(&own.q);
-    q[2] = q[2] - Dd::from_f64(5.0) / Dd::from_f64(100.0);
+    q[2] -= Dd::from_f64(5.0) / Dd::from_f64(100.0);
     let tree = Inputs {
         q,
         v: mapped(&own.v),

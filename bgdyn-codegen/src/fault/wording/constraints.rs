@@ -2,7 +2,6 @@
 
 use super::{quote, quoted_list, six_digits, suggestion};
 use crate::fault::{Fault, Location};
-use crate::format::Key;
 use crate::unit::Dimension;
 
 pub(crate) fn constraint_has_name_of_body(location: &Location, name: &str) -> Fault {
@@ -25,10 +24,13 @@ pub(crate) fn unknown_constraint_type(location: &Location, word: &str, words: &[
         .with_help(suggestion(word, words, list))
 }
 
-pub(crate) fn constraint_without_key(location: &Location, name: &str, key: &Key) -> Fault {
-    let message = format!("the constraint {} has no `{}`", quote(name), key.name);
-    Fault::new(location, "missing-key", message)
-        .with_help(format!("add `{}`: {}", key.name, key.about))
+pub(crate) fn constraint_without_key(
+    location: &Location,
+    name: &str,
+    (key, about): (&str, &str),
+) -> Fault {
+    let message = format!("the constraint {} has no `{key}`", quote(name));
+    Fault::new(location, "missing-key", message).with_help(format!("add `{key}`: {about}"))
 }
 
 pub(crate) fn unknown_constrained_joint(location: &Location, name: &str, known: &[&str]) -> Fault {

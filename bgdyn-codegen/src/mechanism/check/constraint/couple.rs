@@ -8,8 +8,8 @@ use crate::fault::{Faults, wording};
 use crate::mechanism::check::mimic::narrow;
 use crate::mechanism::{Coupling, Leader, Link, LinkId};
 
-/// Terms of a sum over joints, and its constant part.
-type Sum = (Vec<(LinkId, Dd)>, Dd);
+/// A row in the joints that others follow: terms and the value of their sum.
+type ExpandedRow = (Vec<(LinkId, Dd)>, Dd);
 
 /// Couples the joints; `kept` stay independent. Joints with `mimic` are coupled already.
 pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: &mut Faults) {
@@ -35,7 +35,7 @@ pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: 
     let (positions, velocities): (Vec<&Row>, Vec<&Row>) =
         rows.iter().partition(|row| row.offset.is_some());
     let of_mimic = |link: LinkId| given[link.0].as_ref().map(|c| (&c.positions, c.offset));
-    let expanded: Vec<Sum> = positions.iter().map(|row| expand(row, &of_mimic)).collect();
+    let expanded: Vec<ExpandedRow> = positions.iter().map(|row| expand(row, &of_mimic)).collect();
     let (holonomic, left) = solve(&expanded, n, kept);
     report(links, &positions, &left, &holonomic, faults);
     let of_positions = |link: LinkId| {
@@ -51,7 +51,7 @@ pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: 
         };
         expand(&row, &of_positions)
     };
-    let expanded: Vec<Sum> = velocities.iter().map(|row| of_both(row)).collect();
+    let expanded: Vec<ExpandedRow> = velocities.iter().map(|row| of_both(row)).collect();
     let (rates, left) = solve(&expanded, n, kept);
     report(links, &velocities, &left, &rates, faults);
     let of_velocities = |link: LinkId| {
@@ -96,7 +96,7 @@ fn limit(links: &mut [Link], follower: LinkId, coupling: &Coupling, known: bool)
 }
 
 /// Returns the terms of a row in the joints that others follow.
-fn expand<'a>(row: &Row, of: &impl Fn(LinkId) -> Option<(&'a Vec<Leader>, Dd)>) -> Sum {
+fn expand<'a>(row: &Row, of: &impl Fn(LinkId) -> Option<(&'a Vec<Leader>, Dd)>) -> ExpandedRow {
     let leaders: Vec<Leader> = row
         .terms
         .iter()

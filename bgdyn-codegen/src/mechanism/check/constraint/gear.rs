@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::ConstraintType;
+use super::constraint_type::ConstraintType;
 use super::row::{COEFFICIENTS, Row, RowReader};
 use crate::format::{Dimension, Fields, Key, Reads};
 

@@ -1,6 +1,6 @@
 //! `linear`: Σ k v = 0, on velocities only; each joint has a position of its own.
 
-use super::ConstraintType;
+use super::constraint_type::ConstraintType;
 use super::row::{COEFFICIENTS, Row, RowReader};
 use crate::format::{Fields, Key, Reads};
 

@@ -7,34 +7,25 @@
 //!
 //! | file | does |
 //! |---|---|
+//! | `constraint_type.rs` | the trait of the types |
 //! | `gear.rs`, `linear.rs` | the types: keys, and their row |
 //! | `row.rs` | a row from the coefficients in the file: names, units |
 //! | `elimination.rs` | solves rows for dependent joints |
 //! | `couple.rs` | sets the couplings of the joints, those with `mimic` included |
 
+mod constraint_type;
 mod couple;
 mod elimination;
 mod gear;
 mod linear;
 mod row;
 
-use crate::fault::{Faults, Location, wording};
-use crate::format::{Fields, Key, Raw, Reads, Spec};
+use crate::fault::{Faults, wording};
+use crate::format::{Key, Raw, Reads, Spec};
 use crate::mechanism::{Link, LinkId};
 use crate::name::is_identifier;
-use row::{Row, RowReader};
-
-/// A type of constraint.
-trait ConstraintType: Sync {
-    /// Returns its word in files.
-    fn keyword(&self) -> &'static str;
-
-    /// Returns its keys.
-    fn keys(&self) -> &'static [Key];
-
-    /// Returns its row; `None` if a rule is broken.
-    fn row(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<Row>;
-}
+use constraint_type::ConstraintType;
+use row::{Row, RowReader, one_degree, unknown};
 
 /// All types of constraints.
 static CONSTRAINT_TYPES: [&dyn ConstraintType; 2] = [&gear::Gear, &linear::Linear];
@@ -103,6 +94,7 @@ fn row(raw: &Raw, links: &[Link], faults: &mut Faults) -> Option<Row> {
         .find(|key| key.needed && fields.get(key.name).is_none());
     if let Some(key) = missing {
         let location = &raw.location;
+        let key = (key.name, key.about);
         faults.push(wording::constraint_without_key(location, &name.value, key));
         return None;
     }
@@ -129,19 +121,4 @@ fn independent(spec: &Spec, links: &[Link], faults: &mut Faults) -> Vec<LinkId> 
         }
     }
     kept
-}
-
-/// Returns the links whose joints have one degree of freedom.
-fn one_degree(links: &[Link]) -> impl Iterator<Item = (LinkId, &Link)> {
-    let all = links.iter().enumerate().map(|(i, link)| (LinkId(i), link));
-    all.filter(|(_, link)| link.joint.kind.one_degree())
-}
-
-/// Returns the fault of a name that is not that of a joint of one degree.
-fn unknown(location: &Location, name: &str, links: &[Link], known: &[&str]) -> crate::fault::Fault {
-    let other = links.iter().find(|link| link.joint.name == name);
-    match other {
-        Some(link) => wording::constraint_on_joint(location, name, link.joint.kind.keyword),
-        None => wording::unknown_constrained_joint(location, name, known),
-    }
 }

@@ -2,8 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{one_degree, unknown};
-use crate::fault::{Faults, Location, wording};
+use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Dimension, Fields, Located, Number, ParsedValue, check_unit};
 use crate::mechanism::{Link, LinkId, Motion};
 
@@ -140,5 +139,20 @@ impl RowReader<'_> {
             }
             None => Some(number.value.value),
         }
+    }
+}
+
+/// Returns the links whose joints have one degree of freedom.
+pub(super) fn one_degree(links: &[Link]) -> impl Iterator<Item = (LinkId, &Link)> {
+    let all = links.iter().enumerate().map(|(i, link)| (LinkId(i), link));
+    all.filter(|(_, link)| link.joint.kind.one_degree())
+}
+
+/// Returns the fault of a name that is not that of a joint of one degree.
+pub(super) fn unknown(location: &Location, name: &str, links: &[Link], known: &[&str]) -> Fault {
+    let other = links.iter().find(|link| link.joint.name == name);
+    match other {
+        Some(link) => wording::constraint_on_joint(location, name, link.joint.kind.keyword),
+        None => wording::unknown_constrained_joint(location, name, known),
     }
 }
