@@ -9,7 +9,9 @@ use crate::expr::{Graph, Node, NodeId, Signed};
 /// Mean number of waiting values from which another order is looked for: in code with fewer, little is stored.
 const MANY: f64 = 40.0;
 /// Another order is taken if its mean number of waiting values is at most this part of the original one.
-const FEWER: f64 = 0.95;
+const FEWER: f64 = 0.75;
+/// The same for blocks with pivots. They wait for divisions, which the new order also puts between other operations.
+const FEWER_WITH_PIVOTS: f64 = 0.95;
 
 /// Returns the needed nodes in an order that keeps clearly fewer values than that of the graph; `None` if none is
 /// found. If `stored`, outputs are written to memory as soon as they are known, and need not wait for the end.
@@ -30,20 +32,36 @@ pub(super) fn order(
     }
     let with_means = candidates.into_iter().map(|c| (block.mean_waiting(&c), c));
     let (mean, best) = with_means.min_by(|a, b| a.0.total_cmp(&b.0))?;
-    (mean <= FEWER * limit).then(|| {
-        let all = block.early.iter().chain(&best);
-        all.map(|&i| NodeId::at(i)).collect()
+    let part = if block.pivots == 0 {
+        FEWER
+    } else {
+        FEWER_WITH_PIVOTS
+    };
+    (mean <= part * limit).then(|| {
+        let statement = |i: &usize| {
+            block.parts[*i]
+                .iter()
+                .copied()
+                .chain([*i])
+                .collect::<Vec<_>>()
+        };
+        let late = best.iter().flat_map(statement);
+        let all = block.early.iter().copied().chain(late);
+        all.map(NodeId::at).collect()
     })
 }
 
-/// Operations of a block, and who reads whom among them.
+/// Operations of a block, and who reads whom among them. An operation with one reader is part of the reader's
+/// statement.
 struct Block<'a> {
     outputs: &'a [Signed],
     /// Nodes that are written first: arguments, constants, and sines of arguments.
     early: Vec<usize>,
-    /// The other nodes, in the order of the graph.
+    /// The other nodes that are statements, in the order of the graph.
     operations: Vec<usize>,
-    /// Operations that each operation reads, each once.
+    /// Operations that are written in each statement before it is complete.
+    parts: Vec<Vec<usize>>,
+    /// Statements whose values each statement reads, each once.
     operands: Vec<Vec<usize>>,
     readers: Vec<Vec<usize>>,
     /// The pivot before each pivot: the first one that is refused is reported, so that their order is kept.
@@ -59,32 +77,43 @@ impl<'a> Block<'a> {
             outputs,
             early: Vec::new(),
             operations: Vec::new(),
+            parts: vec![Vec::new(); graph.len()],
             operands: vec![Vec::new(); graph.len()],
             readers: vec![Vec::new(); graph.len()],
             pivot_before: vec![None; graph.len()],
             pivots: 0,
             waits_for_end: vec![false; graph.len()],
         };
+        let is_part = parts_of_statements(graph, needed, outputs);
         let (mut is_early, mut last_pivot) = (vec![false; graph.len()], None);
         for i in (0..needed.len()).filter(|&i| needed[i]) {
             let node = graph.node(NodeId::at(i));
-            let mut late = Vec::new();
-            node.for_each_operand(|o| {
-                if !is_early[o.place()] && !late.contains(&o.place()) {
-                    late.push(o.place());
+            let (mut late, mut parts) = (Vec::new(), Vec::new());
+            node.for_each_operand(|o| match o.place() {
+                o if is_early[o] => {}
+                o if is_part[o] => {
+                    late.extend(&block.operands[o]);
+                    parts.extend(block.parts[o].iter().chain([&o]));
                 }
+                o => late.push(o),
             });
+            late.sort_unstable();
+            late.dedup();
             if late.is_empty() && is_argument(node) {
                 is_early[i] = true;
                 block.early.push(i);
+                continue;
+            }
+            (block.operands[i], block.parts[i]) = (late, parts);
+            if is_part[i] {
                 continue;
             }
             if let Node::Pivot(..) = node {
                 block.pivot_before[i] = last_pivot.replace(i);
                 block.pivots += 1;
             }
-            late.iter().for_each(|&o| block.readers[o].push(i));
-            block.operands[i] = late;
+            let operands = block.operands[i].iter();
+            operands.for_each(|&o| block.readers[o].push(i));
             block.operations.push(i);
         }
         for e in outputs.iter().filter(|_| !stored) {
@@ -120,7 +149,8 @@ impl<'a> Block<'a> {
     /// among equals, one that reads the newest value.
     fn newest_first(&self) -> Vec<usize> {
         let mut waits = self.waits();
-        let missing = |&i: &usize| self.operands[i].len() + usize::from(self.pivot_before[i].is_some());
+        let missing =
+            |&i: &usize| self.operands[i].len() + usize::from(self.pivot_before[i].is_some());
         let mut missing: Vec<usize> = (0..waits.len()).map(|i| missing(&i)).collect();
         let mut next_pivot = vec![None; waits.len()];
         for &i in &self.operations {
@@ -136,7 +166,11 @@ impl<'a> Block<'a> {
             let operands = &self.operands[i];
             let freed = operands.iter().filter(|&&o| waits[o] == 1).count();
             let newest = operands.iter().map(|&o| computed[o]).max().unwrap_or(0);
-            (freed + usize::from(waits[i] == 0), newest, std::cmp::Reverse(i))
+            (
+                freed + usize::from(waits[i] == 0),
+                newest,
+                std::cmp::Reverse(i),
+            )
         };
         while let Some(place) =
             (0..ready.len()).max_by_key(|&place| key(ready[place], &waits, &computed))
@@ -178,6 +212,23 @@ impl<'a> Block<'a> {
         }
         order
     }
+}
+
+/// Returns whether each operation is written in the statement of its only reader.
+fn parts_of_statements(graph: &Graph, needed: &[bool], outputs: &[Signed]) -> Vec<bool> {
+    let mut uses = vec![0; graph.len()];
+    outputs.iter().for_each(|e| uses[e.node.place()] += 2);
+    let needed = || (0..needed.len()).filter(|&i| needed[i]).map(NodeId::at);
+    needed().for_each(|id| graph.node(id).for_each_operand(|o| uses[o.place()] += 1));
+    let mut is_part = vec![false; graph.len()];
+    for id in needed() {
+        let inline = matches!(
+            graph.node(id),
+            Node::Add(..) | Node::Mul(..) | Node::Div(..)
+        );
+        is_part[id.place()] = inline && uses[id.place()] == 1 && graph.name(id).is_none();
+    }
+    is_part
 }
 
 /// Returns whether a node without operands, or with arguments as operands, takes no operation.

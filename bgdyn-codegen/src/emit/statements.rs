@@ -43,7 +43,9 @@ impl Writer<'_> {
     fn order(&mut self, outputs: &[Signed]) -> Vec<NodeId> {
         let stored = self.entries.is_some();
         if let Some(order) = order(self.graph, &self.needed, outputs, stored) {
-            let title = format!("{COMMENT} in an order that keeps few values at a time: the steps are mixed");
+            let title = format!(
+                "{COMMENT} in an order that keeps few values at a time: the steps are mixed"
+            );
             self.push_untitled(quote! { #[doc = #title] });
             self.mixed = true;
             return order;

@@ -11,7 +11,7 @@ use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
 
 /// Number of entries from which a result with many zeros is first filled with them.
-const LARGE: usize = 64;
+const LARGE: usize = 256;
 
 impl Writer<'_> {
     /// Returns the result if it is written entry by entry; if no entry was written, all are constants.
