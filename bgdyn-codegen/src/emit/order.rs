@@ -238,3 +238,67 @@ fn is_argument(node: &Node) -> bool {
         Node::Leaf(_) | Node::Constant(_) | Node::Angle(..) | Node::Sin(_) | Node::Cos(_)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::{Leaf, reachable};
+
+    /// Fails unless the order has each node once, behind its operands.
+    fn check(graph: &Graph, needed: &[bool], order: &[NodeId]) {
+        let mut written = vec![false; graph.len()];
+        for &id in order {
+            assert!(needed[id.place()] && !written[id.place()]);
+            let operand = |o: NodeId| assert!(written[o.place()], "{o:?} before {id:?}");
+            graph.node(id).for_each_operand(operand);
+            written[id.place()] = true;
+        }
+        assert_eq!(written, needed);
+    }
+
+    /// Chains of square roots, written step by step for all of them together, and the sum of their ends.
+    fn chains(count: usize, pivots: bool) -> (Graph, Vec<Signed>) {
+        let mut g = Graph::default();
+        let mut ends: Vec<Signed> = (0..count).map(|j| g.leaf(Leaf::Position(j))).collect();
+        for _ in 0..6 {
+            for (j, end) in ends.iter_mut().enumerate() {
+                let (root, start) = (g.sqrt(*end), g.leaf(Leaf::Velocity(j)));
+                let sum = g.mul_add(root, root, start);
+                *end = if pivots { g.pivot(sum, start, j) } else { sum };
+            }
+        }
+        let sum = ends.into_iter().reduce(|sum, end| g.add(sum, end));
+        (g, sum.into_iter().collect())
+    }
+
+    #[test]
+    fn chains_are_written_one_after_the_other() {
+        let (g, outputs) = chains(60, false);
+        let needed = reachable(&g, &outputs);
+        let found = order(&g, &needed, &outputs, false).expect("60 values wait, 3 need to");
+        check(&g, &needed, &found);
+        let block = Block::new(&g, &needed, &outputs, false);
+        assert!(block.mean_waiting(&block.operations) > 50.0);
+        assert!(block.mean_waiting(&block.newest_first()) < 4.0);
+        assert!(block.mean_waiting(&block.depth_first()) < 4.0);
+        let (g, outputs) = chains(20, false);
+        assert_eq!(order(&g, &reachable(&g, &outputs), &outputs, false), None);
+    }
+
+    /// The first refused pivot is reported, so that their order must not change.
+    #[test]
+    fn pivots_keep_their_order() {
+        let (g, outputs) = chains(60, true);
+        let needed = reachable(&g, &outputs);
+        let block = Block::new(&g, &needed, &outputs, false);
+        let found = block.newest_first();
+        assert_eq!(found.len(), block.operations.len());
+        let pivots = found
+            .iter()
+            .filter(|&&i| matches!(g.node(NodeId::at(i)), Node::Pivot(..)));
+        assert!(pivots.is_sorted());
+        if let Some(found) = order(&g, &needed, &outputs, false) {
+            check(&g, &needed, &found);
+        }
+    }
+}
