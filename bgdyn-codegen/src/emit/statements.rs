@@ -14,7 +14,7 @@ use crate::function::Function;
 use crate::legend::LegendQuantity;
 
 /// Largest number of operations in one statement, for readability.
-const STATEMENT: usize = 6;
+pub(super) const STATEMENT: usize = 6;
 
 impl Writer<'_> {
     /// Emits the statements of a block.
