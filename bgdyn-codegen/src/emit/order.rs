@@ -278,7 +278,8 @@ mod tests {
     fn chains_are_written_one_after_the_other() {
         let (g, outputs) = chains(60, false);
         let needed = reachable(&g, &outputs);
-        let found = order(&g, &needed, &outputs, false).expect("60 values wait; a statement reads seven");
+        let found =
+            order(&g, &needed, &outputs, false).expect("60 values wait; a statement reads seven");
         check(&g, &needed, &found);
         let block = Block::new(&g, &needed, &outputs, false);
         assert!(block.mean_waiting(&block.operations) > 50.0);
