@@ -123,7 +123,8 @@ Machines: {origins}.
 
 {page.table(heads, [row(r, folder) for r in results])}
 {summary(results)} {reasons(results, folder)}
-"""
+
+{(Path(__file__).parent / "where_the_time_goes.md").read_text()}"""
 
 
 def put(text, part):

@@ -12,10 +12,13 @@ use crate::method::Shape;
 
 /// Largest number of operations in a block. Arms of seven axes are not divided.
 const MAX_BLOCK: usize = 3200;
+/// Largest number of operations in a function that is not divided: a short last block would cost more, by the values
+/// that are passed to it, than the first one gains.
+const MAX_WHOLE: usize = 3500;
 
-/// Returns whether the function is divided: its straight-line code is longer than one block.
+/// Returns whether the function is divided: its straight-line code is clearly longer than one block.
 pub fn is_cut(function: &Function) -> bool {
-    function.straight().total() > MAX_BLOCK
+    function.straight().total() > MAX_WHOLE
 }
 
 /// Returns the function in blocks of bounded length.

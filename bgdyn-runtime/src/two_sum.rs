@@ -1,5 +1,7 @@
 //! Exact sums of two numbers in two words (Knuth's two-sum).
 
+use core::ops::{Add, Sub};
+
 use crate::Scalar;
 
 /// Constants in two words.
@@ -8,8 +10,10 @@ pub(crate) trait TwoWord: Scalar {
     fn two_words(hi: f64, lo: f64) -> (Self, Self);
 }
 
-/// Returns the sum of `angles` and `offset`, rounded, and its rounding error (`None` for a single angle).
-/// Works in any arithmetic that rounds as `f64` and `f32` do, lane by lane.
+/// Returns the sum of `angles` and `offset`, summed one after the other, and its rounding error (`None` for a
+/// single angle). The error is at most half a unit in the sum's last place for two terms; for more, it is as
+/// large as the errors of all partial sums, and can be larger than the sum. Works in any arithmetic that
+/// rounds as `f64` and `f32` do, lane by lane.
 #[inline(always)]
 pub(crate) fn exact_sum<T: TwoWord>(
     mut angles: impl Iterator<Item = T>,
@@ -22,9 +26,7 @@ pub(crate) fn exact_sum<T: TwoWord>(
             (hi, Some(lo))
         }
     };
-    let mut sums = 0;
     for angle in angles {
-        sums += 1;
         // Knuth's two-sum: the exact rounding error of the addition. The errors of earlier additions are
         // added to the shorter of its two paths, so that nothing waits for them.
         let next = sum + angle;
@@ -34,16 +36,13 @@ pub(crate) fn exact_sum<T: TwoWord>(
         tail = Some((sum - (next - back)) + left);
         sum = next;
     }
-    let (1.., Some(tail)) = (sums, tail) else {
-        return (sum, None);
-    };
-    if sums == 1 {
-        // The tail must be at most half a unit in the last place. If more than that is left of the offset,
-        // the angle has cancelled it and has no digits below those of the offset's first word.
-        return (sum, Some(tail));
-    }
-    // A second two-sum makes the tail that small.
-    let angle = sum + tail;
-    let back = angle - sum;
-    (angle, Some((sum - (angle - back)) + (tail - back)))
+    (sum, tail)
+}
+
+/// Returns the sum of two numbers, rounded, and its rounding error.
+#[inline(always)]
+pub(crate) fn two_sum<T: Copy + Add<Output = T> + Sub<Output = T>>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    let back = sum - a;
+    (sum, (a - (sum - back)) + (b - back))
 }

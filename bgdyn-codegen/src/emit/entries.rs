@@ -3,7 +3,8 @@
 //! If a result is built at the end, all entries are stored then, with no computation left to overlap: this
 //! costs the mass matrix of a PUMA 5 %, in lanes 9 % (`docs/order.md`). The code therefore begins with a
 //! whole result and overwrites its entries. Entries that are not yet known are initialised with the first
-//! known one: compilers remove those stores, but not a call that fills memory with zeros.
+//! known one: compilers remove those stores, but not a call that fills memory with zeros. Large results with
+//! many zeros are filled with zeros nevertheless, which takes less time than to store the zeros one by one.
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};

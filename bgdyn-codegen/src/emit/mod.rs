@@ -13,6 +13,7 @@ mod loops;
 mod module;
 mod named_constants;
 mod names;
+mod order;
 mod output_options;
 mod scene;
 mod sines;

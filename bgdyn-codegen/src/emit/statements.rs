@@ -6,26 +6,23 @@ use quote::{ToTokens, quote};
 
 use super::code::{Binding, Code, atom, leaves};
 use super::named_constants::unit_of_length;
-use super::tokens::number;
+use super::order::order;
+use super::tokens::{COMMENT, number};
 use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
 use crate::function::Function;
 use crate::legend::LegendQuantity;
 
 /// Largest number of operations in one statement, for readability.
-const STATEMENT: usize = 6;
+pub(super) const STATEMENT: usize = 6;
 
 impl Writer<'_> {
     /// Emits the statements of a block.
     pub(super) fn block(&mut self, outputs: &[Signed], function: &Function) -> TokenStream {
         let arguments = self.arguments(function, &leaves(self.graph, outputs));
         let unit = self.first_unit();
-        for i in 0..self.needed.len() {
-            if !self.needed[i] {
-                continue;
-            }
-            let id = NodeId(i as u32);
-            if self.code[i].is_none() {
+        for id in self.order(outputs) {
+            if self.code[id.place()].is_none() {
                 self.node(id);
             }
             self.store(id);
@@ -40,6 +37,21 @@ impl Writer<'_> {
             Some(unit) => quote! { #[doc = #unit] #whole },
             None => whole,
         }
+    }
+
+    /// Returns the needed nodes in the order in which they are written.
+    fn order(&mut self, outputs: &[Signed]) -> Vec<NodeId> {
+        let stored = self.entries.is_some();
+        if let Some(order) = order(self.graph, &self.needed, outputs, stored) {
+            let title = format!(
+                "{COMMENT} in an order that keeps few values at a time: the steps are mixed"
+            );
+            self.push_untitled(quote! { #[doc = #title] });
+            self.mixed = true;
+            return order;
+        }
+        let needed = (0..self.needed.len()).filter(|&i| self.needed[i]);
+        needed.map(NodeId::at).collect()
     }
 
     /// Returns a comment on the unit of length at the beginning of the block, if it is not the metre.

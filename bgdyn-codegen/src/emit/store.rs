@@ -1,5 +1,6 @@
 //! Emits stores of the entries of a result as soon as they are computed.
 
+use bgdyn_runtime::Dd;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -8,6 +9,9 @@ use super::entries::{Entries, NAME};
 use super::tokens::COMMENT;
 use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
+
+/// Number of entries from which a result with many zeros is first filled with them.
+const LARGE: usize = 256;
 
 impl Writer<'_> {
     /// Returns the result if it is written entry by entry; if no entry was written, all are constants.
@@ -47,17 +51,30 @@ impl Writer<'_> {
             self.push(first, quote! { let #variable = #tokens; });
             self.code[first.0 as usize] = Some(atom(quote! { #variable }));
         }
-        let first_value = self.operand(Signed::plus(first), Binding::Sum);
+        let other = match self.mostly_zero(entries) {
+            true => self.scalar(quote! { 0.0 }).tokens,
+            false => self.operand(Signed::plus(first), Binding::Sum),
+        };
         let value = |e: &Signed| match self.constant(e.node) {
             Some(value) if e.negative => quote! { -#value },
             Some(value) => value,
-            None => first_value.clone(),
+            None => other.clone(),
         };
         let values: Vec<TokenStream> = entries.outputs.iter().map(value).collect();
         let (name, whole) = (format_ident!("{NAME}"), (entries.whole)(&values));
         let title =
             format!("{COMMENT} placeholders but for constants: every other entry is stored below");
         self.push_untitled(quote! { #[doc = #title] let mut #name = #whole; });
+    }
+
+    /// Returns whether zeros are so many that filling the result with them takes the least time.
+    fn mostly_zero(&self, entries: &Entries<'_>) -> bool {
+        let sizes = entries.outputs.iter().zip(&entries.places);
+        let zero = |id| matches!(self.graph.node(id), Node::Constant(c) if c.value() == Dd::ZERO);
+        let zeros = sizes.filter(|(e, _)| zero(e.node));
+        let zeros: usize = zeros.map(|(_, places)| places.len()).sum();
+        let all: usize = entries.places.iter().map(Vec::len).sum();
+        all >= LARGE && 4 * zeros >= all
     }
 
     /// Returns the code of a constant.

@@ -30,6 +30,8 @@ pub(super) struct Writer<'a> {
     /// The section of the last statement.
     section: Option<&'a str>,
     pub(super) needed: Vec<bool>,
+    /// Whether statements of several sections are mixed, so that none has a title.
+    pub(super) mixed: bool,
     /// Whether the block is a function of its own.
     separate: bool,
     pub(super) constants: bool,
@@ -65,6 +67,7 @@ impl<'a> Writer<'a> {
             sines: QuickMap::default(),
             uses: vec![0; graph.len()],
             needed: reachable(graph, outputs),
+            mixed: false,
             separate: function.blocks.len() > 1,
             statements: Vec::new(),
             section: None,
@@ -133,7 +136,7 @@ impl<'a> Writer<'a> {
     pub(super) fn push(&mut self, id: NodeId, statement: TokenStream) {
         let section = self.graph.section(id);
         let begins = section.filter(|_| section != self.section);
-        let title = begins.map(|title| {
+        let title = begins.filter(|_| !self.mixed).map(|title| {
             let text = format!("{COMMENT} {title}");
             quote! { #[doc = #text] }
         });

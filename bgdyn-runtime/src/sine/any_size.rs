@@ -3,10 +3,11 @@
 use super::kernel::sin_cos_in_range;
 use super::lanes::SineLanes;
 use super::large;
+use crate::two_sum::two_sum;
 
 /// Numbers with a sine of angles of any size.
 pub(crate) trait AnySize: SineLanes {
-    /// Returns sine and cosine of `self` + `tail` if not all angles are within the limit: each angle is
+    /// Returns sine and cosine of `self` + `tail` if not all of them are within the limits: each angle is
     /// reduced exactly and separately.
     fn sin_cos_large(self, tail: Self) -> (Self, Self);
 }
@@ -14,7 +15,7 @@ pub(crate) trait AnySize: SineLanes {
 /// Returns sine and cosine of angle + tail; `tail` is the rounding error of a sum of angles.
 #[inline(always)]
 pub(crate) fn sin_cos<T: AnySize>(angle: T, tail: Option<T>) -> (T, T) {
-    if angle.within() {
+    if angle.within() && tail.is_none_or(|tail| tail.all_below(T::TAIL_LIMIT)) {
         sin_cos_in_range(angle, tail)
     } else {
         angle.sin_cos_large(tail.unwrap_or(T::splat(0.0)))
@@ -26,7 +27,13 @@ macro_rules! scalars {
         impl AnySize for $float {
             #[cold]
             fn sin_cos_large(self, tail: Self) -> (Self, Self) {
-                large::sin_cos_reduced(self, tail)
+                // The sum of three terms can be small where a partial sum was large.
+                let (angle, tail) = two_sum(self, tail);
+                if angle.within() {
+                    sin_cos_in_range(angle, Some(tail))
+                } else {
+                    large::sin_cos_reduced(angle, tail)
+                }
             }
         }
     )+};

@@ -2,8 +2,8 @@
 
 use super::lanes::{Coefficients, Polynomial, SineLanes};
 
-/// Returns sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail of at
-/// most half a unit in the angle's last place.
+/// Returns sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail within
+/// [`SineLanes::TAIL_LIMIT`].
 #[inline(always)]
 pub(crate) fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P) {
     let (quarters, r, low) = reduced(angle, tail);

@@ -82,6 +82,9 @@ pub(crate) trait SineLanes:
 {
     /// Angles up to this size, in radians, take the branch-free path.
     const LIMIT: f64;
+    /// Rounding errors of sums of angles up to this size take the branch-free path: so much can be left of an
+    /// angle beyond ±π/4.
+    const TAIL_LIMIT: f64;
     /// 1.5·2^(digits − 1): numbers of this size are integers.
     const MAGIC: f64;
     /// Constants of the kernel.
@@ -96,8 +99,13 @@ pub(crate) trait SineLanes:
     fn minus_product(self, b: Self, c: Self) -> Self {
         (-self).fused(b, c)
     }
+    /// Returns whether all sizes are at most `limit`; that of NaN is not.
+    fn all_below(self, limit: f64) -> bool;
     /// Returns whether all angles are within the limit; NaN is not.
-    fn within(self) -> bool;
+    #[inline(always)]
+    fn within(self) -> bool {
+        self.all_below(Self::LIMIT)
+    }
     /// Returns sine and cosine of r + n π/2 from those of r; the last two binary digits of n are the last
     /// two of `quarters`.
     fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self);
@@ -150,9 +158,10 @@ macro_rules! quarter_turns {
 }
 
 macro_rules! scalar_lanes {
-    ($float:ident, $bits:ident, $limit:literal, $magic:literal, $coefficients:ident, $fused:ident, $to_sign:literal) => {
+    ($float:ident, $bits:ident, $limit:literal, $tail_limit:expr, $magic:literal, $coefficients:ident, $fused:ident, $to_sign:literal) => {
         impl SineLanes for $float {
             const LIMIT: f64 = $limit;
+            const TAIL_LIMIT: f64 = $tail_limit;
             const MAGIC: f64 = $magic;
             const COEFFICIENTS: Coefficients = $coefficients;
 
@@ -165,8 +174,8 @@ macro_rules! scalar_lanes {
                 $fused(self, b, c)
             }
             #[inline(always)]
-            fn within(self) -> bool {
-                self.abs() <= <Self as SineLanes>::LIMIT as $float
+            fn all_below(self, limit: f64) -> bool {
+                self.abs() <= limit as $float
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {
@@ -183,18 +192,29 @@ scalar_lanes!(
     f64,
     u64,
     1e5,
+    1.0 / 2_097_152.0,
     6_755_399_441_055_744.0,
     DOUBLE,
     fused_f64,
     62
 );
-scalar_lanes!(f32, u32, 1e4, 12_582_912.0, SINGLE, fused_f32, 30);
+scalar_lanes!(
+    f32,
+    u32,
+    1e4,
+    1.0 / 2048.0,
+    12_582_912.0,
+    SINGLE,
+    fused_f32,
+    30
+);
 
 #[cfg(any(feature = "wide", target_arch = "x86_64", target_arch = "aarch64"))]
 macro_rules! register_lanes {
     ($($lanes:ident of $float:ident, $bits:ident, $to_sign:literal;)*) => {$(
         impl SineLanes for wide::$lanes {
             const LIMIT: f64 = <$float as SineLanes>::LIMIT;
+            const TAIL_LIMIT: f64 = <$float as SineLanes>::TAIL_LIMIT;
             const MAGIC: f64 = <$float as SineLanes>::MAGIC;
             const COEFFICIENTS: Coefficients = <$float as SineLanes>::COEFFICIENTS;
 
@@ -207,8 +227,8 @@ macro_rules! register_lanes {
                 self.mul_add(b, c)
             }
             #[inline(always)]
-            fn within(self) -> bool {
-                self.abs().simd_le(wide::$lanes::splat(<$float as SineLanes>::LIMIT as $float)).all()
+            fn all_below(self, limit: f64) -> bool {
+                self.abs().simd_le(wide::$lanes::splat(limit as $float)).all()
             }
             #[inline(always)]
             fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self) {

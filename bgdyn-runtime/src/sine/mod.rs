@@ -85,12 +85,14 @@ pub(crate) fn sin_cos_batch<T: Batch, const K: usize>(
         angles: [zero; K],
         tails: [zero; K],
         are_sums: [false; K],
+        are_long: [false; K],
     };
     unrolled!(K, |k| {
         let (angle, tail) = exact_sum(angles[k].iter().copied(), offsets[k]);
         sums.angles[k] = angle;
         sums.tails[k] = tail.unwrap_or(zero);
         sums.are_sums[k] = tail.is_some();
+        sums.are_long[k] = angles[k].len() + usize::from(offsets[k] != (0.0, 0.0)) > 2;
     });
     if let Some(found) = T::sin_cos_in_lanes(&sums) {
         return found;
@@ -109,9 +111,11 @@ pub(crate) struct AngleSums<T, const K: usize> {
     tails: [T; K],
     /// Which angles are sums of more than one term.
     are_sums: [bool; K],
+    /// Which angles are sums of more than two terms: their rounding errors can be large.
+    are_long: [bool; K],
 }
 
-/// Calls [`sin_cos`] out of line for calls with large angles: passed as an array, the angles would be
+/// Calls [`sin_cos`] out of line for calls with large angles or rounding errors: passed as an array, the angles would be
 /// stored in every call.
 #[cold]
 #[inline(never)]
@@ -121,7 +125,7 @@ fn out_of_line<T: AnySize>(angle: T, tail: T) -> (T, T) {
 
 /// Numbers whose sines can be computed several at once.
 pub(crate) trait Batch: AnySize + TwoWord {
-    /// Returns sines and cosines of the sums; `None` if not all of them are within the limit.
+    /// Returns sines and cosines of the sums; `None` if not all of them are within the limits.
     fn sin_cos_in_lanes<const K: usize>(sums: &AngleSums<Self, K>) -> Option<[(Self, Self); K]>;
 }
 
@@ -136,17 +140,20 @@ macro_rules! batch_in_lanes {
                 let mut done = 0;
                 $(if K - done >= $least {
                     let (mut angles, mut tails, mut any) = ([0.0; $n], [0.0; $n], false);
+                    let mut long = false;
                     // Lanes beyond the last angle repeat it.
                     unrolled!($n, |k| {
                         let from = (done + k).min(K - 1);
                         (angles[k], tails[k]) = (sums.angles[from], sums.tails[from]);
                         any |= sums.are_sums[from];
+                        long |= sums.are_long[from];
                     });
                     let angles = wide::$lanes::new(angles);
-                    if !angles.within() {
+                    let tails = wide::$lanes::new(tails);
+                    if !angles.within() || long && !tails.all_below(<$float>::TAIL_LIMIT) {
                         return None;
                     }
-                    let tails = any.then(|| wide::$lanes::new(tails));
+                    let tails = any.then_some(tails);
                     let (s, c) = sin_cos_in_range(angles, tails);
                     let (s, c) = (s.to_array(), c.to_array());
                     unrolled!($n, |k| if done + k < K {
@@ -157,7 +164,7 @@ macro_rules! batch_in_lanes {
                 // At most one angle remains.
                 if done < K {
                     let (angle, tail) = (sums.angles[K - 1], sums.tails[K - 1]);
-                    if !angle.within() {
+                    if !angle.within() || sums.are_long[K - 1] && !tail.all_below(<$float>::TAIL_LIMIT) {
                         return None;
                     }
                     found[K - 1] = sin_cos_in_range(angle, sums.are_sums[K - 1].then_some(tail));
@@ -179,7 +186,8 @@ macro_rules! one_by_one {
             #[inline(always)]
             fn sin_cos_in_lanes<const K: usize>(sums: &AngleSums<Self, K>) -> Option<[(Self, Self); K]> {
                 let mut within = true;
-                unrolled!(K, |k| within &= sums.angles[k].within());
+                unrolled!(K, |k| within &= sums.angles[k].within()
+                    && (!sums.are_long[k] || sums.tails[k].all_below(Self::TAIL_LIMIT)));
                 let mut found = [(Self::splat(0.0), Self::splat(0.0)); K];
                 if within {
                     unrolled!(K, |k| {
