@@ -13,10 +13,10 @@ pub fn joint_kinds(mechanism: &Mechanism) -> Result<Vec<JointKind>, String> {
     let follower = mechanism
         .links()
         .iter()
-        .find(|l| l.joint.degrees.mimic.is_some());
+        .find(|l| l.joint.degrees.coupling.is_some());
     if let Some(link) = follower {
         let name = &link.joint.name;
-        return Err(format!("joint {name}: peers have no joint with `mimic`"));
+        return Err(format!("joint {name}: peers have no joint that follows others"));
     }
     let kind = |link: LinkId| {
         let joint = &mechanism.links()[link.0].joint;
