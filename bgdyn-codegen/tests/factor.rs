@@ -4,11 +4,8 @@
 mod common;
 
 use bgdyn_codegen::expr::{Graph, Inputs, Leaf, Node, Operations, Signed, count, evaluate, factor};
-use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
 use bgdyn_runtime::{Dd, Scalar};
 use common::laws::NOISY;
 use common::random::Draft;
@@ -196,12 +193,7 @@ fn mechanism(seed: u64, most: usize) {
     let growth = || growth(&robot, &state);
     // As in `common/laws.rs`: axes without snapping have components that formulations round differently.
     let formulations = if draft.exact { NOISY } else { EXACT };
-    let literal = Options {
-        formulation: by_name("literal"),
-        ..Options::default()
-    };
     for method in Method::possible(&robot.graph.sites) {
-        let made = |options: &Options| pipeline::function(&robot.mechanism, method, options);
         let what = format!("seed {seed}\n{text}{state:?}\nseed {seed}");
         if Method::OF_TRAIT.contains(&method) {
             let whole = robot.whole("recursion", method);
@@ -221,8 +213,8 @@ fn mechanism(seed: u64, most: usize) {
                 &format!("{what}, against the unfactored one"),
             );
         }
-        let chosen = made(&Options::default()).expect("a function");
-        let literal = made(&literal).expect("a function");
+        let chosen = robot.emitted(method);
+        let literal = robot.function("literal", method);
         compare(
             &chosen,
             &literal,

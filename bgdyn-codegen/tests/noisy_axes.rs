@@ -90,9 +90,10 @@ fn stacked(first: [f64; 3], second: [f64; 3]) -> String {
 /// Compares every formulation with the literal sum; forward dynamics as the inverse.
 fn equals_the_literal_sum(text: &str) {
     let robot = Robot::read(text, None);
+    let prepared = Prepared::new(robot.graph);
     let by = |name: &str, method: Method| {
         let way = by_name(name).expect("a formulation");
-        way.function(&Prepared::new(&robot.graph), method)
+        way.function(&prepared, method)
     };
     let mut rng = Rng::new(11);
     let states: Vec<State> = (0..3)

@@ -145,7 +145,7 @@ fn on_path(robot: &Robot, j: usize, i: usize) -> bool {
 
 /// Checks that the bond graph has the elements of the paper, and that its zeros and constants are correct.
 fn check_structure(robot: &Robot, d: &Derivatives, what: &str) {
-    let (graph, n, links) = (&robot.graph, robot.nv(), robot.mechanism.links().len());
+    let (graph, n, links) = (robot.graph, robot.nv(), robot.mechanism.links().len());
     for j in 0..n {
         let mine = |x: &&Junction| **x == Junction::Velocity(CoordinateId(j));
         assert_eq!(graph.junctions.iter().filter(mine).count(), 1, "{what}");

@@ -13,8 +13,8 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use crate::bond_graph::{BondGraph, SiteId};
-use crate::choice::Choice;
+use crate::bond_graph::SiteId;
+use crate::choice::GraphMethods;
 use crate::expr::{Builder, Expr, Graph, Leaf, copy_into};
 use crate::formulation::Formulation;
 use crate::math::{Mat3, Vec3};
@@ -41,7 +41,7 @@ pub struct EffortSums<'g, 'a> {
     /// The selected formulation; `None` for the cheapest one of each method.
     pub(crate) asked: Option<&'static dyn Formulation>,
     scene: &'a Scene,
-    graph: &'a BondGraph,
+    graph: &'a GraphMethods,
     x: Vec<Expr<'g>>,
     modes: Vec<Expr<'g>>,
     u: Vec<Expr<'g>>,
@@ -70,7 +70,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     pub(crate) fn empty(
         b: &'g Builder,
         scene: &'a Scene,
-        (graph, asked): (&'a BondGraph, Option<&'static dyn Formulation>),
+        (graph, asked): (&'a GraphMethods, Option<&'static dyn Formulation>),
         own: ActuatorEfforts,
         inputs: impl FnOnce() -> Vec<Expr<'g>>,
     ) -> Self {
@@ -121,11 +121,11 @@ impl<'g, 'a> EffortSums<'g, 'a> {
 /// leaves.
 pub(crate) fn copied<'g>(
     b: &'g Builder,
-    (graph, asked): (&BondGraph, Option<&'static dyn Formulation>),
+    (graph, asked): (&GraphMethods, Option<&'static dyn Formulation>),
     method: Method,
     leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Signed>,
 ) -> Vec<Expr<'g>> {
-    let Some(function) = Choice::new(graph, asked).function(method) else {
+    let Some(function) = graph.function(asked, method) else {
         return vec![];
     };
     let outputs = &function.blocks[0].outputs;

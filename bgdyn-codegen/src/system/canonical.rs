@@ -12,7 +12,7 @@ use super::holds::{StuckJoints, held};
 use super::jacobian::{Response, expressions};
 use super::{EffortSums, SceneEquations};
 use crate::bond_graph::BondGraph;
-use crate::choice::Choice;
+use crate::choice::GraphMethods;
 use crate::effort_sums::copied;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
@@ -62,7 +62,7 @@ impl MomentumFunction {
                 (0..n).map(row).collect()
             }
             MomentumFunction::Recursion => {
-                let still = weightless(&system.graph);
+                let still = GraphMethods::new(weightless(&system.graph));
                 let velocities = expressions(&sums.v);
                 let placed = |_: &mut Graph, leaf| match leaf {
                     Leaf::Acceleration(j) => Some(velocities[j]),
@@ -110,8 +110,7 @@ pub(super) fn momenta(system: &SceneEquations) -> Vec<Function> {
 
 /// Returns the alternatives for the velocities from momenta, which replace velocities among the leaves.
 pub(super) fn velocities(system: &SceneEquations) -> Vec<Function> {
-    let choice = Choice::new(&system.graph, None);
-    let ways = choice.forward_dynamics();
+    let ways = system.graph.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let outputs = expressions(&solved(system, &b, forward));
@@ -121,7 +120,7 @@ pub(super) fn velocities(system: &SceneEquations) -> Vec<Function> {
             ..system.flat(SceneFunction::FromCanonical, name, b, outputs)
         }
     };
-    ways.map(with).collect()
+    ways.iter().map(with).collect()
 }
 
 /// Returns v = M⁻¹ p by a function for forward dynamics.
@@ -143,8 +142,8 @@ pub(super) fn rates(system: &SceneEquations) -> Vec<Function> {
         true => &[Drift::Momenta, Drift::Energy],
         false => &[Drift::Momenta],
     };
-    let choice = Choice::new(&system.graph, None);
-    let Some(forward) = choice.forward_dynamics().next() else {
+    let ways = system.graph.forward_dynamics();
+    let Some(forward) = ways.first() else {
         return vec![];
     };
     let with = |&drift: &Drift| {

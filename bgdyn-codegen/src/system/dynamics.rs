@@ -16,8 +16,8 @@ pub(super) fn derivatives(system: &SceneEquations) -> Vec<Function> {
     if system.may_hold_joints() {
         return vec![with_modes(system, None)];
     }
-    let choice = Choice::new(&system.graph, None);
-    let ways = choice.forward_dynamics();
+    let ways = system.graph.forward_dynamics();
+    let ways = ways.iter();
     ways.map(|forward| without_modes(system, forward)).collect()
 }
 

@@ -1,7 +1,8 @@
 //! The equations of a scene as data: the scene, its bond graph, its start and its named results.
 
 use super::summed::summed;
-use crate::bond_graph::{BondGraph, BondNetwork};
+use crate::bond_graph::BondNetwork;
+use crate::choice::GraphMethods;
 use crate::effort_sums::ActuatorEfforts;
 use crate::expr::{Builder, Expr, Signed};
 use crate::function::Function;
@@ -13,8 +14,8 @@ use crate::scene::{Initial, Scene};
 pub struct SceneEquations {
     /// The scene.
     pub scene: Scene,
-    /// The bond graph of its mechanism, with the changes by its effects.
-    pub graph: BondGraph,
+    /// The bond graph of its mechanism, with the changes by its effects, and the functions chosen for it.
+    pub graph: GraphMethods,
     /// The nodes and bonds of the mechanism and of its effects.
     pub network: BondNetwork,
     /// Its initial state, including fluid volumes.

@@ -3,7 +3,6 @@
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::summed::summed;
 use super::{ActuatorEfforts, EffortSums, SceneEquations};
-use crate::choice::Choice;
 use crate::expr::{Builder, Expr};
 use crate::formulation;
 use crate::method::Method;
@@ -35,9 +34,8 @@ pub(super) fn held<'g>(
     let n = system.graph.coordinates.len();
     let own_holding = |j: usize, a: Expr<'g>| own_inertia(sums, j) * a - sums.effort(j);
     if sums.contacts().iter().all(|c| c.coordinate >= n) {
-        let choice = Choice::new(&system.graph, None);
-        let mut ways = choice.forward_dynamics();
-        let forward = ways.next().expect("there is a way");
+        let ways = system.graph.forward_dynamics();
+        let forward = ways.first().expect("there is a way");
         let mut accelerations = link_accelerations(b, forward, sums, system);
         accelerations.extend(own_accelerations(system, sums, &Holding::new(sums)));
         let contacts = sums.contacts().iter().map(|c| c.coordinate);

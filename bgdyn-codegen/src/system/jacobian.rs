@@ -11,7 +11,6 @@ use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::dynamics::{joined, rates};
 use super::holds::StuckJoints;
 use super::{ActuatorEfforts, EffortSums, SceneEquations, signals};
-use crate::choice::Choice;
 use crate::effort_sums::copied;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
@@ -95,8 +94,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
         let name = "M ∂v̇ = ∂E − ∂P, joints held or free".to_owned();
         return vec![system.flat(SceneFunction::Jacobian, name, b, columns)];
     }
-    let choice = Choice::new(&system.graph, None);
-    let ways = choice.forward_dynamics();
+    let ways = system.graph.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let columns = {
@@ -113,7 +111,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
             ..system.flat(SceneFunction::Jacobian, name, b, columns)
         }
     };
-    ways.map(with).collect()
+    ways.iter().map(with).collect()
 }
 
 /// Returns the columns of the Jacobian. M⁻¹ f is that of `response`, or that of the joints held or free.

@@ -25,6 +25,7 @@ use bgdyn_runtime::Dd;
 use summed::summed;
 
 use crate::bond_graph::{self, BondGraph, BondNetwork};
+use crate::choice::GraphMethods;
 use crate::effect;
 pub use crate::effort_sums::{
     ActuatorEfforts, Balance, Contact, EffortSums, Hold, LossyGear, Port, Reading,
@@ -56,7 +57,7 @@ impl SceneEquations {
             entries: Vec::new(),
             network: network(&scene, &graph),
             scene,
-            graph,
+            graph: GraphMethods::new(graph),
         };
         let mut faults = Faults::default();
         let b = Builder::silent();

@@ -1,6 +1,6 @@
 //! Sums the laws of a scene's effects on its junctions.
 
-use crate::bond_graph::BondGraph;
+use crate::choice::GraphMethods;
 use crate::effect;
 use crate::effort_sums::{ActuatorEfforts, EffortSums};
 use crate::expr::{Builder, Expr, Leaf};
@@ -12,7 +12,7 @@ use crate::scene::Scene;
 pub(super) fn summed<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
-    graph: &'a BondGraph,
+    graph: &'a GraphMethods,
     own: ActuatorEfforts,
 ) -> EffortSums<'g, 'a> {
     summed_by(b, scene, graph, own, None)
@@ -22,7 +22,7 @@ pub(super) fn summed<'g, 'a>(
 pub(super) fn summed_by<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
-    graph: &'a BondGraph,
+    graph: &'a GraphMethods,
     own: ActuatorEfforts,
     asked: Option<&'static dyn Formulation>,
 ) -> EffortSums<'g, 'a> {
@@ -38,7 +38,7 @@ pub(super) fn summed_by<'g, 'a>(
 pub(super) fn summed_under<'g, 'a>(
     b: &'g Builder,
     scene: &'a Scene,
-    graph: (&'a BondGraph, Option<&'static dyn Formulation>),
+    graph: (&'a GraphMethods, Option<&'static dyn Formulation>),
     own: ActuatorEfforts,
     inputs: impl FnOnce() -> Vec<Expr<'g>>,
 ) -> EffortSums<'g, 'a> {

@@ -16,25 +16,32 @@ pub mod random;
 pub mod rng;
 pub mod values;
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
 use bgdyn_codegen::bond_graph::{self, BondGraph};
-use bgdyn_codegen::choice::Choice;
+use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation::{self, Prepared};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
 use bgdyn_runtime::{Dd, Scalar};
 use rng::Rng;
 
 /// Both formulations by name.
 pub const FORMULATIONS: [&str; 2] = ["literal", "recursion"];
 
-/// A mechanism with its bond graph.
+/// A mechanism with its bond graph, and with what was found of it: the search for plans takes most of the
+/// time of a function, and is made once.
 pub struct Robot {
     pub mechanism: Mechanism,
-    pub graph: BondGraph,
+    /// Not freed: the rest refers to it.
+    pub graph: &'static BondGraph,
+    prepared: Prepared<'static>,
+    /// By formulation; `None` is the generator's own choice.
+    choices: RefCell<BTreeMap<Option<String>, Rc<Choice<'static>>>>,
 }
 
 impl Robot {
@@ -44,8 +51,24 @@ impl Robot {
         let Some(mechanism) = mechanism else {
             panic!("the spec is refused: {faults:?}\n{text}");
         };
-        let graph = bond_graph::build(&mechanism);
-        Robot { mechanism, graph }
+        let graph: &'static BondGraph = Box::leak(Box::new(bond_graph::build(&mechanism)));
+        Robot {
+            mechanism,
+            graph,
+            prepared: Prepared::new(graph),
+            choices: RefCell::default(),
+        }
+    }
+
+    /// Returns the choice of functions, of one formulation or of all.
+    fn choice(&self, formulation: Option<&str>) -> Rc<Choice<'static>> {
+        let mut choices = self.choices.borrow_mut();
+        let choice = choices.entry(formulation.map(str::to_owned));
+        let new = || {
+            let named = |name| formulation::by_name(name).expect("a formulation of this name");
+            Rc::new(Choice::new(self.graph, formulation.map(named)))
+        };
+        choice.or_insert_with(new).clone()
     }
 
     pub fn nv(&self) -> usize {
@@ -67,25 +90,27 @@ impl Robot {
 
     /// The function of a method by the named formulation, as it is emitted.
     pub fn function(&self, formulation: &str, method: Method) -> Function {
-        let options = Options {
-            formulation: formulation::by_name(formulation),
-            ..Options::default()
-        };
-        assert!(options.formulation.is_some(), "{formulation}?");
-        let made = pipeline::function(&self.mechanism, method, &options);
+        let choice = self.choice(Some(formulation));
+        let made = prefer(&choice, method, Preference::default());
         made.expect("every formulation knows every method")
+    }
+
+    /// Returns the generator's own function of a method, as it is emitted.
+    pub fn emitted(&self, method: Method) -> Function {
+        let made = prefer(&self.choice(None), method, Preference::default());
+        made.expect("every method is known")
     }
 
     /// Returns the default function of a method, in one block.
     pub fn chosen(&self, method: Method) -> Function {
-        let found = Choice::new(&self.graph, None).function(method);
+        let found = self.choice(None).function(method);
         found.expect("every method is known").as_ref().clone()
     }
 
     /// Returns the same before long functions are cut into blocks: one graph, for differentiation.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
-        let made = formulation.function(&Prepared::new(&self.graph), method);
+        let made = formulation.function(&self.prepared, method);
         made.expect("every formulation knows every method")
     }
 }

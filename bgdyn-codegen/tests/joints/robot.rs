@@ -7,13 +7,12 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use bgdyn_codegen::bond_graph::{self, BondGraph, SiteId};
+use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::formulation;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::{Dd, Scalar};
 
@@ -34,8 +33,11 @@ pub fn golden_text(file: &str) -> String {
 /// A mechanism with its bond graph.
 pub struct Robot {
     pub mechanism: Mechanism,
-    pub graph: BondGraph,
+    /// Not freed: the choices refer to it.
+    pub graph: &'static BondGraph,
     made: RefCell<BTreeMap<(Way, Method), Rc<Function>>>,
+    /// What was found so far: the search for plans takes most of the time of a function.
+    choices: RefCell<BTreeMap<Way, Rc<Choice<'static>>>>,
 }
 
 /// Arguments of all methods.
@@ -54,11 +56,11 @@ impl Robot {
         let Some(mechanism) = mechanism else {
             panic!("{}", faults.render("spec.yaml", text));
         };
-        let graph = bond_graph::build(&mechanism);
         Robot {
+            graph: Box::leak(Box::new(bond_graph::build(&mechanism))),
             mechanism,
-            graph,
             made: RefCell::default(),
+            choices: RefCell::default(),
         }
     }
 
@@ -82,11 +84,15 @@ impl Robot {
     }
 
     fn make(&self, way: Way, method: Method) -> Function {
-        let options = Options {
-            formulation: way.map(|name| formulation::by_name(name).expect("a formulation")),
-            ..Options::default()
-        };
-        let made = pipeline::function(&self.mechanism, method, &options);
+        let named = |name| formulation::by_name(name).expect("a formulation");
+        let new = || Rc::new(Choice::new(self.graph, way.map(named)));
+        let choice = self
+            .choices
+            .borrow_mut()
+            .entry(way)
+            .or_insert_with(new)
+            .clone();
+        let made = prefer(&choice, method, Preference::default());
         let made = made.unwrap_or_else(|| panic!("{way:?} does not know {method:?}"));
         if let Some(name) = way {
             let derived = [

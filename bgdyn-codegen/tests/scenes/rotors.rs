@@ -1,6 +1,8 @@
 //! Tests full rotors anywhere: on a link inboard of their own joint, on the one that it moves, outboard,
 //! on another branch; alone and with other effects.
 
+use bgdyn_codegen::choice::Choice;
+use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::random::Random;
 use std::fmt::Write;
 
@@ -8,7 +10,7 @@ use super::common::{scene, state};
 use super::random::Draft;
 use super::rng::Rng;
 use super::{forms, laws};
-use bgdyn_codegen::formulation::by_name;
+use bgdyn_codegen::formulation::{Prepared, by_name};
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
@@ -62,6 +64,15 @@ fn with_rotors(rotors: &[(&str, &str)]) -> SceneEquations {
 
 /// M, the inverse and its slopes by the recursion equal those of the literal sum.
 fn equals_the_literal_sum(system: &SceneEquations) {
+    let prepared = Prepared::new(&system.graph);
+    let literal = Choice::new(&system.graph, by_name("literal"));
+    let states: Vec<Inputs<Dd>> = (0..4)
+        .map(|seed| {
+            let mut at = state(system, &mut Random(seed), true);
+            at.u = at.a.iter().map(|&a| a * Dd::from_f64(0.7)).collect();
+            at
+        })
+        .collect();
     for method in [
         Method::MassMatrix,
         Method::Bias,
@@ -71,23 +82,16 @@ fn equals_the_literal_sum(system: &SceneEquations) {
         Method::InverseDynamicsDerivatives,
         Method::ForwardDynamics,
     ] {
-        let by = |name: &str| {
-            let way = by_name(name).expect("a formulation");
-            bgdyn_codegen::choice::Choice::new(&system.graph, Some(way))
-        };
-        let literal = by("literal").function(method).expect("the literal sum");
+        let literal = literal.function(method).expect("the literal sum");
         for name in ["recursion", "recursion_own", "subspaces"] {
-            if !by_name(name).expect("a formulation").knows(method) {
+            let way = by_name(name).expect("a formulation");
+            if !way.knows(method) {
                 continue;
             }
-            let way = by_name(name).expect("a formulation");
-            let prepared = bgdyn_codegen::formulation::Prepared::new(&system.graph);
             let found = way.function(&prepared, method).expect("a function");
-            for seed in 0..4 {
-                let mut at = state(system, &mut Random(seed), true);
-                at.u = at.a.iter().map(|&a| a * Dd::from_f64(0.7)).collect();
+            for at in &states {
                 let (wanted, _) = literal.evaluate(at.clone());
-                let (found, refused) = found.evaluate(at);
+                let (found, refused) = found.evaluate(at.clone());
                 assert!(refused.is_none());
                 let size = wanted.iter().map(|x| x.to_f64().abs()).fold(1.0, f64::max);
                 for (i, (found, wanted)) in found.iter().zip(&wanted).enumerate() {

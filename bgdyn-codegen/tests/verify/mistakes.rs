@@ -1,7 +1,7 @@
 //! Functions with an error of each known kind: each is found.
 
 use bgdyn_codegen::bond_graph::{self, BondGraph, Gyrostat, Rotor};
-use bgdyn_codegen::choice::Choice;
+use bgdyn_codegen::choice::{Choice, GraphMethods};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{LinkId, Value};
@@ -20,8 +20,12 @@ fn found(
     change: impl Fn(&mut BondGraph),
     roles: &[SceneFunction],
 ) -> Vec<Difference> {
-    let mut wrong = right.clone();
-    change(&mut wrong.graph);
+    let mut graph = BondGraph::clone(&right.graph);
+    change(&mut graph);
+    let wrong = SceneEquations {
+        graph: GraphMethods::new(graph),
+        ..right.clone()
+    };
     let mut mixed = functions(right);
     for function in &mut mixed {
         if roles
