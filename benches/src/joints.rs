@@ -16,7 +16,9 @@ pub fn joint_kinds(mechanism: &Mechanism) -> Result<Vec<JointKind>, String> {
         .find(|l| l.joint.degrees.coupling.is_some());
     if let Some(link) = follower {
         let name = &link.joint.name;
-        return Err(format!("joint {name}: peers have no joint that follows others"));
+        return Err(format!(
+            "joint {name}: peers have no joint that follows others"
+        ));
     }
     let kind = |link: LinkId| {
         let joint = &mechanism.links()[link.0].joint;

@@ -153,7 +153,7 @@ fn accuracy_is_better_at_other_states() {
 fn accuracy_is_the_best_of_all() {
     for name in ["scara4", "puma560", "dpend2"] {
         let robot = common::golden::robot(name);
-        let measured = |f: &Function| rounding_error(f, &robot.graph).expect("regular states");
+        let measured = |f: &Function| rounding_error(f, robot.graph).expect("regular states");
         let s = State::random(&mut Rng::new(3), &robot.motions());
         for method in Method::OF_TRAIT {
             let literal: Vec<Dd> = s.value(&robot.function("literal", method));

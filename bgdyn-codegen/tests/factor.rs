@@ -202,7 +202,7 @@ fn mechanism(seed: u64, most: usize) {
             let (graph, outputs) = factor(whole.graph.clone(), outputs);
             assert!(never_more(before, count(&graph, &outputs)), "{what}");
             let title = String::new();
-            let again = Function::flat(&robot.graph, method, title, graph, outputs);
+            let again = Function::flat(robot.graph, method, title, graph, outputs);
             let refused = |f: &Function| f.evaluate::<f64>(state.inputs()).1;
             assert_eq!(refused(&again), refused(&whole), "{what}: refused pivots");
             compare(

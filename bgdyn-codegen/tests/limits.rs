@@ -150,7 +150,7 @@ fn run(states: usize, usual: usize) {
     for path in &paths {
         let text = fs::read_to_string(path).expect("a spec");
         let robot = Robot::read(&text, Some(&stem(path)));
-        let choice = Choice::new(&robot.graph, None);
+        let choice = Choice::new(robot.graph, None);
         for method in Method::possible(&robot.graph.sites) {
             let f = choice.function(method).expect("every method is known");
             let mut rng = Rng::new(1300 + methods as u64);

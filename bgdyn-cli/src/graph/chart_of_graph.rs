@@ -43,6 +43,7 @@ impl Chart {
             }
         };
         let order: Vec<CoordinateId> = links.iter().flat_map(own).collect();
+        let begins = beginnings(graph, &links, &order);
         let moved = |i: &LinkId| {
             let junctions = [graph.translation(*i), graph.rotation(*i)];
             graph.transformers.iter().any(|t| junctions.contains(&t.to))
@@ -53,7 +54,7 @@ impl Chart {
         let name = |i: LinkId| graph.frames[i.0].name.clone();
         let moving = moving
             .into_iter()
-            .map(|i| (i, link(graph, unfolding, &order, i)));
+            .map(|i| (i, link(graph, unfolding, (&order, &begins), i)));
         let (links, folded) = fold_massless(graph, moving.collect());
         Chart {
             title: title.to_owned(),
@@ -144,10 +145,18 @@ fn velocity(graph: &BondGraph, unfolding: &mut Unfolding<'_>, j: CoordinateId) -
     }
 }
 
+/// Returns for each velocity the first link, in the order of the drawing, whose joint moves by it: its own, or one
+/// that follows.
+fn beginnings(graph: &BondGraph, links: &[LinkId], order: &[CoordinateId]) -> Vec<Option<LinkId>> {
+    let moves = |i: LinkId, j: &CoordinateId| graph.frames[i.0].degrees.velocities.contains(j);
+    let first = |j: &CoordinateId| links.iter().copied().find(|&i| moves(i, j));
+    order.iter().map(first).collect()
+}
+
 fn link(
     graph: &BondGraph,
     unfolding: &Unfolding<'_>,
-    order: &[CoordinateId],
+    (order, begins): (&[CoordinateId], &[Option<LinkId>]),
     i: LinkId,
 ) -> ChartLink {
     let frame = &graph.frames[i.0];
@@ -162,9 +171,7 @@ fn link(
     let flows = flows.into_iter().filter(acts);
     ChartLink {
         name: frame.name.clone(),
-        velocities: (0..order.len())
-            .filter(|&k| frame.degrees.velocities.contains(&order[k]))
-            .collect(),
+        velocities: (0..order.len()).filter(|&k| begins[k] == Some(i)).collect(),
         flows: flows.collect(),
     }
 }

@@ -197,7 +197,7 @@ impl BondNetwork {
         let end = match leaders.len() {
             0 | 1 => one,
             _ => {
-                let sum = self.add(NodeKind::Zero, format!("sum of flows for {name}"));
+                let sum = self.add(NodeKind::Zero, "Σ");
                 self.bond(sum, one);
                 sum
             }

@@ -11,7 +11,7 @@ use crate::function::Function;
 use crate::method::Method;
 
 /// Functions by the name of the selected formulation, and by method. `None`: no formulation creates it.
-type Chosen = BTreeMap<(Option<&'static str>, Method), Option<Arc<Function>>>;
+type ChosenFunctions = BTreeMap<(Option<&'static str>, Method), Option<Arc<Function>>>;
 
 /// A bond graph, and the functions that were chosen for it. The functions of a scene use the same methods of the
 /// mechanism, and the search for the cheapest one takes long. The graph cannot be changed here: the functions would
@@ -19,7 +19,7 @@ type Chosen = BTreeMap<(Option<&'static str>, Method), Option<Arc<Function>>>;
 #[derive(Debug)]
 pub struct GraphMethods {
     graph: BondGraph,
-    chosen: Mutex<Chosen>,
+    chosen: Mutex<ChosenFunctions>,
     forward: OnceLock<Arc<[Function]>>,
 }
 
@@ -41,7 +41,7 @@ impl GraphMethods {
         method: Method,
     ) -> Option<Arc<Function>> {
         let key = (asked.map(Formulation::name), method);
-        let known = |chosen: &Chosen| chosen.get(&key).cloned();
+        let known = |chosen: &ChosenFunctions| chosen.get(&key).cloned();
         if let Some(function) = known(&self.chosen.lock().unwrap_or_else(PoisonError::into_inner)) {
             return function;
         }

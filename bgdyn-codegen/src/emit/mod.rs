@@ -8,6 +8,7 @@ mod constants;
 mod entries;
 mod explain;
 mod joint_access;
+mod joint_segments;
 mod legend;
 mod loops;
 mod module;

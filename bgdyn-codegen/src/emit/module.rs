@@ -8,7 +8,7 @@ use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{body, code, constants, entries, explain, traits};
+use super::{body, code, constants, entries, explain, joint_segments, traits};
 use crate::bond_graph::PositionVariable;
 use crate::function::Function;
 use crate::method::Method;
@@ -33,7 +33,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
         name: &struct_name,
         methods: &present,
         sites: &model.bond_graph.sites,
-        joints: Some(traits::segments(&model.bond_graph)),
+        joints: Some(joint_segments::segments(&model.bond_graph)),
     };
     let traits = traits.tokens();
     let access = joint_access(&model.mechanism);

@@ -4,9 +4,10 @@
 //! roughly the order of the statements in long code, and stored values cost twice: by their instructions, and by
 //! code that no longer fits in the instruction cache (`docs/order.md`).
 
-use super::statements::STATEMENT;
 use crate::expr::{Graph, Node, NodeId, Signed};
 
+/// Largest number of operations in one statement, for readability.
+pub(super) const STATEMENT: usize = 6;
 /// Mean number of waiting values from which another order is looked for: in code with fewer, little is stored.
 const MANY: f64 = 40.0;
 /// Another order is taken if its mean number of waiting values is at most this part of the original one.
@@ -22,7 +23,7 @@ pub(super) fn order(
     outputs: &[Signed],
     stored: bool,
 ) -> Option<Vec<NodeId>> {
-    let block = Block::new(graph, needed, outputs, stored);
+    let block = StatementBlock::new(graph, needed, outputs, stored);
     let limit = block.mean_waiting(&block.operations);
     if limit < MANY {
         return None;
@@ -54,7 +55,7 @@ pub(super) fn order(
 
 /// Operations of a block, and who reads whom among them. An operation with one reader is part of the reader's
 /// statement.
-struct Block<'a> {
+struct StatementBlock<'a> {
     outputs: &'a [Signed],
     /// Nodes that are written first: arguments, constants, and sines of arguments.
     early: Vec<usize>,
@@ -72,9 +73,9 @@ struct Block<'a> {
     waits_for_end: Vec<bool>,
 }
 
-impl<'a> Block<'a> {
+impl<'a> StatementBlock<'a> {
     fn new(graph: &Graph, needed: &[bool], outputs: &'a [Signed], stored: bool) -> Self {
-        let mut block = Block {
+        let mut block = StatementBlock {
             outputs,
             early: Vec::new(),
             operations: Vec::new(),
@@ -100,7 +101,7 @@ impl<'a> Block<'a> {
             });
             late.sort_unstable();
             late.dedup();
-            if late.is_empty() && is_argument(node) {
+            if late.is_empty() && parts.is_empty() && is_argument(node) {
                 is_early[i] = true;
                 block.early.push(i);
                 continue;
@@ -281,7 +282,7 @@ mod tests {
         let found =
             order(&g, &needed, &outputs, false).expect("60 values wait; a statement reads seven");
         check(&g, &needed, &found);
-        let block = Block::new(&g, &needed, &outputs, false);
+        let block = StatementBlock::new(&g, &needed, &outputs, false);
         assert!(block.mean_waiting(&block.operations) > 50.0);
         assert!(block.mean_waiting(&block.newest_first()) < 8.0);
         assert_eq!(block.depth_first().len(), block.operations.len());
@@ -289,12 +290,25 @@ mod tests {
         assert_eq!(order(&g, &reachable(&g, &outputs), &outputs, false), None);
     }
 
+    /// A product that only a sine reads belongs to the sine's statement: the sine is not written with the arguments.
+    #[test]
+    fn sines_of_products_follow_the_products() {
+        let (mut g, mut outputs) = chains(60, false);
+        let (rate, time) = (g.leaf(Leaf::Velocity(3)), g.leaf(Leaf::Time));
+        let angle = g.mul(rate, time);
+        let sine = g.sin(angle);
+        outputs.push(sine);
+        let needed = reachable(&g, &outputs);
+        let found = order(&g, &needed, &outputs, false).expect("60 values wait");
+        check(&g, &needed, &found);
+    }
+
     /// The first refused pivot is reported, so that their order must not change.
     #[test]
     fn pivots_keep_their_order() {
         let (g, outputs) = chains(60, true);
         let needed = reachable(&g, &outputs);
-        let block = Block::new(&g, &needed, &outputs, false);
+        let block = StatementBlock::new(&g, &needed, &outputs, false);
         let found = block.newest_first();
         assert_eq!(found.len(), block.operations.len());
         let pivots = found

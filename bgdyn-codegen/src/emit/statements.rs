@@ -6,15 +6,12 @@ use quote::{ToTokens, quote};
 
 use super::code::{Binding, Code, atom, leaves};
 use super::named_constants::unit_of_length;
-use super::order::order;
+use super::order::{STATEMENT, order};
 use super::tokens::{COMMENT, number};
 use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
 use crate::function::Function;
 use crate::legend::LegendQuantity;
-
-/// Largest number of operations in one statement, for readability.
-pub(super) const STATEMENT: usize = 6;
 
 impl Writer<'_> {
     /// Emits the statements of a block.

@@ -166,13 +166,13 @@ fn functions_of_another_mechanism_are_refused() {
         assert_ne!(other, text);
         let right = Robot::read(text);
         let functions: Vec<Function> = whole(&other, None).functions;
-        let found = check_functions("other", &right.graph, &functions);
+        let found = check_functions("other", right.graph, &functions);
         let names: Vec<&str> = found.iter().map(|d| d.function.as_str()).collect();
         for function in ["inverse_dynamics", "bias", "forward_dynamics"] {
             assert!(names.contains(&function), "{by}: only {names:?}");
         }
         assert_eq!(
-            check_functions("same", &right.graph, &whole(text, None).functions),
+            check_functions("same", right.graph, &whole(text, None).functions),
             []
         );
     }

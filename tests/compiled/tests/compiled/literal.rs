@@ -24,7 +24,7 @@ fn is_equation_six(compiled: &dyn Compiled<f64>) -> bool {
     if robot.nv() > JOINTS {
         return false;
     }
-    let prepared = Prepared::new(&robot.graph);
+    let prepared = Prepared::new(robot.graph);
     let mut rng = Rng::new(6);
     let states: Vec<State> = (0..STATES)
         .map(|_| State::random(&mut rng, &robot.motions()))
