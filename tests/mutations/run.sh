@@ -165,6 +165,17 @@ mutate "moving base" $recursion/body_joint.rs \
 mutate "followers in the mass matrix" $recursion/mass_matrix.rs \
     'm.along(column) * column.effort * m.effort' 'm.along(column) * m.effort' "${codegen[@]}" joints mimic::
 
+# Constraints.
+constraint=bgdyn-codegen/src/mechanism/check/constraint
+mutate "dependent joints of a row" $constraint/elimination.rs \
+    'ratio: -k,' 'ratio: k,' "${codegen[@]}" joints constraint
+mutate "offsets of replaced leaders" $constraint/couple.rs \
+    'constant += leader.ratio * own;' 'constant += own;' "${codegen[@]}" joints constraints::
+mutate "position of a joint followed in velocity" bgdyn-codegen/src/emit/joint_segments.rs \
+    'quote! { #q + (#moved) }' 'quote! { #q - (#moved) }' -p bgdyn --test free_joints laws::
+mutate "locked leaders" bgdyn-codegen/src/mechanism/lock.rs \
+    'Some(leader.ratio * *at)' 'Some(*at)' "${codegen[@]}" joints coupled_scenes::
+
 if [[ $survivors -gt 0 ]]; then
     echo "$survivors mutations were not caught, or could not be made" >&2
     exit 1
