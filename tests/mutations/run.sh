@@ -170,7 +170,7 @@ constraint=bgdyn-codegen/src/mechanism/check/constraint
 mutate "dependent joints of a row" $constraint/elimination.rs \
     'ratio: -k,' 'ratio: k,' "${codegen[@]}" joints constraint
 mutate "offsets of replaced leaders" $constraint/couple.rs \
-    'constant += leader.ratio * own;' 'constant += own;' "${codegen[@]}" joints constraints::
+    'constant = sum(constant, leader.ratio * own);' 'constant = sum(constant, own);' "${codegen[@]}" joints constraints::
 mutate "position of a joint followed in velocity" bgdyn-codegen/src/emit/joint_segments.rs \
     'quote! { #q + (#moved) }' 'quote! { #q - (#moved) }' -p bgdyn --test free_joints laws::
 mutate "locked leaders" bgdyn-codegen/src/mechanism/lock.rs \

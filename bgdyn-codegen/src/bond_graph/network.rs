@@ -80,7 +80,7 @@ impl BondNetwork {
         network
     }
 
-    /// Names a joint with `mimic`, and the joint that it follows. The junction of its velocity is added where an
+    /// Names a joint that follows others, and those with the texts of the ratios. The junction of its velocity is added where an
     /// effect acts on it.
     pub fn follow(&mut self, joint: &str, leaders: Vec<(String, String)>) {
         self.followers.push((joint.to_owned(), leaders));

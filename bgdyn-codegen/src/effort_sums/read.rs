@@ -216,7 +216,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
         let x = x.signed();
         let one = |g: &mut Graph| g.constant(Dd::ONE);
-        if self.scene.layout.coupled().is_empty() {
+        if self.scene.layout.quasi_joints.is_empty() {
             let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| one(g));
             return self
                 .b

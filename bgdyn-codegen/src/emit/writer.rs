@@ -30,7 +30,7 @@ pub(super) struct Writer<'a> {
     /// The section of the last statement.
     section: Option<&'a str>,
     pub(super) needed: Vec<bool>,
-    /// Whether statements of several sections are mixed, so that none has a title.
+    /// Whether the statements of one section are between those of others; such a block has no titles.
     pub(super) mixed: bool,
     /// Whether the block is a function of its own.
     separate: bool,

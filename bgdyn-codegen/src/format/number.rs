@@ -38,7 +38,14 @@ pub(super) fn number(
         Some(divisor) if divisor == Dd::ZERO => {
             return Err(wording::division_by_zero(location, text));
         }
-        Some(divisor) => value / divisor,
+        Some(divisor) => {
+            let quotient = value / divisor;
+            let size = quotient.to_f64().abs();
+            if size != 0.0 && !SIZES.contains(&size) {
+                return Err(wording::out_of_range(location, text));
+            }
+            quotient
+        }
     };
     if unit.is_none() && divisor.is_none() && kind != YamlKind::Number {
         return Err(wording::number_as_text(

@@ -100,10 +100,7 @@ impl Degrees {
         let values: Vec<Dd> = self.positions.iter().map(value).collect();
         match &self.coupling {
             None => values,
-            Some(_) => {
-                let terms = values.into_iter().zip(self.position_ratios());
-                vec![terms.fold(self.offset(), |sum, (q, ratio)| ratio * q + sum)]
-            }
+            Some(_) => vec![weighted(&values, &self.position_ratios(), self.offset())],
         }
     }
 
@@ -112,10 +109,7 @@ impl Degrees {
         let values: Vec<Dd> = self.velocities.iter().map(value).collect();
         match &self.coupling {
             None => values,
-            Some(_) => {
-                let terms = values.into_iter().zip(self.velocity_ratios());
-                vec![terms.fold(Dd::ZERO, |sum, (v, ratio)| ratio * v + sum)]
-            }
+            Some(_) => vec![weighted(&values, &self.velocity_ratios(), Dd::ZERO)],
         }
     }
 
@@ -167,6 +161,12 @@ impl Degrees {
                 .collect(),
         )
     }
+}
+
+/// Returns Σ ratio · value + offset.
+fn weighted(values: &[Dd], ratios: &[Dd], offset: Dd) -> Dd {
+    let terms = values.iter().zip(ratios);
+    terms.fold(offset, |sum, (x, ratio)| *ratio * *x + sum)
 }
 
 fn ratios(leaders: &[Leader]) -> Vec<Dd> {

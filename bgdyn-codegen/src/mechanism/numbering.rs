@@ -14,11 +14,11 @@ impl Mechanism {
             let motion = joint.kind.motion;
             joint.coordinate = None;
             (joint.degrees.positions, joint.degrees.velocities) = (vec![], vec![]);
-            for _ in 0..if joint.degrees.own_positions() {
-                motion.nq()
-            } else {
-                0
-            } {
+            let own_positions = match joint.degrees.own_positions() {
+                true => motion.nq(),
+                false => 0,
+            };
+            for _ in 0..own_positions {
                 joint.degrees.positions.push(PositionId(positions.len()));
                 positions.push(LinkId(i));
             }

@@ -14,6 +14,14 @@ struct Row {
     offset: Option<Dd>,
 }
 
+impl Row {
+    /// Returns the coefficient of the joint with this name.
+    fn coefficient(&self, name: &str) -> Dd {
+        let own = self.terms.iter().filter(|(j, _)| format!("j{j}") == name);
+        own.fold(Dd::ZERO, |sum, (_, k)| sum + *k)
+    }
+}
+
 /// Joints of one degree in two branches on a ball, with axes that are not those of any frame.
 fn links(random: &mut Random, count: usize) -> String {
     let mut text = "format: 1\nname: coupled\ngravity: [0.3, -0.4, -9.7]\nlinks:\n  - name: root\n    \
@@ -117,15 +125,7 @@ fn kept(one: &Mechanism, other: &Mechanism) -> (Vec<String>, Vec<usize>) {
 fn reduction(rows: &[Row], kept: &[usize], all: &[String]) -> Option<Vec<Vec<Dd>>> {
     let n = all.len();
     let dependent: Vec<usize> = (0..n).filter(|i| !kept.contains(i)).collect();
-    let column = |j: usize| {
-        all.iter()
-            .position(|name| *name == format!("j{j}"))
-            .expect("a joint")
-    };
-    let entry = |row: &Row, i: usize| {
-        let own = row.terms.iter().filter(|(j, _)| column(*j) == i);
-        own.fold(Dd::ZERO, |sum, (_, k)| sum + *k)
-    };
+    let entry = |row: &Row, i: usize| row.coefficient(&all[i]);
     let a = rows
         .iter()
         .map(|row| dependent.iter().map(|&i| entry(row, i)).collect());
@@ -160,15 +160,7 @@ fn positions(one: &Mechanism, other: &Mechanism, rows: &[Row], q: &[Dd]) -> Vec<
         holonomic.len(),
         "as many dependent positions as rows"
     );
-    let column = |j: usize| {
-        all.iter()
-            .position(|name| *name == format!("j{j}"))
-            .expect("a joint")
-    };
-    let entry = |row: &Row, i: usize| {
-        let own = row.terms.iter().filter(|(j, _)| column(*j) == i);
-        own.fold(Dd::ZERO, |sum, (_, k)| sum + *k)
-    };
+    let entry = |row: &Row, i: usize| row.coefficient(&all[i]);
     let a = holonomic
         .iter()
         .map(|row| missing.iter().map(|&i| entry(row, i)).collect());

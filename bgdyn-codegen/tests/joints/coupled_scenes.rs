@@ -208,7 +208,9 @@ fn constraints_on_velocities_only_are_refused_in_scenes() {
         "`gear`",
         "own methods support",
     ];
-    refused((LINEAR, "velocity-constraint"), "", "", &words);
+    for lock in ["", "lock: { left: 0, right: 0 }"] {
+        refused((LINEAR, "velocity-constraint"), "", lock, &words);
+    }
 }
 
 /// The scene of the gear with a further joint, so that something moves.

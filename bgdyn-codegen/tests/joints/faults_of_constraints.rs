@@ -208,3 +208,92 @@ fn independent_joints() {
         &["spherical"],
     );
 }
+
+/// 1 + (1/3)(−3) = 0: what cancels by a `mimic` is no coefficient, however it is rounded.
+#[test]
+fn coefficients_that_cancel_by_a_mimic() {
+    let text = |ratio: &str, k: &str, offset: &str| {
+        let joints = [
+            "name: left, type: revolute".to_owned(),
+            format!(
+                "name: right, type: revolute, mimic: {{ joint: left, ratio: {ratio}, offset: {offset} }}"
+            ),
+        ];
+        let joints: Vec<&str> = joints.iter().map(String::as_str).collect();
+        with_joints(&joints)
+            + &format!("constraints:\n  c: {{ type: gear, joints: {{ left: 1, right: {k} }} }}\n")
+    };
+    for (ratio, k, offset, rule) in [
+        ("-3", "1/3", "0", "dependent-row"),
+        ("-7/11", "11/7", "0", "dependent-row"),
+        ("-1.1", "10/11", "0.25", "contradicting-rows"),
+    ] {
+        let text = text(ratio, k, offset);
+        let faults = found(&text);
+        let rules: Vec<&str> = faults.0.iter().map(|fault| fault.rule).collect();
+        assert_eq!(rules, [rule], "{}", faults.render("arm.yaml", &text));
+        assert!(
+            faults.0[0].message.contains("cancel"),
+            "{}",
+            faults.0[0].message
+        );
+    }
+}
+
+#[test]
+fn rows_on_velocities() {
+    one(
+        "{ type: linear, row: { left: 2 } }",
+        "no-motion-left",
+        "",
+        &["`left` no motion", "its velocity is 0"],
+    );
+    // The offset of a gear is none of the velocities.
+    let gear = "  a: { type: gear, joints: { left: 1, right: 2 }, offset: 0.3 }\n";
+    let rates = "  b: { type: linear, row: { left: 1/2, right: 1 } }\n";
+    refused(
+        &format!("{gear}{rates}"),
+        "",
+        "dependent-row",
+        "constraints.b",
+        &["`b`", "cancel"],
+    );
+}
+
+#[test]
+fn limits_and_names_and_mimics() {
+    let joints = [
+        "name: left, type: revolute, limits: { lower: 0, upper: 1 }",
+        "name: right, type: revolute, limits: { lower: 3, upper: 4 }",
+        "name: third, type: revolute, mimic: { joint: left }",
+    ];
+    let frames = "frames:\n  - { name: tip, link: l0 }\n";
+    for (constraints, rule, path, word) in [
+        (
+            "constraints:\n  c: { type: gear, joints: { left: 1, right: -1 } }\n",
+            "constraint-empty-range",
+            "constraints.c",
+            "at least 3 and at most 1",
+        ),
+        (
+            "constraints:\n  tip: { type: gear, joints: { left: 3, right: -1 } }\n",
+            "repeated-name",
+            "constraints.tip",
+            "`tip`",
+        ),
+        (
+            "independent: [third]\n",
+            "independent-follower",
+            "independent[0]",
+            "it follows `left`",
+        ),
+    ] {
+        let text = with_joints(&joints) + frames + constraints;
+        let faults = found(&text);
+        let shown = faults.render("arm.yaml", &text);
+        assert_eq!(faults.0.len(), 1, "{shown}");
+        let fault = &faults.0[0];
+        assert_eq!((fault.rule, fault.path.as_str()), (rule, path), "{shown}");
+        assert!(fault.message.contains(word), "{shown}");
+    }
+}

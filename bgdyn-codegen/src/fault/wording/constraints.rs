@@ -4,8 +4,11 @@ use super::{quote, quoted_list, six_digits, suggestion};
 use crate::fault::{Fault, Location};
 use crate::unit::Dimension;
 
-pub(crate) fn constraint_has_name_of_body(location: &Location, name: &str) -> Fault {
-    let message = format!("{} is the name of a link or a joint already", quote(name));
+pub(crate) fn constraint_has_taken_name(location: &Location, name: &str) -> Fault {
+    let message = format!(
+        "{} is the name of a link, a joint, a frame or an effect already",
+        quote(name)
+    );
     Fault::new(location, "repeated-name", message)
         .with_help("choose another name for the constraint")
 }
@@ -83,10 +86,10 @@ pub(crate) fn mixed_row(
     )
 }
 
-pub(crate) fn independent_follower(location: &Location, joint: &str, leaders: &[String]) -> Fault {
+pub(crate) fn independent_follower(location: &Location, joint: &str, leaders: &[&str]) -> Fault {
     let message = format!(
         "`{joint}` is listed as `independent`, and it has `mimic`: it follows {}",
-        quoted_list(leaders.iter().map(String::as_str))
+        quoted_list(leaders.iter().copied())
     );
     Fault::new(location, "independent-follower", message)
         .with_help("write a constraint `gear` in place of `mimic`, or list another joint")
@@ -102,7 +105,7 @@ pub(crate) fn row_of_independents(location: &Location, name: &str, joints: &[&st
         .with_help("take one of them out of `independent`: each constraint makes one joint follow")
 }
 
-/// Returns "2 `a` − 1 `b`".
+/// Returns the sum of rows with factors: "2 · `a` + -1 · `b`".
 fn combination(rows: &[(&str, f64)]) -> String {
     let term = |(name, factor): &(&str, f64)| format!("{} · {}", six_digits(*factor), quote(name));
     rows.iter().map(term).collect::<Vec<_>>().join(" + ")
@@ -145,18 +148,40 @@ pub(crate) fn contradicting_row(
         .with_help("leave one of them out, or correct an `offset`")
 }
 
-pub(crate) fn no_motion_left(location: &Location, joint: &str, rows: &[&str], at: f64) -> Fault {
+pub(crate) fn constraint_empty_range(
+    location: &Location,
+    leader: &str,
+    [lower, upper]: [f64; 2],
+) -> Fault {
     let message = format!(
-        "{} leaves the joint `{joint}` no motion: it is fixed at {}",
-        match rows {
-            [row] => format!("the constraint {}", quote(row)),
-            _ => format!(
-                "the constraints {} together",
-                quoted_list(rows.iter().copied())
-            ),
-        },
-        six_digits(at)
+        "no position of {} keeps the limits of the joints that follow it: it would be at least {} and at most {}",
+        quote(leader),
+        six_digits(lower),
+        six_digits(upper)
     );
+    Fault::new(location, "constraint-empty-range", message)
+        .with_help("change a coefficient, `offset` or one of the limits")
+}
+
+/// `at` is the position that is left; `None` for rows on velocities.
+pub(crate) fn no_motion_left(
+    location: &Location,
+    joint: &str,
+    rows: &[&str],
+    at: Option<f64>,
+) -> Fault {
+    let rows = match rows {
+        [row] => format!("the constraint {} leaves", quote(row)),
+        _ => format!(
+            "the constraints {} together leave",
+            quoted_list(rows.iter().copied())
+        ),
+    };
+    let rest = match at {
+        Some(at) => format!("it is fixed at {}", six_digits(at)),
+        None => "its velocity is 0".into(),
+    };
+    let message = format!("{rows} the joint `{joint}` no motion: {rest}");
     Fault::new(location, "no-motion-left", message)
-        .with_help("make the joint `fixed` there, or take one constraint away")
+        .with_help("make the joint `fixed`, or take one constraint away")
 }

@@ -215,7 +215,7 @@ impl Frames<'_> {
 fn efforts(graph: &Multibody, bodies: &[BodyFrame<'_>]) -> Vec<Dd> {
     let mut efforts = vec![Dd::ONE; graph.coordinates.len()];
     let columns = bodies.iter().flat_map(|frame| &frame.columns);
-    for column in columns.filter(|column| !column.mimics) {
+    for column in columns.filter(|column| !column.follows) {
         efforts[column.coordinate] = column.effort;
     }
     efforts

@@ -45,7 +45,7 @@ pub(super) struct JointColumn {
     /// rate in that direction.
     pub effort: Dd,
     /// Whether the joint follows others.
-    pub mimics: bool,
+    pub follows: bool,
 }
 
 /// Returns the columns of a body's joint; `unit` is the unit of length of the plan.
@@ -82,7 +82,7 @@ pub(super) fn joint_columns(
             name: names(j.0),
             direction,
             effort,
-            mimics: !frame.degrees.own_velocities(),
+            follows: !frame.degrees.own_velocities(),
         })
         .collect()
 }

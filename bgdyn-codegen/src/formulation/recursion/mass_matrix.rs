@@ -257,7 +257,7 @@ fn enter_own<'g>(
         }
         let diagonal = units[k].along(column) * (column.effort * column.effort);
         // Once for each coordinate: at the joint that mimics no other.
-        let own = if column.mimics {
+        let own = if column.follows {
             diagonal
         } else {
             diagonal + frames.rotors.armature(i)

@@ -19,6 +19,7 @@ use crate::fault::{Faults, Location, wording};
 use crate::format::{Field, Located, SceneSpec};
 use crate::layout::StateLayout;
 use crate::machine::Machine;
+use crate::mechanism::Mechanism;
 use crate::name::is_identifier;
 
 /// The only version of the format.
@@ -122,7 +123,7 @@ fn scene(
     let scene = assembled(empty, &refused, faults);
     canonical(spec, &scene, faults);
     let moving = moving_base(spec, &scene, faults);
-    let free = velocity_constraint(spec, &scene, faults);
+    let free = velocity_constraint(spec, &whole.mechanism, faults);
     let drawn = sound && !moving && !free && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
@@ -207,11 +208,11 @@ fn moving_base(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
 
 /// Refuses a constraint on velocities only: integrators assume that a position outside of joints with
 /// quasi-velocities has a velocity of its own. Returns whether there is one.
-fn velocity_constraint(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
-    let mut followers = scene.mechanism.followers();
+fn velocity_constraint(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> bool {
+    let mut followers = mechanism.followers();
     let found = followers.find(|(_, coupling, _)| !coupling.of_positions());
     if let (Some((joint, coupling, _)), Some(path)) = (found, spec.mechanism.given()) {
-        let leaders = scene.mechanism.leaders(coupling);
+        let leaders = mechanism.leaders(coupling);
         let fault = wording::velocity_constraint(&path.location, &joint.name, &leaders);
         faults.push(fault);
     }

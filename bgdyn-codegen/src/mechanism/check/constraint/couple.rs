@@ -2,146 +2,157 @@
 
 use bgdyn_runtime::Dd;
 
-use super::elimination::{Dependent, Leftover, solve};
+use super::elimination::{Dependent, Leftover, Sum, solve, sum};
 use super::row::Row;
 use crate::fault::{Faults, wording};
 use crate::mechanism::check::mimic::narrow;
 use crate::mechanism::{Coupling, Leader, Link, LinkId};
 
-/// A row in the joints that others follow: terms and the value of their sum.
-type ExpandedRow = (Vec<(LinkId, Dd)>, Dd);
+/// What joints follow: by `mimic`, by rows on positions, and by rows on velocities.
+struct Relations {
+    mimics: Vec<Option<Coupling>>,
+    positions: Vec<Dependent>,
+    velocities: Vec<Dependent>,
+}
 
 /// Couples the joints; `kept` stay independent. Joints with `mimic` are coupled already.
 pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: &mut Faults) {
-    let n = links.len();
-    for &link in kept {
-        if let Some(coupling) = &links[link.0].joint.degrees.coupling {
-            let names = names(links, &coupling.velocities);
-            let fault = wording::independent_follower(
-                &rows
-                    .first()
-                    .map_or_else(crate::fault::Location::file, |row| row.location.clone()),
-                &links[link.0].joint.name,
-                &names,
-            );
-            faults.push(fault);
-            return;
-        }
-    }
-    let given: Vec<Option<Coupling>> = links
-        .iter()
-        .map(|l| l.joint.degrees.coupling.clone())
-        .collect();
+    let mimics = links.iter().map(|link| link.joint.degrees.coupling.clone());
+    let mut relations = Relations {
+        mimics: mimics.collect(),
+        positions: Vec::new(),
+        velocities: Vec::new(),
+    };
     let (positions, velocities): (Vec<&Row>, Vec<&Row>) =
         rows.iter().partition(|row| row.offset.is_some());
-    let of_mimic = |link: LinkId| given[link.0].as_ref().map(|c| (&c.positions, c.offset));
-    let expanded: Vec<ExpandedRow> = positions.iter().map(|row| expand(row, &of_mimic)).collect();
-    let (holonomic, left) = solve(&expanded, n, kept);
-    report(links, &positions, &left, &holonomic, faults);
-    let of_positions = |link: LinkId| {
-        let own = holonomic.iter().find(|d| d.link == link);
-        own.map(|d| (&d.leaders, d.offset))
-    };
-    let of_both = |row: &Row| {
-        let (terms, offset) = expand(row, &of_mimic);
-        let row = Row {
-            terms,
-            offset: Some(offset),
-            ..row.clone()
+    let expanded: Vec<Sum> = (positions.iter())
+        .map(|row| relations.without_mimics(row))
+        .collect();
+    let (dependents, left) = solve(&expanded, links.len(), kept);
+    report(links, &positions, (&left, &dependents), faults);
+    relations.positions = dependents;
+    let expanded: Vec<Sum> = (velocities.iter())
+        .map(|row| relations.of_independent_positions(row))
+        .collect();
+    let (dependents, left) = solve(&expanded, links.len(), kept);
+    report(links, &velocities, (&left, &dependents), faults);
+    relations.velocities = dependents;
+    for i in 0..links.len() {
+        if let Some(coupling) = relations.coupling(LinkId(i)) {
+            links[i].joint.degrees.coupling = Some(coupling);
+        }
+    }
+    for dependent in &relations.positions {
+        limit(links, dependent, &positions, faults);
+    }
+}
+
+impl Relations {
+    fn by_mimic(&self, link: LinkId) -> Option<(&[Leader], Dd)> {
+        let coupling = self.mimics[link.0].as_ref()?;
+        Some((&coupling.positions, coupling.offset))
+    }
+
+    fn by_positions(&self, link: LinkId) -> Option<(&[Leader], Dd)> {
+        let own = self.positions.iter().find(|d| d.link == link)?;
+        Some((&own.leaders, own.offset))
+    }
+
+    fn by_velocities(&self, link: LinkId) -> Option<(&[Leader], Dd)> {
+        let own = self.velocities.iter().find(|d| d.link == link)?;
+        Some((&own.leaders, Dd::ZERO))
+    }
+
+    /// Returns a row in joints without `mimic`: its terms and the value of their sum.
+    fn without_mimics(&self, row: &Row) -> Sum {
+        let (terms, constant) = replaced(&row.terms, Dd::ZERO, |link| self.by_mimic(link));
+        (terms, sum(row.offset.unwrap_or(Dd::ZERO), -constant))
+    }
+
+    /// Returns a row on velocities in joints whose positions follow no others.
+    fn of_independent_positions(&self, row: &Row) -> Sum {
+        let (terms, _) = replaced(&row.terms, Dd::ZERO, |link| self.by_mimic(link));
+        let (terms, _) = replaced(&terms, Dd::ZERO, |link| self.by_positions(link));
+        (terms, Dd::ZERO)
+    }
+
+    /// Returns what a joint follows; `None` for an independent one.
+    fn coupling(&self, link: LinkId) -> Option<Coupling> {
+        let relation = match self.by_mimic(link) {
+            Some((leaders, offset)) => {
+                Some(replaced(leaders, offset, |link| self.by_positions(link)))
+            }
+            None => (self.by_positions(link)).map(|(leaders, offset)| (leaders.to_vec(), offset)),
         };
-        expand(&row, &of_positions)
-    };
-    let expanded: Vec<ExpandedRow> = velocities.iter().map(|row| of_both(row)).collect();
-    let (rates, left) = solve(&expanded, n, kept);
-    report(links, &velocities, &left, &rates, faults);
-    let of_velocities = |link: LinkId| {
-        let own = rates.iter().find(|d| d.link == link);
-        own.map(|d| (&d.leaders, Dd::ZERO))
-    };
-    for i in 0..n {
-        let own = LinkId(i);
-        let relation = match (&given[i], of_positions(own)) {
-            (Some(mimic), _) => Some(replaced(&mimic.positions, mimic.offset, &of_positions)),
-            (None, Some((leaders, offset))) => Some((leaders.clone(), offset)),
-            (None, None) => None,
-        };
-        let coupling = match (relation, of_velocities(own)) {
-            (Some((leaders, offset)), _) => {
-                let (velocities, _) = replaced(&leaders, Dd::ZERO, &of_velocities);
-                Coupling {
-                    positions: leaders,
+        match relation {
+            Some((positions, offset)) => {
+                let (velocities, _) = replaced(&positions, Dd::ZERO, |l| self.by_velocities(l));
+                Some(Coupling {
+                    positions,
                     offset,
                     velocities,
-                }
+                })
             }
-            (None, Some((leaders, _))) => Coupling {
+            None => self.by_velocities(link).map(|(leaders, offset)| Coupling {
                 positions: vec![],
-                offset: Dd::ZERO,
-                velocities: leaders.clone(),
-            },
-            (None, None) => continue,
-        };
-        limit(links, own, &coupling, given[i].is_some());
-        links[i].joint.degrees.coupling = Some(coupling);
+                offset,
+                velocities: leaders.to_vec(),
+            }),
+        }
     }
-}
-
-/// Narrows the limits of the joint that a dependent one follows, if it is one joint.
-fn limit(links: &mut [Link], follower: LinkId, coupling: &Coupling, known: bool) {
-    if let ([leader], false) = (coupling.positions.as_slice(), known) {
-        let limits = links[follower.0].joint.limits;
-        let other = &mut links[leader.link.0].joint.limits;
-        narrow(other, limits, (leader.ratio, coupling.offset));
-    }
-}
-
-/// Returns the terms of a row in the joints that others follow.
-fn expand<'a>(row: &Row, of: &impl Fn(LinkId) -> Option<(&'a Vec<Leader>, Dd)>) -> ExpandedRow {
-    let leaders: Vec<Leader> = row
-        .terms
-        .iter()
-        .map(|&(link, ratio)| Leader { link, ratio })
-        .collect();
-    let (terms, constant) = replaced(&leaders, Dd::ZERO, of);
-    let offset = row.offset.unwrap_or(Dd::ZERO) - constant;
-    (
-        terms.into_iter().map(|l| (l.link, l.ratio)).collect(),
-        offset,
-    )
 }
 
 /// Returns Σ ratio · leader + offset with every leader that follows others replaced by its sum over those.
 fn replaced<'a>(
     leaders: &[Leader],
     offset: Dd,
-    of: &impl Fn(LinkId) -> Option<(&'a Vec<Leader>, Dd)>,
-) -> (Vec<Leader>, Dd) {
-    let (mut sum, mut constant): (Vec<Leader>, Dd) = (Vec::new(), offset);
-    let mut add = |link: LinkId, ratio: Dd| match sum.iter_mut().find(|l| l.link == link) {
-        Some(own) => own.ratio += ratio,
-        None => sum.push(Leader { link, ratio }),
+    of: impl Fn(LinkId) -> Option<(&'a [Leader], Dd)>,
+) -> Sum {
+    let (mut terms, mut constant): Sum = (Vec::new(), offset);
+    let mut add = |link: LinkId, ratio: Dd| match terms.iter_mut().find(|l| l.link == link) {
+        Some(own) => own.ratio = sum(own.ratio, ratio),
+        None => terms.push(Leader { link, ratio }),
     };
     for leader in leaders {
         match of(leader.link) {
             None => add(leader.link, leader.ratio),
             Some((others, own)) => {
-                others
-                    .iter()
-                    .for_each(|other| add(other.link, leader.ratio * other.ratio));
-                constant += leader.ratio * own;
+                let others = others.iter();
+                others.for_each(|other| add(other.link, leader.ratio * other.ratio));
+                constant = sum(constant, leader.ratio * own);
             }
         }
     }
-    sum.retain(|leader| leader.ratio != Dd::ZERO);
-    (sum, constant)
+    terms.retain(|leader| leader.ratio != Dd::ZERO);
+    (terms, constant)
+}
+
+/// Narrows the limits of the joint that a dependent one follows, if it is one joint.
+fn limit(links: &mut [Link], dependent: &Dependent, rows: &[&Row], faults: &mut Faults) {
+    let [leader] = dependent.leaders.as_slice() else {
+        return;
+    };
+    let limits = links[dependent.link.0].joint.limits;
+    let other = &mut links[leader.link.0].joint;
+    narrow(&mut other.limits, limits, (leader.ratio, dependent.offset));
+    let range = (other.limits.lower, other.limits.upper);
+    if let ((Some(lower), Some(upper)), Some(&row)) = (range, dependent.rows.first())
+        && lower > upper
+    {
+        let location = &rows[row].location;
+        faults.push(wording::constraint_empty_range(
+            location,
+            &other.name,
+            [lower, upper],
+        ));
+    }
 }
 
 /// Reports rows that determine no joint, and joints that rows leave no motion.
 fn report(
     links: &[Link],
     rows: &[&Row],
-    left: &[Leftover],
-    dependents: &[Dependent],
+    (left, dependents): (&[Leftover], &[Dependent]),
     faults: &mut Faults,
 ) {
     let joint = |link: LinkId| links[link.0].joint.name.as_str();
@@ -161,20 +172,12 @@ fn report(
         });
     }
     for dependent in dependents.iter().filter(|d| d.leaders.is_empty()) {
-        let names: Vec<&str> = rows.iter().map(|row| row.name.as_str()).collect();
-        if let Some(row) = rows.first() {
-            let at = dependent.offset.to_f64();
-            faults.push(wording::no_motion_left(
-                &row.location,
-                joint(dependent.link),
-                &names,
-                at,
-            ));
+        let own: Vec<&Row> = dependent.rows.iter().map(|&r| rows[r]).collect();
+        let names: Vec<&str> = own.iter().map(|row| row.name.as_str()).collect();
+        if let Some(row) = own.first() {
+            let at = row.offset.map(|_| dependent.offset.to_f64());
+            let name = joint(dependent.link);
+            faults.push(wording::no_motion_left(&row.location, name, &names, at));
         }
     }
-}
-
-fn names(links: &[Link], leaders: &[Leader]) -> Vec<String> {
-    let name = |leader: &Leader| links[leader.link.0].joint.name.clone();
-    leaders.iter().map(name).collect()
 }

@@ -13,7 +13,12 @@ pub(super) struct Dependent {
     pub(super) link: LinkId,
     pub(super) leaders: Vec<Leader>,
     pub(super) offset: Dd,
+    /// The rows that determine it.
+    pub(super) rows: Vec<usize>,
 }
+
+/// Terms of a row, and the value of their sum.
+pub(super) type Sum = (Vec<Leader>, Dd);
 
 /// A row that determines no joint.
 #[derive(Clone, Debug)]
@@ -38,11 +43,7 @@ struct Working {
 
 /// Solves Σ coefficient · x = offset for one joint a row: the last ones that are not `kept`. `n` is the number
 /// of links.
-pub(super) fn solve(
-    rows: &[(Vec<(LinkId, Dd)>, Dd)],
-    n: usize,
-    kept: &[LinkId],
-) -> (Vec<Dependent>, Vec<Leftover>) {
+pub(super) fn solve(rows: &[Sum], n: usize, kept: &[LinkId]) -> (Vec<Dependent>, Vec<Leftover>) {
     let mut working: Vec<Working> = (0..rows.len()).map(|r| start(rows, r, n)).collect();
     // The pivot's column of each row that has one.
     let mut pivots: Vec<Option<usize>> = vec![None; rows.len()];
@@ -71,11 +72,11 @@ pub(super) fn solve(
     (dependents, leftovers)
 }
 
-fn start(rows: &[(Vec<(LinkId, Dd)>, Dd)], r: usize, n: usize) -> Working {
+fn start(rows: &[Sum], r: usize, n: usize) -> Working {
     let (terms, offset) = &rows[r];
     let mut coefficients = vec![Dd::ZERO; n];
-    for (link, k) in terms {
-        coefficients[link.0] = sum(coefficients[link.0], *k);
+    for term in terms {
+        coefficients[term.link.0] = sum(coefficients[term.link.0], term.ratio);
     }
     let part = |other: usize| if other == r { Dd::ONE } else { Dd::ZERO };
     Working {
@@ -86,7 +87,7 @@ fn start(rows: &[(Vec<(LinkId, Dd)>, Dd)], r: usize, n: usize) -> Working {
 }
 
 /// Returns a + b; zero where only rounding is left.
-fn sum(a: Dd, b: Dd) -> Dd {
+pub(super) fn sum(a: Dd, b: Dd) -> Dd {
     let (total, size) = (a + b, a.to_f64().abs() + b.to_f64().abs());
     match total.to_f64().abs() <= ROUNDING * size {
         true => Dd::ZERO,
@@ -131,6 +132,9 @@ impl Working {
                 })
                 .collect(),
             offset: self.offset,
+            rows: (0..self.parts.len())
+                .filter(|&r| self.parts[r] != Dd::ZERO)
+                .collect(),
         }
     }
 

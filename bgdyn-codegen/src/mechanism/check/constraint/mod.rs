@@ -22,7 +22,7 @@ mod row;
 
 use crate::fault::{Faults, wording};
 use crate::format::{Key, Raw, Reads, Spec};
-use crate::mechanism::{Link, LinkId};
+use crate::mechanism::{Leader, Link, LinkId};
 use crate::name::is_identifier;
 use constraint_type::ConstraintType;
 use row::{Row, RowReader, one_degree, unknown};
@@ -50,7 +50,7 @@ pub(super) fn apply(spec: &Spec, links: &mut [Link], faults: &mut Faults) -> Opt
     let before = faults.count();
     let raws = spec.constraints.value().map_or(&[][..], Vec::as_slice);
     let rows: Vec<Row> = (raws.iter())
-        .filter_map(|raw| row(raw, links, faults))
+        .filter_map(|raw| row(raw, (spec, links), faults))
         .collect();
     let kept = independent(spec, links, faults);
     if faults.count() > before {
@@ -60,14 +60,13 @@ pub(super) fn apply(spec: &Spec, links: &mut [Link], faults: &mut Faults) -> Opt
     (faults.count() == before).then_some(())
 }
 
-fn row(raw: &Raw, links: &[Link], faults: &mut Faults) -> Option<Row> {
+fn row(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Option<Row> {
     let name = &raw.name;
     if !is_identifier(&name.value) {
         faults.push(wording::not_identifier(&name.location, &name.value));
     }
-    let taken = |link: &&Link| link.name == name.value || link.joint.name == name.value;
-    if links.iter().any(|link| taken(&link)) {
-        faults.push(wording::constraint_has_name_of_body(
+    if is_taken(spec, links, &name.value) {
+        faults.push(wording::constraint_has_taken_name(
             &name.location,
             &name.value,
         ));
@@ -107,18 +106,33 @@ fn row(raw: &Raw, links: &[Link], faults: &mut Faults) -> Option<Row> {
     kind.row(&fields, &mut reader)
 }
 
-/// Returns the links of the joints that the file lists as `independent`.
+/// Returns whether a link, a joint, a frame or an effect has this name.
+fn is_taken(spec: &Spec, links: &[Link], name: &str) -> bool {
+    let mut frames = spec.frames.value().into_iter().flatten();
+    let mut effects = spec.effects.value().into_iter().flatten();
+    links
+        .iter()
+        .any(|link| link.name == name || link.joint.name == name)
+        || frames.any(|frame| frame.name.value().is_some_and(|own| own == name))
+        || effects.any(|effect| effect.name.value == name)
+}
+
+/// Returns the links of the joints that the file lists as `independent`; none has `mimic`.
 fn independent(spec: &Spec, links: &[Link], faults: &mut Faults) -> Vec<LinkId> {
     let mut kept = Vec::new();
     for name in spec.independent.value().into_iter().flatten() {
-        let known: Vec<&str> = one_degree(links)
-            .map(|(_, link)| link.joint.name.as_str())
-            .collect();
         let found = one_degree(links).find(|(_, link)| link.joint.name == name.value);
-        match found {
-            Some((link, _)) => kept.push(link),
-            None => faults.push(unknown(&name.location, &name.value, links, &known)),
+        let Some((link, own)) = found else {
+            faults.push(unknown(name, links));
+            continue;
+        };
+        if let Some(coupling) = &own.joint.degrees.coupling {
+            let leader = |leader: &Leader| links[leader.link.0].joint.name.as_str();
+            let leaders: Vec<&str> = coupling.positions.iter().map(leader).collect();
+            let fault = wording::independent_follower(&name.location, &name.value, &leaders);
+            faults.push(fault);
         }
+        kept.push(link);
     }
     kept
 }

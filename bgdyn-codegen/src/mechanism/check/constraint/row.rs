@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Dimension, Fields, Located, Number, ParsedValue, check_unit};
-use crate::mechanism::{Link, LinkId, Motion};
+use crate::mechanism::{Leader, Link, LinkId, Motion};
 
 /// The dimensions of coefficients.
 pub(super) const COEFFICIENTS: [Dimension; 3] =
@@ -18,7 +18,7 @@ pub(super) struct Row {
     /// The location of the constraint.
     pub(super) location: Location,
     /// The links of the joints, each once, with their coefficients.
-    pub(super) terms: Vec<(LinkId, Dd)>,
+    pub(super) terms: Vec<Leader>,
     /// The value of the sum, rad or m; `None` for a row on velocities only.
     pub(super) offset: Option<Dd>,
 }
@@ -33,7 +33,7 @@ pub(super) struct RowReader<'a> {
 
 impl RowReader<'_> {
     /// Returns the row with these terms.
-    pub(super) fn row(&self, terms: Vec<(LinkId, Dd)>, offset: Option<Dd>) -> Row {
+    pub(super) fn row(&self, terms: Vec<Leader>, offset: Option<Dd>) -> Row {
         Row {
             name: self.name.value.clone(),
             location: self.location.clone(),
@@ -43,11 +43,7 @@ impl RowReader<'_> {
     }
 
     /// Returns the joints of a key with their coefficients, and the dimension of the sum: an angle or a length.
-    pub(super) fn terms(
-        &mut self,
-        fields: &Fields,
-        key: &str,
-    ) -> Option<(Vec<(LinkId, Dd)>, Dimension)> {
+    pub(super) fn terms(&mut self, fields: &Fields, key: &str) -> Option<(Vec<Leader>, Dimension)> {
         let entry = fields.get(key)?;
         let ParsedValue::Coefficients(entries) = &entry.value else {
             return None;
@@ -73,10 +69,8 @@ impl RowReader<'_> {
                 return None;
             }
         }
-        Some((
-            read.into_iter().map(|(link, k, _)| (link, k)).collect(),
-            dimension,
-        ))
+        let term = |(link, ratio, _)| Leader { link, ratio };
+        Some((read.into_iter().map(term).collect(), dimension))
     }
 
     /// Returns the link of a joint, its coefficient, and the dimension of their product.
@@ -87,10 +81,7 @@ impl RowReader<'_> {
     ) -> Option<(LinkId, Dd, Dimension)> {
         let found = one_degree(self.links).find(|(_, link)| link.joint.name == name.value);
         let Some((link, own)) = found else {
-            let known: Vec<&str> = one_degree(self.links)
-                .map(|(_, link)| link.joint.name.as_str())
-                .collect();
-            let fault = unknown(&name.location, &name.value, self.links, &known);
+            let fault = unknown(name, self.links);
             self.faults.push(fault);
             return None;
         };
@@ -149,10 +140,14 @@ pub(super) fn one_degree(links: &[Link]) -> impl Iterator<Item = (LinkId, &Link)
 }
 
 /// Returns the fault of a name that is not that of a joint of one degree.
-pub(super) fn unknown(location: &Location, name: &str, links: &[Link], known: &[&str]) -> Fault {
-    let other = links.iter().find(|link| link.joint.name == name);
-    match other {
-        Some(link) => wording::constraint_on_joint(location, name, link.joint.kind.keyword),
-        None => wording::unknown_constrained_joint(location, name, known),
+pub(super) fn unknown(name: &Located<String>, links: &[Link]) -> Fault {
+    let other = links.iter().find(|link| link.joint.name == name.value);
+    if let Some(link) = other {
+        let keyword = link.joint.kind.keyword;
+        return wording::constraint_on_joint(&name.location, &name.value, keyword);
     }
+    let known: Vec<&str> = one_degree(links)
+        .map(|(_, link)| link.joint.name.as_str())
+        .collect();
+    wording::unknown_constrained_joint(&name.location, &name.value, &known)
 }
