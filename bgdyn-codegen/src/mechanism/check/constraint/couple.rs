@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::elimination::{Dependent, Leftover, Sum, solve, sum};
+use super::elimination::{Dependent, ExpandedRow, Leftover, solve, sum};
 use super::row::Row;
 use crate::fault::{Faults, wording};
 use crate::mechanism::check::mimic::narrow;
@@ -25,13 +25,13 @@ pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: 
     };
     let (positions, velocities): (Vec<&Row>, Vec<&Row>) =
         rows.iter().partition(|row| row.offset.is_some());
-    let expanded: Vec<Sum> = (positions.iter())
+    let expanded: Vec<ExpandedRow> = (positions.iter())
         .map(|row| relations.without_mimics(row))
         .collect();
     let (dependents, left) = solve(&expanded, links.len(), kept);
     report(links, &positions, (&left, &dependents), faults);
     relations.positions = dependents;
-    let expanded: Vec<Sum> = (velocities.iter())
+    let expanded: Vec<ExpandedRow> = (velocities.iter())
         .map(|row| relations.of_independent_positions(row))
         .collect();
     let (dependents, left) = solve(&expanded, links.len(), kept);
@@ -64,13 +64,13 @@ impl Relations {
     }
 
     /// Returns a row in joints without `mimic`: its terms and the value of their sum.
-    fn without_mimics(&self, row: &Row) -> Sum {
+    fn without_mimics(&self, row: &Row) -> ExpandedRow {
         let (terms, constant) = replaced(&row.terms, Dd::ZERO, |link| self.by_mimic(link));
         (terms, sum(row.offset.unwrap_or(Dd::ZERO), -constant))
     }
 
     /// Returns a row on velocities in joints whose positions follow no others.
-    fn of_independent_positions(&self, row: &Row) -> Sum {
+    fn of_independent_positions(&self, row: &Row) -> ExpandedRow {
         let (terms, _) = replaced(&row.terms, Dd::ZERO, |link| self.by_mimic(link));
         let (terms, _) = replaced(&terms, Dd::ZERO, |link| self.by_positions(link));
         (terms, Dd::ZERO)
@@ -107,8 +107,8 @@ fn replaced<'a>(
     leaders: &[Leader],
     offset: Dd,
     of: impl Fn(LinkId) -> Option<(&'a [Leader], Dd)>,
-) -> Sum {
-    let (mut terms, mut constant): Sum = (Vec::new(), offset);
+) -> ExpandedRow {
+    let (mut terms, mut constant): ExpandedRow = (Vec::new(), offset);
     let mut add = |link: LinkId, ratio: Dd| match terms.iter_mut().find(|l| l.link == link) {
         Some(own) => own.ratio = sum(own.ratio, ratio),
         None => terms.push(Leader { link, ratio }),

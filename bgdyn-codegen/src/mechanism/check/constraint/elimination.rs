@@ -18,7 +18,7 @@ pub(super) struct Dependent {
 }
 
 /// Terms of a row, and the value of their sum.
-pub(super) type Sum = (Vec<Leader>, Dd);
+pub(super) type ExpandedRow = (Vec<Leader>, Dd);
 
 /// A row that determines no joint.
 #[derive(Clone, Debug)]
@@ -43,7 +43,11 @@ struct Working {
 
 /// Solves Σ coefficient · x = offset for one joint a row: the last ones that are not `kept`. `n` is the number
 /// of links.
-pub(super) fn solve(rows: &[Sum], n: usize, kept: &[LinkId]) -> (Vec<Dependent>, Vec<Leftover>) {
+pub(super) fn solve(
+    rows: &[ExpandedRow],
+    n: usize,
+    kept: &[LinkId],
+) -> (Vec<Dependent>, Vec<Leftover>) {
     let mut working: Vec<Working> = (0..rows.len()).map(|r| start(rows, r, n)).collect();
     // The pivot's column of each row that has one.
     let mut pivots: Vec<Option<usize>> = vec![None; rows.len()];
@@ -72,7 +76,7 @@ pub(super) fn solve(rows: &[Sum], n: usize, kept: &[LinkId]) -> (Vec<Dependent>,
     (dependents, leftovers)
 }
 
-fn start(rows: &[Sum], r: usize, n: usize) -> Working {
+fn start(rows: &[ExpandedRow], r: usize, n: usize) -> Working {
     let (terms, offset) = &rows[r];
     let mut coefficients = vec![Dd::ZERO; n];
     for term in terms {
