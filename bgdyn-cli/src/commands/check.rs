@@ -275,7 +275,8 @@ fn finding(fault: &Fault) -> Value {
     })
 }
 
-/// Returns "follows: tip = 0.5 · knuckle + 0.1", and whether the relation is one of velocities only.
+/// Returns "follows: tip = 0.5 · knuckle + 0.1", or "follows: velocity of tip = 0.5 · knuckle" where only the
+/// velocity follows.
 fn follows(mechanism: &Mechanism, (joint, coupling, _): (&Joint, &Coupling, bool)) -> String {
     let leaders = mechanism.leaders(coupling);
     let terms = coupling.velocities.iter().zip(&leaders);

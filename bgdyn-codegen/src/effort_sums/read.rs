@@ -134,8 +134,8 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         SiteId(found.unwrap_or_else(|| undeclared(self.element_at_work(), "site", name)))
     }
 
-    /// Returns a coordinate as a port. The port of a joint that follows others has the transformers ratio to
-    /// their coordinates.
+    /// Returns a coordinate as a port. The port of a joint that follows others has a transformer to
+    /// each of their coordinates, with the ratio as modulus.
     ///
     /// # Panics
     /// If the scene has no coordinate and no such joint with this name.
