@@ -128,6 +128,11 @@ impl Options {
     /// # Errors
     /// The formulation, with a joint that it does not serve.
     pub fn check_formulation(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
+        // With loops the formulation computes functions of the open tree.
+        let graph = match &graph.closed {
+            Some(closed) => &closed.tree.multibody,
+            None => graph,
+        };
         let unserved = |f: &'static dyn Formulation| Some((f, f.unserved(graph)?));
         let Some((formulation, link)) = self.formulation.and_then(unserved) else {
             return Ok(());

@@ -4,15 +4,26 @@ use bgdyn_runtime::Dd;
 
 use super::pattern::{Coordinates, Modulus};
 use super::{
-    BondGraph, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody,
+    BondGraph, ClosedTree, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody,
     PositionVariable, Site, Store, StoreInertia, Transformer,
 };
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::joint::{Column, PoseNumbers};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
-/// Builds the bond graph of a mechanism.
+/// Builds the bond graph of a mechanism. With loops, the junctions of the open tree are those of its own graph.
 pub fn build(mechanism: &Mechanism) -> BondGraph {
+    let mut graph = without_loops(mechanism);
+    graph.multibody.closed = mechanism.closure().map(|closure| {
+        Box::new(ClosedTree {
+            tree: without_loops(&mechanism.open()),
+            closure: closure.clone(),
+        })
+    });
+    graph
+}
+
+fn without_loops(mechanism: &Mechanism) -> BondGraph {
     let links = mechanism.links();
     let mut graph = BondGraph {
         multibody: Multibody {
@@ -26,6 +37,7 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
             velocity_products: true,
             parameters: mechanism.parameters().to_vec(),
             sites: sites(mechanism),
+            closed: None,
         },
         junctions: Vec::new(),
         stores: Vec::new(),

@@ -24,7 +24,7 @@ use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 pub use build::build;
 pub use causality::Causality;
 pub use multibody::{
-    Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,
+    ClosedTree, Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,
 };
 pub use network::BondNetwork;
 pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm};

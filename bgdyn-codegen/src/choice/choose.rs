@@ -32,6 +32,8 @@ pub struct Choice<'a> {
     forward: OnceCell<Rc<Candidates>>,
     /// Methods whose choice is in progress.
     open: RefCell<BTreeSet<Method>>,
+    /// The functions of the open tree, for a mechanism with loops.
+    tree: Option<Box<Choice<'a>>>,
 }
 
 /// A formulation with its offer for one method.
@@ -47,6 +49,8 @@ impl<'a> Choice<'a> {
             bounds: OnceCell::new(),
             forward: OnceCell::new(),
             open: RefCell::default(),
+            tree: (graph.closed.as_deref())
+                .map(|closed| Box::new(Choice::new(&closed.tree, asked))),
         }
     }
 
@@ -98,7 +102,10 @@ impl<'a> Choice<'a> {
 
     /// Returns the function of the selected formulation, if it supports the method.
     fn requested_candidates(&self, method: Method) -> Vec<CheckedCandidate> {
-        let Some(asked) = self.asked.filter(|f| f.knows(method)) else {
+        let graph = &self.prepared.graph.multibody;
+        // With loops the open tree has the functions of the selected formulation.
+        let asked = self.asked.filter(|f| f.knows(method) && f.serves(graph));
+        let Some(asked) = asked else {
             return Vec::new();
         };
         let mut offered = vec![(asked, Offer::Candidate)];
@@ -155,6 +162,11 @@ impl<'a> Choice<'a> {
     fn make(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
         for &other in formulation.reads(method) {
             self.choose_once(other);
+        }
+        for other in formulation.reads_of_tree(method) {
+            if let Some(function) = self.tree.as_ref().and_then(|tree| tree.function(other)) {
+                self.prepared.set_tree_function(other, function);
+            }
         }
         formulation.function(&self.prepared, method)
     }

@@ -14,6 +14,7 @@ use crate::bond_graph::{BondGraph, Multibody};
 use crate::expr::Inputs;
 use crate::formulation::geometry::{Body, angle_of, geometry};
 use crate::math::Vec3;
+use crate::mechanism::closure::Closure;
 use crate::mechanism::{BaseMotion, Motion, Value};
 use crate::random::Random;
 
@@ -41,6 +42,10 @@ pub(crate) fn random(graph: &BondGraph) -> Vec<Inputs<f64>> {
 
 /// Returns states near aligned axes: one joint aligned and the others anywhere, and all joints aligned.
 pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
+    // Loops do not close there.
+    if graph.closed.is_some() {
+        return Vec::new();
+    }
     let aligned = aligned_positions(graph);
     let joints: Vec<usize> = (0..aligned.len())
         .filter(|&j| aligned[j].is_some())
@@ -151,6 +156,12 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     };
     let mut q = all(nq, &turn);
     normalize(graph, &mut q);
+    if let Some(closed) = &graph.closed {
+        let closed_position = closed_position(&closed.closure, seed);
+        for p in closed.closure.positions.iter().flatten() {
+            q[p.0] = closed_position[p.0].to_f64();
+        }
+    }
     let (v, a, u) = (
         all(nv, &|_| 2.0 * fast),
         all(nv, &|_| 5.0),
@@ -170,6 +181,14 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
         parameters,
         ..Inputs::default()
     }
+}
+
+/// Returns a closed position at random.
+fn closed_position(closure: &Closure, seed: u64) -> Vec<Dd> {
+    let near = &closure.samples[seed as usize % closure.samples.len()];
+    let mut q = near.clone();
+    closure.walk(&closure.rows, &mut q, &mut Random(seed));
+    q
 }
 
 /// Scales every quaternion to length 1; one of length 0 becomes the identity.

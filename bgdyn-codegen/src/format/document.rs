@@ -30,7 +30,9 @@ pub struct Spec {
     pub frames: Field<Vec<FrameSpec>>,
     /// The constraints, by name, not parsed.
     pub constraints: Field<Vec<Raw>>,
-    /// Joints that follow no others, although constraints contain them.
+    /// The loops; entries that are no mapping are omitted.
+    pub loops: Field<Vec<LoopSpec>>,
+    /// Joints that follow no others, although constraints or loops contain them.
     pub independent: Field<Vec<Located<String>>>,
     /// The effects besides the links, by name, not parsed.
     pub effects: Field<Vec<Raw>>,
@@ -161,4 +163,40 @@ pub struct FrameSpec {
     pub link: Field<String>,
     /// Its pose on the link.
     pub origin: Field<Origin>,
+}
+
+/// An entry of `loops`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopSpec {
+    /// Location of the loop's mapping.
+    pub location: Location,
+    /// Its name.
+    pub name: Field<String>,
+    /// The word of the key `type`.
+    pub kind: Field<String>,
+    /// One place.
+    pub a: Field<LoopEndSpec>,
+    /// The place it is connected to.
+    pub b: Field<LoopEndSpec>,
+    /// Axis in the axes of both places; z if absent.
+    pub axis: Field<Vector>,
+    /// Length of a rod.
+    pub length: Field<Number>,
+    /// The branch: `left` or `right`.
+    pub branch: Field<String>,
+    /// Positions of joints near the branch.
+    pub near: Field<Vec<(Located<String>, Located<Number>)>>,
+}
+
+/// One place of a loop: a link with an origin on it, or a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopEndSpec {
+    /// Location of its mapping.
+    pub location: Location,
+    /// The link, or `world`.
+    pub link: Field<String>,
+    /// Its pose on the link.
+    pub origin: Field<Origin>,
+    /// A named frame, in place of both.
+    pub frame: Field<String>,
 }

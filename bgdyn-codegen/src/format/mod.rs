@@ -6,6 +6,7 @@
 mod document;
 mod field;
 mod index;
+mod loops;
 mod number;
 mod parse;
 mod raw;
@@ -16,8 +17,8 @@ mod yaml;
 
 pub use crate::unit::{Dimension, Unit};
 pub use document::{
-    FrameSpec, InertiaSpec, JointSpec, LENGTHS, LIMIT_PARTS, LimitsSpec, LinkSpec, MimicSpec,
-    Origin, Spec,
+    FrameSpec, InertiaSpec, JointSpec, LENGTHS, LIMIT_PARTS, LimitsSpec, LinkSpec, LoopEndSpec,
+    LoopSpec, MimicSpec, Origin, Spec,
 };
 pub use field::{Field, Located};
 pub(crate) use number::check_unit;

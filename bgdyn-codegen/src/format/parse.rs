@@ -33,6 +33,7 @@ impl Reader {
             "links",
             "frames",
             "constraints",
+            "loops",
             "independent",
             "effects",
         ];
@@ -77,6 +78,14 @@ impl Reader {
             }),
             constraints: self.field(&map, "constraints", |r, at| {
                 r.table(at, ("constraints by name", "`name: { type: gear, … }`"))
+            }),
+            loops: self.field(&map, "loops", |r, at| {
+                let what = (
+                    "a list of loops",
+                    "each loop after a dash: `- { name: …, type: hinge, … }`",
+                );
+                let all = r.list(at, what)?;
+                Some(all.iter().filter_map(|at| r.closing(at)).collect())
             }),
             independent: self.field(&map, "independent", |r, at| {
                 r.names_list(at, ("a list of joints", "`[crank, wrist]`"))
@@ -170,7 +179,7 @@ impl Reader {
         })
     }
 
-    fn axis(&mut self, at: &At<'_>) -> Option<Vector> {
+    pub(super) fn axis(&mut self, at: &At<'_>) -> Option<Vector> {
         let Data::Scalar { text, .. } = &at.tree.data else {
             return self.vector(at, &[Dimension::One]);
         };
@@ -197,7 +206,7 @@ impl Reader {
         }))
     }
 
-    fn origin(&mut self, at: &At<'_>) -> Option<Origin> {
+    pub(super) fn origin(&mut self, at: &At<'_>) -> Option<Origin> {
         let map = self.mapping(
             at,
             (
@@ -298,7 +307,7 @@ impl Reader {
         self.field(map, key, Self::text)
     }
 
-    fn number_field(&mut self, map: &Mapping<'_>, key: &str, fit: &[Dimension]) -> Field<Number> {
+    pub(super) fn number_field(&mut self, map: &Mapping<'_>, key: &str, fit: &[Dimension]) -> Field<Number> {
         self.field(map, key, |r, at| r.number(at, fit))
     }
 

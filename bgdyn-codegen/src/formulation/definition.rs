@@ -24,9 +24,14 @@ pub trait Formulation: Sync {
         graph.first_compound()
     }
 
+    /// Returns whether it serves mechanisms with loops. Other formulations serve their open tree.
+    fn serves_loops(&self) -> bool {
+        false
+    }
+
     /// Returns whether it serves this mechanism.
     fn serves(&self, graph: &Multibody) -> bool {
-        self.unserved(graph).is_none()
+        (self.serves_loops() || graph.closed.is_none()) && self.unserved(graph).is_none()
     }
 
     /// Returns its offer for a method that it supports, if no formulation is selected.
@@ -36,6 +41,12 @@ pub trait Formulation: Sync {
     /// [`Formulation::function`] is called.
     fn reads(&self, _: Method) -> &'static [Method] {
         &[]
+    }
+
+    /// Returns the methods of the open tree whose functions it uses, for mechanisms with loops:
+    /// [`Prepared::tree_function`] returns them when [`Formulation::function`] is called.
+    fn reads_of_tree(&self, _: Method) -> Vec<Method> {
+        Vec::new()
     }
 
     /// Returns the method's function; `None` if this formulation cannot create it for this mechanism.

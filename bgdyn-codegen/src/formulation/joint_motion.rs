@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::velocity_map::{VelocityMap, loop_rows};
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
 use crate::math::{Mat3, Vec3};
@@ -70,12 +71,17 @@ pub(crate) fn pose_in_joint<'g>(
     }
 }
 
-/// Returns q̇ = N(q) v.
+/// Returns q̇ = N(q) v; with loops q̇ = N(q) S(q) v.
 pub(crate) fn position_rates<'g>(
     b: &'g Builder,
     graph: &Multibody,
     (q, v): (&[Expr<'g>], &[Expr<'g>]),
 ) -> Vec<Expr<'g>> {
+    if let Some(closed) = &graph.closed {
+        let rows = loop_rows(b, &closed.closure, q);
+        let all = VelocityMap::new(b, &closed.closure, rows).velocities(v);
+        return position_rates(b, &closed.tree, (q, &all));
+    }
     let mut rates = vec![b.zero(); graph.positions.len()];
     for frame in graph.frames.iter().filter(|f| f.degrees.own_positions()) {
         let positions = &frame.degrees.positions;

@@ -10,6 +10,7 @@ mod definition;
 mod derivatives;
 mod joint_motion;
 mod literal;
+mod loops;
 mod placed_sites;
 mod placement;
 mod prepared;
@@ -17,12 +18,14 @@ mod recursion;
 mod site;
 mod solve;
 mod subspaces;
+mod velocity_map;
 
 pub use definition::{Formulation, Offer};
 pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};
 pub use prepared::Prepared;
 pub(crate) use prepared::{Candidate, Candidates};
 pub(crate) use recursion::expressions::mass_and_bias;
+pub(crate) use loops::mass_and_bias as mass_and_bias_of_loops;
 pub(crate) use recursion::geometry;
 pub(crate) use solve::ltdl as solve_symmetric;
 pub(crate) use subspaces::mass_and_bias as mass_and_bias_of_any_joint;
@@ -41,9 +44,10 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
     &subspaces::Subspaces,
 ];
 
-/// Formulations that differentiate the functions chosen for other methods. They make offers for any
-/// selected formulation, because those functions belong to it.
-pub(crate) static DERIVED: [&dyn Formulation; 2] = [
+/// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
+/// make offers for any selected formulation, because those functions belong to it.
+pub(crate) static DERIVED: [&dyn Formulation; 3] = [
+    &loops::Elimination,
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
 ];

@@ -44,6 +44,8 @@ pub struct Prepared<'a> {
     /// The cheapest plans of the recursion.
     pub(super) plans: RefCell<BTreeMap<Method, BestPlan>>,
     chosen: RefCell<BTreeMap<Method, Chosen>>,
+    /// Functions of the open tree, for a mechanism with loops.
+    of_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
 }
 
 impl<'a> Prepared<'a> {
@@ -54,6 +56,7 @@ impl<'a> Prepared<'a> {
             geometry: OnceCell::new(),
             plans: RefCell::default(),
             chosen: RefCell::default(),
+            of_tree: RefCell::default(),
         }
     }
 
@@ -61,6 +64,17 @@ impl<'a> Prepared<'a> {
     /// it.
     pub fn function(&self, method: Method) -> Option<Rc<Function>> {
         self.chosen.borrow().get(&method)?.function.clone()
+    }
+
+    /// Returns the function of a method of the open tree; `None` unless
+    /// [`super::Formulation::reads_of_tree`] names it.
+    pub fn tree_function(&self, method: Method) -> Option<Rc<Function>> {
+        self.of_tree.borrow().get(&method).cloned()
+    }
+
+    /// Stores the function of a method of the open tree.
+    pub(crate) fn set_tree_function(&self, method: Method, function: Rc<Function>) {
+        self.of_tree.borrow_mut().insert(method, function);
     }
 
     /// Returns all functions of another method that derivatives may use, under the same condition.

@@ -6,6 +6,7 @@ mod direction;
 mod inertia;
 mod joint;
 mod limits;
+mod loops;
 mod mimic;
 mod names;
 mod order;
@@ -86,9 +87,12 @@ pub(crate) fn check(
             base,
             coordinates: Vec::new(),
             positions: Vec::new(),
-            snapped: directions.into_snapped(),
+            snapped: None,
+            closure: None,
         };
         mechanism.number();
+        loops::close(spec, &mut mechanism, &directions, faults)?;
+        mechanism.snapped = directions.into_snapped();
         Some(mechanism)
     };
     whole()

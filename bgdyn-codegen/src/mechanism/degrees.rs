@@ -15,6 +15,8 @@ pub struct Degrees {
     pub velocities: Vec<CoordinateId>,
     /// Its relation to other joints: `mimic`, or a constraint with constant coefficients.
     pub coupling: Option<Coupling>,
+    /// Whether its velocity follows from those of other joints through a loop.
+    pub dependent: bool,
     /// Advance along the axis of a helical joint, m/rad.
     pub advance: Dd,
     /// Whether its quaternion may have any length.
@@ -75,7 +77,7 @@ impl Degrees {
 
     /// Returns whether it has velocities of its own.
     pub fn own_velocities(&self) -> bool {
-        self.coupling.is_none()
+        self.coupling.is_none() && !self.dependent
     }
 
     /// Returns the factors from [`Degrees::positions`] to the position of a joint with one.

@@ -5,6 +5,7 @@
 
 mod base_motion;
 mod check;
+pub mod closure;
 mod degrees;
 mod id;
 pub mod joint;
@@ -23,6 +24,7 @@ pub use base_motion::{BASE_PARAMETERS, BaseMotion, base_parameter_names};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
 pub use check::constraint_types;
+use closure::Closure;
 pub use degrees::{Coupling, Degrees, Leader};
 pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
 pub use joint::{JointType, Motion};
@@ -206,6 +208,7 @@ pub struct Mechanism {
     coordinates: Vec<LinkId>,
     positions: Vec<LinkId>,
     snapped: Option<Snapped>,
+    closure: Option<Closure>,
 }
 
 impl Mechanism {
@@ -258,6 +261,11 @@ impl Mechanism {
     /// changed.
     pub fn snapped(&self) -> Option<&Snapped> {
         self.snapped.as_ref()
+    }
+
+    /// Returns its loops.
+    pub fn closure(&self) -> Option<&Closure> {
+        self.closure.as_ref()
     }
 
     /// Adds a body of this name, fixed to a link or at a frame on one. A site in the world adds nothing.

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::closure::Closure;
 use super::{CoordinateId, Coupling, Joint, Leader, LinkId, Mechanism, Motion, PositionId};
 
 impl Mechanism {
@@ -52,6 +53,27 @@ impl Mechanism {
             }
         }
         (self.positions, self.coordinates) = (positions, coordinates);
+    }
+
+    /// Sets the loops of a numbered tree: their dependent joints have no velocity any more.
+    pub(super) fn close(&mut self, closure: Closure) {
+        for j in closure.dependents() {
+            let LinkId(i) = self.coordinates[j.0];
+            self.links[i].joint.degrees.dependent = true;
+        }
+        self.closure = Some(closure);
+        self.number();
+    }
+
+    /// Returns the open tree: the mechanism without its loops.
+    pub fn open(&self) -> Self {
+        let mut open = self.clone();
+        open.closure = None;
+        for link in &mut open.links {
+            link.joint.degrees.dependent = false;
+        }
+        open.number();
+        open
     }
 
     /// Returns the number of velocities.

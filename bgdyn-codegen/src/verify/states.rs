@@ -43,6 +43,9 @@ pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
     let chosen = GENERIC[..count].iter().enumerate().map(|(k, &i)| {
         let mut state = in_double_double(&generic[i]);
         sample_states::normalize(graph, &mut state.q);
+        if let Some(closed) = &graph.closed {
+            closed.closure.close(&mut state.q);
+        }
         if k > 0 || count == 1 {
             vary(&mut state.parameters, &mut random);
         }

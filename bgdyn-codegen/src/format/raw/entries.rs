@@ -41,7 +41,11 @@ impl Reader {
                 .names_list(at, ("a list of words", "`[fx, fz]`"))
                 .map(ParsedValue::Words),
             Reads::Group(names, fit) => self.group(at, names, fit).map(ParsedValue::Group),
-            Reads::Coefficients(fit) => self.coefficients(at, fit).map(ParsedValue::Coefficients),
+            Reads::Coefficients(fit) => {
+                let what = ("coefficients by joint", "`{ left: 1, right: -1 }`");
+                self.coefficients(at, fit, what)
+                    .map(ParsedValue::Coefficients)
+            }
             Reads::Sites => {
                 let items = self.list(at, ("two names", "`[one, other]`"))?;
                 let mut names = items.iter().map(|at| {
@@ -79,12 +83,13 @@ impl Reader {
     }
 
     /// Parses numbers by names of the file.
-    fn coefficients(
+    pub(in crate::format) fn coefficients(
         &mut self,
         at: &At<'_>,
         fit: &[Dimension],
+        what: Wanted<'_>,
     ) -> Option<Vec<(Located<String>, Located<Number>)>> {
-        let entries = self.names(at, ("coefficients by joint", "`{ left: 1, right: -1 }`"))?;
+        let entries = self.names(at, what)?;
         let one = |(name, at): (Located<String>, At<'_>)| {
             let value = self.number(&at, fit)?;
             let location = at.location.clone();

@@ -30,6 +30,10 @@ impl Formulation for Differentiated {
         None
     }
 
+    fn serves_loops(&self) -> bool {
+        true
+    }
+
     fn knows(&self, method: Method) -> bool {
         !self.reads(method).is_empty()
     }
@@ -90,6 +94,10 @@ impl Formulation for ForwardDynamicsDerivatives {
 
     fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
         None
+    }
+
+    fn serves_loops(&self) -> bool {
+        true
     }
 
     fn knows(&self, method: Method) -> bool {

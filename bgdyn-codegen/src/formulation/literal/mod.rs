@@ -5,6 +5,7 @@
 //! All other formulations are verified against it. It follows the transformers of the bond graph one by
 //! one and omits only structural zeros.
 
+mod closed;
 mod coriolis;
 mod sum;
 
@@ -34,6 +35,10 @@ impl Formulation for Literal {
         None
     }
 
+    fn serves_loops(&self) -> bool {
+        true
+    }
+
     /// The graph grows with the cube of the number of links.
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
         Offer::Never
@@ -42,7 +47,10 @@ impl Formulation for Literal {
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let graph = prepared.graph;
         let b = Builder::new();
-        let outputs = {
+        let outputs = if let Some(closed) = &graph.closed {
+            let outputs = closed::outputs(&b, graph, closed, method)?;
+            outputs.into_iter().map(|e: Expr<'_>| e.signed()).collect()
+        } else {
             let arguments = Arguments::new(&b, graph, method);
             let sum = LiteralSum::new(&b, graph, &arguments.q);
             let outputs = match method {

@@ -1,0 +1,171 @@
+//! Messages about loops.
+
+use super::{quote, quoted_list, six_digits, suggestion};
+use crate::fault::{Fault, Location};
+
+pub(crate) fn loop_has_taken_name(location: &Location, name: &str) -> Fault {
+    let message = format!(
+        "{} is the name of a link, a joint, a frame, a constraint, an effect or another loop already",
+        quote(name)
+    );
+    Fault::new(location, "repeated-name", message).with_help("choose another name for the loop")
+}
+
+pub(crate) fn unknown_loop_type(location: &Location, word: &str, words: &[&str]) -> Fault {
+    let message = format!("{} is not a type of loop", quote(word));
+    let list = format!("the types are {}", quoted_list(words.iter().copied()));
+    Fault::new(location, "unknown-loop-type", message).with_help(suggestion(word, words, list))
+}
+
+pub(crate) fn loop_end_missing(location: &Location) -> Fault {
+    Fault::new(location, "missing-key", "the place has neither `link` nor `frame`")
+        .with_help("write `{ link: …, origin: { xyz: [x, y, z] } }`, or `{ frame: … }`")
+}
+
+pub(crate) fn loop_end_twice(location: &Location) -> Fault {
+    Fault::new(location, "place-twice", "the place has a `link` and a `frame`")
+        .with_help("leave one of them out: a frame is on a link already")
+}
+
+pub(crate) fn unknown_frame(location: &Location, name: &str, known: &[&str]) -> Fault {
+    let message = format!("no frame has the name {}", quote(name));
+    let list = match known {
+        [] => "the file has no frames: name a `link`".to_owned(),
+        _ => format!("the frames are {}", quoted_list(known.iter().copied())),
+    };
+    Fault::new(location, "unknown-frame", message).with_help(suggestion(name, known, list))
+}
+
+pub(crate) fn loop_closes_nothing(location: &Location, name: &str) -> Fault {
+    let message = format!("the loop {} connects two places of one link", quote(name));
+    Fault::new(location, "closes-nothing", message)
+        .with_help("name places on two links that move relative to each other")
+}
+
+pub(crate) fn loop_through_joint(location: &Location, name: &str, joint: &str, keyword: &str) -> Fault {
+    let message = format!(
+        "the loop {} goes through {}, a {keyword} joint that is none of one degree of freedom with a position of its own",
+        quote(name),
+        quote(joint)
+    );
+    Fault::new(location, "loop-through-joint", message).with_help(
+        "loops go through revolute, continuous, prismatic and helical joints, joints with `mimic` or `gear`, and universal and cylindrical joints; write a ball as three revolute joints, or close the loop there with `type: point`",
+    )
+}
+
+pub(crate) fn rod_without_length(location: &Location) -> Fault {
+    Fault::new(location, "missing-key", "a loop of type `distance` has no `length`")
+        .with_help("add `length:`, the length of the rod")
+}
+
+pub(crate) fn rod_length(location: &Location, text: &str) -> Fault {
+    let message = format!("the length of the rod is {text}");
+    Fault::new(location, "length-not-positive", message).with_help("write a positive length")
+}
+
+pub(crate) fn loop_key_unused(location: &Location, key: &str, keyword: &str, of: &str) -> Fault {
+    let message = format!("a loop of type `{keyword}` has no `{key}`");
+    Fault::new(location, "unused-key", message)
+        .with_help(format!("leave it out: `{key}` belongs to `{of}`"))
+}
+
+pub(crate) fn unknown_branch(location: &Location, word: &str) -> Fault {
+    let message = format!("{} is not a branch", quote(word));
+    let help = "write `left` or `right`: the side of the line from the joint of a's link to the joint of b's link on which the places lie; or give positions on the branch with `near`";
+    Fault::new(location, "unknown-branch", message).with_help(help)
+}
+
+pub(crate) fn branch_of_spatial_loop(location: &Location) -> Fault {
+    let message = "only loops with parallel axes, between two moving links, have a left and a right branch";
+    Fault::new(location, "branch-of-spatial-loop", message)
+        .with_help("give positions on the branch: `near: { elbow: 30 deg }`")
+}
+
+/// `value` has its unit.
+pub(crate) fn loop_row_never_holds(
+    location: &Location,
+    (name, row): (&str, &str),
+    (value, unit): (f64, &str),
+) -> Fault {
+    let value = six_digits(value);
+    let message = format!(
+        "the loop {} can never close: its row `{row}` is {value} {unit} at every position of the joints",
+        quote(name)
+    );
+    Fault::new(location, "loop-never-closes", message.replace(" ,", ","))
+        .with_help("correct the places: `origin` and `axis` of `a` and `b`, or the origins of the joints in the loop")
+}
+
+pub(crate) fn loop_not_assembled(location: &Location, (name, row): (&str, &str), left: f64) -> Fault {
+    let message = format!(
+        "no position closes the loops: in the best one found, {} is off by {} (row `{row}`)",
+        quote(name),
+        six_digits(left)
+    );
+    Fault::new(location, "loop-not-assembled", message)
+        .with_help("correct the lengths; or give positions near a closed one with `near: { elbow: 30 deg }`")
+}
+
+pub(crate) fn loop_closes_to_rounding(location: &Location, (name, row): (&str, &str), left: f64) -> Fault {
+    let message = format!(
+        "the loops close only to {}, not exactly: {} remains open (row `{row}`)",
+        six_digits(left),
+        quote(name)
+    );
+    Fault::new(location, "loop-closes-to-rounding", message).with_help(
+        "rows depend on each other for exact lengths only: write lengths and angles with all their digits, or free a joint of the loop",
+    )
+}
+
+pub(crate) fn branch_not_found(location: &Location, name: &str) -> Fault {
+    let message = format!("the loop {} closes, but not on this branch", quote(name));
+    Fault::new(location, "branch-not-found", message)
+        .with_help("write the other branch, or give positions near it with `near`")
+}
+
+pub(crate) fn dependent_loop_row(
+    location: &Location,
+    (name, row): (&str, &str),
+    others: &[(String, f64)],
+) -> Fault {
+    let terms = others.iter().map(|(name, factor)| format!("{} · `{name}`", six_digits(*factor)));
+    let terms: Vec<String> = terms.collect();
+    let message = match terms.as_slice() {
+        [] => format!("the row `{row}` of the loop {} moves no joint", quote(name)),
+        _ => format!(
+            "the row `{row}` of the loop {} follows from other rows: at the start it is {}",
+            quote(name),
+            terms.join(" + ")
+        ),
+    };
+    Fault::new(location, "dependent-row", message).with_help(
+        "choose a type of loop with fewer rows (`point` in place of `hinge`), or free a joint: an overconstrained loop has forces that its motion does not determine",
+    )
+}
+
+pub(crate) fn nothing_left_to_move(location: &Location, rows: usize, joints: usize) -> Fault {
+    let message = format!("nothing is left to move: the loops have {rows} rows for {joints} velocities");
+    Fault::new(location, "nothing-left-to-move", message)
+        .with_help("remove a loop, or add a joint")
+}
+
+pub(crate) fn too_many_independents(location: &Location, listed: &[&str], most: usize) -> Fault {
+    let message = format!(
+        "{} joints of the loops are listed as `independent` ({}), and the loops leave {most}",
+        listed.len(),
+        quoted_list(listed.iter().copied())
+    );
+    Fault::new(location, "too-many-independents", message).with_help("shorten the list")
+}
+
+pub(crate) fn independents_do_not_determine(location: &Location, listed: &[&str]) -> Fault {
+    let message = match listed {
+        [] => "no choice of independent joints determines the others".to_owned(),
+        _ => format!(
+            "the independent joints {} do not determine the others",
+            quoted_list(listed.iter().copied())
+        ),
+    };
+    Fault::new(location, "independents-do-not-determine", message)
+        .with_help("list other joints as `independent`")
+}

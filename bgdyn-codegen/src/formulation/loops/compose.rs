@@ -1,0 +1,189 @@
+//! Each method of a mechanism with loops, from functions of its open tree.
+
+use std::rc::Rc;
+
+use crate::bond_graph::ClosedTree;
+use crate::expr::{Builder, Expr, Leaf, Signed, Tangent, copy_into};
+use crate::formulation::arguments::Arguments;
+use crate::formulation::joint_motion::{along, tangents};
+use crate::formulation::solve;
+use crate::formulation::velocity_map::VelocityMap;
+use crate::function::{Function, in_triangle};
+use crate::method::Method;
+
+/// The motion of the open tree for the independent velocities and accelerations.
+pub(in crate::formulation) struct LoopMotion<'a, 'g> {
+    map: VelocityMap<'a, 'g>,
+    /// S u
+    velocities: Vec<Expr<'g>>,
+    /// z
+    bias: Vec<Expr<'g>>,
+}
+
+/// Returns the function of a method of the open tree.
+type ReadTree<'r> = dyn Fn(Method) -> Option<Rc<Function>> + 'r;
+
+/// Returns the methods of the open tree that a method is composed of; none if it cannot be.
+pub(super) fn reads(method: Method) -> Vec<Method> {
+    match method {
+        Method::InverseDynamics | Method::Bias => vec![Method::InverseDynamics],
+        Method::MassMatrix | Method::Gravity => vec![method],
+        Method::ForwardDynamics => vec![Method::InverseDynamics, Method::MassMatrix],
+        Method::KineticEnergy | Method::PotentialEnergy => vec![method],
+        Method::CoriolisMatrix => vec![method, Method::MassMatrix],
+        Method::Pose(_) | Method::Velocity(_) | Method::Jacobian(_) => vec![method],
+        Method::JacobianDotV(site) => vec![method, Method::Jacobian(site)],
+        _ => vec![],
+    }
+}
+
+impl<'a, 'g> LoopMotion<'a, 'g> {
+    /// Returns the motion for the arguments of a method; `bias` returns −γ for velocities of the tree.
+    pub(in crate::formulation) fn new(
+        map: VelocityMap<'a, 'g>,
+        x: &Arguments<'g>,
+        bias: impl FnOnce(&[Expr<'g>]) -> Vec<Expr<'g>>,
+    ) -> Self {
+        let velocities = map.velocities(&x.v);
+        let z = map.accelerations(&bias(&velocities));
+        LoopMotion {
+            map,
+            velocities,
+            bias: z,
+        }
+    }
+
+    /// Returns S u̇ + z.
+    fn accelerations(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let all = self.map.velocities(a).into_iter().zip(&self.bias);
+        all.map(|(x, z)| x + *z).collect()
+    }
+}
+
+/// Returns the expressions of a method; `None` for one that is not composed of those of the tree.
+pub(in crate::formulation) fn compose<'g>(
+    b: &'g Builder,
+    closed: &ClosedTree,
+    method: Method,
+    (x, motion): (&Arguments<'g>, &LoopMotion<'_, 'g>),
+    read: &ReadTree<'_>,
+) -> Option<Vec<Expr<'g>>> {
+    let map = &motion.map;
+    let tree = TreeFunctions { b, motion, read };
+    let n = closed.closure.independents.len();
+    Some(match method {
+        Method::InverseDynamics | Method::Bias | Method::Gravity => map.efforts(&tree.efforts(method, x)?),
+        Method::MassMatrix => triangle(&tree.mass_matrix(b)?),
+        Method::ForwardDynamics => {
+            let bias = map.efforts(&tree.efforts(Method::Bias, x)?);
+            let drive = x.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
+            solve::ltdl(b, tree.mass_matrix(b)?, drive)
+        }
+        Method::KineticEnergy | Method::PotentialEnergy => tree.read(method, None)?,
+        Method::CoriolisMatrix => tree.coriolis_matrix(closed)?,
+        Method::Pose(_) | Method::Velocity(_) => tree.read(method, None)?,
+        Method::Jacobian(_) => product(&tree.read(method, None)?, &map.map, n, b),
+        Method::JacobianDotV(site) => {
+            let jacobian = tree.read(Method::Jacobian(site), None)?;
+            let z: Vec<Vec<Expr<'g>>> = motion.bias.iter().map(|&z| vec![z]).collect();
+            let moved = product(&jacobian, &z, 1, b);
+            let own = tree.read(method, None)?;
+            own.into_iter().zip(moved).map(|(x, y)| x + y).collect()
+        }
+        _ => return None,
+    })
+}
+
+/// The functions of the open tree at the motion of the loops.
+struct TreeFunctions<'r, 'a, 'g> {
+    b: &'g Builder,
+    motion: &'r LoopMotion<'a, 'g>,
+    read: &'r ReadTree<'r>,
+}
+
+impl<'g> TreeFunctions<'_, '_, 'g> {
+    /// Returns the results of a method of the tree at these accelerations, zero if there are none.
+    fn read(&self, method: Method, accelerations: Option<&[Expr<'g>]>) -> Option<Vec<Expr<'g>>> {
+        let function = (self.read)(method)?;
+        let signed = |all: &[Expr<'g>]| -> Vec<Signed> { all.iter().map(|x| x.signed()).collect() };
+        let zero = self.b.zero().signed();
+        let velocities = signed(&self.motion.velocities);
+        let accelerations = accelerations.map(signed);
+        let leaf = |leaf: Leaf| match leaf {
+            Leaf::Velocity(j) => Some(velocities[j]),
+            Leaf::Acceleration(j) => Some(accelerations.as_ref().map_or(zero, |all| all[j])),
+            _ => None,
+        };
+        let outputs = &function.blocks[0].outputs;
+        let copied = self.b.with_graph(|g| copy_into(g, &function.graph, outputs, |_, l| leaf(l)));
+        Some(copied.into_iter().map(|e| self.b.expr(e)).collect())
+    }
+
+    /// Returns the efforts on the joints of the tree.
+    fn efforts(&self, method: Method, x: &Arguments<'g>) -> Option<Vec<Expr<'g>>> {
+        match method {
+            Method::Gravity => self.read(method, None),
+            Method::Bias => self.read(Method::InverseDynamics, Some(&self.motion.bias)),
+            _ => {
+                let accelerations = self.motion.accelerations(&x.a);
+                self.read(Method::InverseDynamics, Some(&accelerations))
+            }
+        }
+    }
+
+    /// Returns the lower triangle of Sᵀ M S.
+    fn mass_matrix(&self, b: &'g Builder) -> Option<Vec<Vec<Expr<'g>>>> {
+        let map = &self.motion.map.map;
+        let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
+        let mass = self.read(Method::MassMatrix, None)?;
+        let entry = |i: usize, j: usize| mass[in_triangle(i.max(j), i.min(j))];
+        let moved = |i: usize, k: usize| {
+            (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k])
+        };
+        let moved: Vec<Vec<Expr<'g>>> = (0..all).map(|i| (0..n).map(|k| moved(i, k)).collect()).collect();
+        let entry = |k: usize, l: usize| {
+            (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l])
+        };
+        Some((0..n).map(|k| (0..=k).map(|l| entry(k, l)).collect()).collect())
+    }
+
+    /// Returns Sᵀ (C S + M Ṡ), row by row: bias = C u + gravity, Ṁ − 2 C skew.
+    fn coriolis_matrix(&self, closed: &ClosedTree) -> Option<Vec<Expr<'g>>> {
+        let (b, map) = (self.b, &self.motion.map.map);
+        let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
+        let coriolis = self.read(Method::CoriolisMatrix, None)?;
+        let mass = self.read(Method::MassMatrix, None)?;
+        let rates = tangents(b, &closed.tree, &self.motion.velocities);
+        let mut rate = Tangent::new(along(rates));
+        let mut rate_of = |e: Expr<'g>| {
+            let e = e.signed();
+            b.expr(b.with_graph(|g| rate.of(g, e)))
+        };
+        let rates: Vec<Vec<Expr<'g>>> = map.iter().map(|row| row.iter().map(|&e| rate_of(e)).collect()).collect();
+        let mut moved = product(&coriolis, map, n, b);
+        let symmetric: Vec<Expr<'g>> = (0..all * all)
+            .map(|k| mass[in_triangle((k / all).max(k % all), (k / all).min(k % all))])
+            .collect();
+        let turned = product(&symmetric, &rates, n, b);
+        moved.iter_mut().zip(turned).for_each(|(x, y)| *x = *x + y);
+        let entry = |k: usize, l: usize| {
+            (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i * n + l])
+        };
+        Some((0..n * n).map(|at| entry(at / n, at % n)).collect())
+    }
+}
+
+/// Returns the product of a matrix, row by row, with one that has `n` columns, row by row.
+fn product<'g>(a: &[Expr<'g>], map: &[Vec<Expr<'g>>], n: usize, b: &'g Builder) -> Vec<Expr<'g>> {
+    let inner = map.len();
+    let entry = |row: &[Expr<'g>], k: usize| {
+        let terms = row.iter().zip(map);
+        terms.fold(b.zero(), |sum, (x, column)| sum + *x * column[k])
+    };
+    let rows = a.chunks(inner.max(1));
+    rows.flat_map(|row| (0..n).map(move |k| entry(row, k))).collect()
+}
+
+fn triangle<'g>(mass: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
+    mass.iter().flatten().copied().collect()
+}

@@ -1,0 +1,102 @@
+//! Mechanisms with loops: the functions of the open tree at q̇ = S u and q̈ = S u̇ + z, multiplied by Sᵀ.
+//!
+//! Equation (6) with the transformers of the tree composed with S (Krut'ko and Kuzmin 2001; Blajer 1992):
+//! Sᵀ P = Σ_i [ (∂r_i/∂q S)ᵀ (m_i r̈_i − R_i) + (ρ^i S)ᵀ (K̇_i − M_i) ]. The multipliers do not appear, because
+//! B S = 0.
+
+mod compose;
+
+use std::rc::Rc;
+
+use super::arguments::Arguments;
+use super::subspaces::Subspaces;
+use super::velocity_map::{VelocityMap, loop_bias, loop_rows};
+use super::{Formulation, Offer, Prepared};
+use crate::bond_graph::{ClosedTree, LinkFrame, Multibody};
+use crate::expr::{Builder, Expr, Graph, Signed};
+use crate::function::Function;
+use crate::method::Method;
+pub(super) use compose::{LoopMotion, compose};
+
+/// Elimination of the dependent velocities, on the functions chosen for the open tree.
+pub(super) struct Elimination;
+
+impl Formulation for Elimination {
+    fn name(&self) -> &'static str {
+        "elimination"
+    }
+
+    fn summary(&self) -> &'static str {
+        "functions of the open tree, with the dependent velocities of the loops eliminated"
+    }
+
+    fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
+        match graph.closed {
+            Some(_) => None,
+            None => graph.frames.first(),
+        }
+    }
+
+    fn serves_loops(&self) -> bool {
+        true
+    }
+
+    fn knows(&self, method: Method) -> bool {
+        !self.reads_of_tree(method).is_empty()
+    }
+
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Candidate
+    }
+
+    fn reads_of_tree(&self, method: Method) -> Vec<Method> {
+        compose::reads(method)
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let graph: &Multibody = prepared.graph;
+        let closed = graph.closed.as_deref()?;
+        let b = Builder::new();
+        let mut of_tree = String::new();
+        let outputs: Vec<Signed> = {
+            let x = Arguments::new(&b, graph, method);
+            let motion = loop_motion(&b, closed, &x);
+            let read = |method: Method| prepared.tree_function(method);
+            let outputs = compose(&b, closed, method, (&x, &motion), &read)?;
+            if let Some(first) = self.reads_of_tree(method).first() {
+                of_tree = read(*first)?.formulation.clone();
+            }
+            outputs.into_iter().map(Expr::signed).collect()
+        };
+        let name = format!("{of_tree}; loops eliminated");
+        Some(Function::flat(graph, method, name, b.into_graph(), outputs))
+    }
+}
+
+/// Returns the motion of the open tree for the arguments of a method.
+fn loop_motion<'a, 'g>(
+    b: &'g Builder,
+    closed: &'a ClosedTree,
+    x: &Arguments<'g>,
+) -> LoopMotion<'a, 'g> {
+    let closure = &closed.closure;
+    let map = VelocityMap::new(b, closure, loop_rows(b, closure, &x.q));
+    LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v)))
+}
+
+/// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, with the recursion over
+/// motion subspaces for the open tree; `None` without loops.
+pub(crate) fn mass_and_bias(graph: &Multibody) -> Option<(Graph, Vec<Signed>)> {
+    let closed = graph.closed.as_deref()?;
+    let prepared = Prepared::new(&closed.tree);
+    let read = |method: Method| Subspaces.function(&prepared, method).map(Rc::new);
+    let b = Builder::new();
+    let outputs: Vec<Signed> = {
+        let x = Arguments::new(&b, graph, Method::Bias);
+        let motion = loop_motion(&b, closed, &x);
+        let mut all = compose(&b, closed, Method::MassMatrix, (&x, &motion), &read)?;
+        all.extend(compose(&b, closed, Method::Bias, (&x, &motion), &read)?);
+        all.into_iter().map(Expr::signed).collect()
+    };
+    Some((b.into_graph(), outputs))
+}

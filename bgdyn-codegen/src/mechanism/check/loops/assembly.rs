@@ -1,0 +1,122 @@
+//! Finds a closed position on the branch of the file, and closed positions at random from there.
+
+use bgdyn_runtime::Dd;
+
+use super::read::ReadLoop;
+use crate::fault::{Faults, wording};
+use crate::mechanism::closure::Closure;
+use crate::mechanism::{CoordinateId, LinkId};
+use crate::random::Random;
+
+/// Starts of the search, the given position first.
+const STARTS: u64 = 200;
+
+/// Closed positions at random.
+const SAMPLES: u64 = 12;
+
+/// A residual below this is that of a closed position.
+const CLOSED: f64 = 1e-25;
+
+/// A gap below this would be one of rounded lengths, m or rad.
+const ROUNDED: f64 = 1e-5;
+
+/// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
+/// independent: their positions stay those of the start if they can.
+pub(super) fn assemble(
+    closure: &mut Closure,
+    read: &[ReadLoop],
+    kept: &[CoordinateId],
+    faults: &mut Faults,
+) -> Option<()> {
+    let mut given = closure.start.clone();
+    for (link, value) in read.iter().flat_map(|one| &one.near) {
+        let at = position_of(closure, *link);
+        if let Some(p) = at {
+            given[p] = *value;
+        }
+    }
+    let moving = closure.moving();
+    let others: Vec<usize> = moving.iter().copied().filter(|j| !kept.contains(&CoordinateId(*j))).collect();
+    let mut best = (f64::INFINITY, given.clone());
+    let mut wrong: Option<usize> = None;
+    for seed in 0..STARTS {
+        let mut q = given.clone();
+        let mut random = Random(seed);
+        let spread = if seed < STARTS / 2 { 0.5 } else { 3.0 };
+        let changed = if seed % 2 == 0 { &others } else { &moving };
+        for p in changed.iter().filter_map(|&j| closure.positions[j]) {
+            if seed > 0 {
+                q[p.0] += Dd::from_f64(spread * random.signed());
+            }
+        }
+        let mut left = closure.assemble(&closure.rows, &mut q, &others);
+        if left > CLOSED {
+            left = closure.assemble(&closure.rows, &mut q, &moving);
+        }
+        if left > CLOSED {
+            if left < best.0 {
+                best = (left, q);
+            }
+            continue;
+        }
+        match on_other_branch(closure, read, &q) {
+            None => {
+                closure.start = q;
+                closure.samples = sample(closure);
+                return Some(());
+            }
+            Some(one) => wrong = wrong.or(Some(one)),
+        }
+    }
+    match wrong {
+        Some(one) => {
+            let location = read[one].branch.as_ref().map_or(&read[one].closes.location, |b| &b.location);
+            faults.push(wording::branch_not_found(location, &read[one].closes.name));
+        }
+        None => report_gap(closure, best, faults),
+    }
+    None
+}
+
+/// Returns the first loop that is closed on another branch than that of the file, or turned over.
+fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usize> {
+    (0..read.len()).find(|&one| {
+        let side = closure.side(one, q);
+        let wanted = read[one].branch.as_ref().map(|branch| branch.value);
+        let other = |left: bool| side.is_some_and(|side| (side > 0.0) != left);
+        wanted.is_some_and(other) || closure.flipped(one, q)
+    })
+}
+
+/// Reports the loop with the largest gap at the best position.
+fn report_gap(closure: &Closure, (left, q): (f64, Vec<Dd>), faults: &mut Faults) {
+    let (residuals, _) = closure.values(&closure.rows, &q);
+    let sizes = residuals.iter().map(|x| x.to_f64().abs());
+    let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((row, _)) = worst else { return };
+    let row = &closure.rows[row];
+    let one = &closure.loops[row.closes];
+    let names = (one.name.as_str(), row.name);
+    faults.push(match left < ROUNDED {
+        true => wording::loop_closes_to_rounding(&one.location, names, left),
+        false => wording::loop_not_assembled(&one.location, names, left),
+    });
+}
+
+fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
+    let mut q = closure.start.clone();
+    let mut random = Random(17);
+    let next = |_| {
+        closure.walk(&closure.rows, &mut q, &mut random);
+        q.clone()
+    };
+    (0..SAMPLES).map(next).collect()
+}
+
+/// Returns the position of a link's joint, if a loop contains it.
+fn position_of(closure: &Closure, link: LinkId) -> Option<usize> {
+    let mut steps = closure.loops.iter().flat_map(|one| &one.chain.steps);
+    let step = steps.find(|step| step.link == link)?;
+    let position = step.degrees.positions.first()?;
+    Some(position.0)
+}

@@ -1,0 +1,101 @@
+//! Loops: reads their places, assembles them, and chooses which velocities are dependent.
+//!
+//! 1. `read.rs`: the entries of the file, and the chain of joints between the places.
+//! 2. `structure.rs`: a row that holds at every position of the tree is dropped; one that holds at none is a
+//!    fault.
+//! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; closed positions at
+//!    random from there.
+//! 4. `structure.rs`: rows that follow from others at all of these are a fault.
+//! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
+//!    the dependent columns are well conditioned.
+//! 6. `blocks.rs`: the order in which blocks of rows are solved.
+
+mod assembly;
+mod blocks;
+mod independents;
+mod read;
+mod structure;
+
+use super::direction::Directions;
+use crate::fault::{Faults, wording};
+use crate::format::Spec;
+use crate::mechanism::closure::Closure;
+use crate::mechanism::{CoordinateId, Mechanism, Motion, PositionId};
+
+/// Closes the loops of a numbered open tree. `None` if a rule is broken.
+pub(super) fn close(
+    spec: &Spec,
+    mechanism: &mut Mechanism,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<()> {
+    let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
+    if specs.is_empty() {
+        return Some(());
+    }
+    let before = faults.count();
+    let read = specs.iter().map(|one| read::read(one, (spec, mechanism, directions), faults));
+    let read: Vec<Option<read::ReadLoop>> = read.collect();
+    let read: Vec<read::ReadLoop> = read.into_iter().collect::<Option<_>>()?;
+    if faults.count() > before {
+        return None;
+    }
+    let mut closure = unsolved(mechanism, &read);
+    structure::drop_rows(&mut closure, faults);
+    if faults.count() > before {
+        return None;
+    }
+    let kept = independents::named(spec, mechanism, faults)?;
+    assembly::assemble(&mut closure, &read, &kept, faults)?;
+    structure::check_rank(&closure, faults)?;
+    independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
+    blocks::arrange(&mut closure);
+    mechanism.close(closure);
+    Some(())
+}
+
+/// Returns the loops with all their rows, without a solution.
+fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
+    let loops: Vec<_> = read.iter().map(|one| one.closes.clone()).collect();
+    let rows = loops.iter().enumerate().flat_map(|(closes, one)| {
+        let row = move |&(name, kind)| crate::mechanism::closure::LoopRow { closes, name, kind };
+        one.kind.rows.iter().map(row)
+    });
+    let rows = rows.collect();
+    let mut positions: Vec<Option<PositionId>> = vec![None; mechanism.nv()];
+    let steps = loops.iter().flat_map(|one| &one.chain.steps);
+    for CoordinateId(j) in steps.flat_map(|step| step.degrees.velocities.clone()) {
+        let joint = mechanism.joint(CoordinateId(j));
+        positions[j] = joint.degrees.positions.first().copied();
+    }
+    Closure {
+        rows,
+        dropped: Vec::new(),
+        independents: Vec::new(),
+        blocks: Vec::new(),
+        positions,
+        start: neutral(mechanism),
+        samples: Vec::new(),
+        loops,
+    }
+}
+
+/// Returns the position of the tree with all joints at zero.
+fn neutral(mechanism: &Mechanism) -> Vec<bgdyn_runtime::Dd> {
+    let part = |(p, link): (usize, &crate::mechanism::LinkId)| {
+        let joint = &mechanism.links()[link.0].joint;
+        let own = joint.degrees.positions.iter().position(|x| x.0 == p);
+        let neutral = match (joint.kind.motion, own) {
+            (Motion::Compound(motion), Some(k)) => f64::from(motion.positions[k].neutral),
+            _ => 0.0,
+        };
+        bgdyn_runtime::Dd::from_f64(neutral)
+    };
+    mechanism.positions().iter().enumerate().map(part).collect()
+}
+
+/// Reports a joint that no loop can go through.
+fn unsuitable(one: &crate::format::LoopSpec, name: &str, mechanism: &Mechanism, link: usize, faults: &mut Faults) {
+    let joint = &mechanism.links()[link].joint;
+    faults.push(wording::loop_through_joint(&one.location, name, &joint.name, joint.kind.keyword));
+}

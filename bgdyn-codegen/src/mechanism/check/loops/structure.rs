@@ -1,0 +1,94 @@
+//! Rows that hold at every position of the tree, at none, or whenever others hold.
+
+use bgdyn_runtime::Dd;
+
+use crate::fault::{Faults, wording};
+use crate::mechanism::closure::{Closure, LoopRow, eliminate};
+use crate::random::Random;
+
+/// Positions of the tree at which rows are tested.
+const POSITIONS: u64 = 4;
+
+/// A value below this is a rounding error of double-double, relative to 1 m or 1 rad.
+const ROUNDING: f64 = 1e-24;
+
+/// Drops the rows that hold at every position; reports those with a constant value that is not zero.
+pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
+    let values: Vec<Vec<Dd>> = (0..POSITIONS)
+        .map(|seed| closure.values(&closure.rows, &random_position(closure, seed)).0)
+        .collect();
+    let of_row = |r: usize| values.iter().map(move |at| at[r]);
+    let spread = |r: usize| {
+        let first = values[0][r];
+        of_row(r).map(|x| (x - first).to_f64().abs()).fold(0.0, f64::max)
+    };
+    let (mut kept, mut dropped) = (Vec::new(), Vec::new());
+    for (r, row) in closure.rows.iter().enumerate() {
+        let largest = of_row(r).map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+        if largest <= ROUNDING {
+            dropped.push(*row);
+            continue;
+        }
+        if spread(r) <= ROUNDING {
+            let one = &closure.loops[row.closes];
+            let value = (values[0][r].to_f64(), row.kind.unit());
+            faults.push(wording::loop_row_never_holds(&one.location, (&one.name, row.name), value));
+        }
+        kept.push(*row);
+    }
+    (closure.rows, closure.dropped) = (kept, dropped);
+}
+
+/// Returns the neutral position with the loops' joints anywhere.
+fn random_position(closure: &Closure, seed: u64) -> Vec<Dd> {
+    let mut random = Random(seed);
+    let mut q = closure.start.clone();
+    for p in closure.positions.iter().flatten() {
+        q[p.0] = Dd::from_f64(3.0 * random.signed());
+    }
+    q
+}
+
+/// Reports rows that follow from earlier ones at all sampled positions, and loops that leave no velocity.
+pub(super) fn check_rank(closure: &Closure, faults: &mut Faults) -> Option<()> {
+    let before = faults.count();
+    let jacobians: Vec<Vec<Vec<Dd>>> = closure
+        .samples
+        .iter()
+        .map(|q| closure.values(&closure.rows, q).1)
+        .collect();
+    let mut independent: Vec<usize> = Vec::new();
+    for r in 0..closure.rows.len() {
+        let follows = |jacobian: &Vec<Vec<Dd>>| combination(jacobian, &independent, r);
+        let found: Option<Vec<Vec<f64>>> = jacobians.iter().map(follows).collect();
+        let Some(combinations) = found else {
+            independent.push(r);
+            continue;
+        };
+        let row: &LoopRow = &closure.rows[r];
+        let one = &closure.loops[row.closes];
+        let factors = combinations.into_iter().next().unwrap_or_default();
+        let terms = independent.iter().zip(factors).filter(|(_, factor)| factor.abs() > 1e-9);
+        let terms: Vec<(String, f64)> = terms.map(|(&k, f)| (closure.row_name(&closure.rows[k]), f)).collect();
+        faults.push(wording::dependent_loop_row(&one.location, (&one.name, row.name), &terms));
+    }
+    (faults.count() == before).then_some(())
+}
+
+/// Returns the factors of the rows `of` whose sum is row r; `None` if it is independent of them.
+fn combination(jacobian: &[Vec<Dd>], of: &[usize], r: usize) -> Option<Vec<f64>> {
+    // Columns are the rows of B: Σ factor · row = row r.
+    let n = jacobian[r].len();
+    let mut system: Vec<Vec<Dd>> = (0..n)
+        .map(|j| of.iter().chain([&r]).map(|&k| jacobian[k][j]).collect())
+        .collect();
+    let size = jacobian[r].iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+    let (pivots, _) = eliminate(&mut system, of.len());
+    let mut factors = vec![0.0; of.len()];
+    for &(row, column) in &pivots {
+        factors[column] = (system[row][of.len()] / system[row][column]).to_f64();
+    }
+    let used = |i: usize| pivots.iter().any(|(row, _)| *row == i);
+    let left = (0..n).filter(|&i| !used(i)).map(|i| system[i][of.len()].to_f64().abs());
+    (left.fold(0.0, f64::max) <= 1e-18 * size.max(1e-6)).then_some(factors)
+}

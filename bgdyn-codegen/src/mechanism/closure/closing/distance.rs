@@ -1,0 +1,16 @@
+//! The closing rod.
+
+use super::ClosingType;
+use crate::mechanism::closure::row::RowKind::Length;
+
+/// The places are connected by a massless rod with a ball at both ends.
+pub(super) static DISTANCE: ClosingType = ClosingType {
+    keyword: "distance",
+    about: "The places are connected by a massless rod with a ball at both ends.",
+    rows: &[
+        ("length", Length),
+    ],
+    axial: false,
+    length: true,
+    coincident: false,
+};

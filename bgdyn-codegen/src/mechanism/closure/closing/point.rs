@@ -1,0 +1,18 @@
+//! The closing point: a spherical joint.
+
+use super::ClosingType;
+use crate::mechanism::closure::row::RowKind::Place;
+
+/// The places coincide: every rotation is free.
+pub(super) static POINT: ClosingType = ClosingType {
+    keyword: "point",
+    about: "The places coincide: every rotation is free.",
+    rows: &[
+        ("x", Place(0)),
+        ("y", Place(1)),
+        ("z", Place(2)),
+    ],
+    axial: false,
+    length: false,
+    coincident: true,
+};

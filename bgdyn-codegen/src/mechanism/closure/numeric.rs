@@ -1,0 +1,212 @@
+//! Values and Jacobians of loops in double-double, and positions that close them.
+
+use bgdyn_runtime::Dd;
+
+use super::{Closure, LoopRow, RelativePlace, solve};
+use crate::mechanism::joint::DoubleDouble;
+use crate::random::Random;
+
+/// Largest residual of a closed position, relative to 1 m or 1 rad.
+const CLOSED: f64 = 1e-27;
+
+/// Steps of Newton's method and of Levenberg and Marquardt's.
+const STEPS: usize = 60;
+
+/// Largest change of a position in one step, rad or m.
+const LARGEST_STEP: f64 = 0.5;
+
+/// Steps of a walk between two sampled positions, and their size.
+const WALK: (usize, f64) = (8, 0.3);
+
+impl Closure {
+    /// Returns c(q), and B(q) row by row.
+    pub fn values(&self, rows: &[LoopRow], q: &[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>) {
+        let places: Vec<RelativePlace<Dd>> = self.loops.iter().map(|one| {
+            let frames = one.chain.frames(q, &DoubleDouble);
+            one.chain.place(&frames, false, &DoubleDouble)
+        }).collect();
+        let value = |row: &LoopRow| {
+            let (place, length) = (&places[row.closes], self.loops[row.closes].length);
+            let mut rates = vec![Dd::ZERO; self.positions.len()];
+            for (j, column) in &place.columns {
+                rates[j.0] = row.kind.rate(place, column, length);
+            }
+            (row.kind.residual(place, length, |x| x), rates)
+        };
+        rows.iter().map(value).unzip()
+    }
+
+    /// Returns −γ = Ḃ q̇ for closed velocities of the open tree.
+    pub fn bias(&self, q: &[Dd], v: &[Dd]) -> Vec<Dd> {
+        let row = |row: &LoopRow| {
+            let one = &self.loops[row.closes];
+            let frames = one.chain.frames(q, &DoubleDouble);
+            let place = one.chain.place(&frames, false, &DoubleDouble);
+            let rates = one.chain.rates(&frames, v, &DoubleDouble);
+            row.kind.bias(&place, &rates, one.length)
+        };
+        self.rows.iter().map(row).collect()
+    }
+
+    /// Returns S, row by row for the velocities of the open tree; `None` at a singular position.
+    pub fn velocity_map(&self, q: &[Dd]) -> Option<Vec<Vec<Dd>>> {
+        let (_, jacobian) = self.values(&self.rows, q);
+        let dependents: Vec<usize> = self.dependents().map(|j| j.0).collect();
+        let square = jacobian.iter().map(|row| dependents.iter().map(|&j| row[j]).collect());
+        let sides: Vec<Vec<Dd>> = (self.independents.iter())
+            .map(|i| jacobian.iter().map(|row| -row[i.0]).collect())
+            .collect();
+        let solved = solve(square.collect(), &sides, 1e-20)?;
+        let mut map = vec![vec![Dd::ZERO; self.independents.len()]; self.positions.len()];
+        for (k, i) in self.independents.iter().enumerate() {
+            map[i.0][k] = Dd::ONE;
+            for (d, &j) in dependents.iter().enumerate() {
+                map[j][k] = solved[k][d];
+            }
+        }
+        Some(map)
+    }
+
+    /// Changes the dependent positions so that the loops close. Returns whether they do.
+    pub fn close(&self, q: &mut [Dd]) -> bool {
+        let dependents: Vec<usize> = self.dependents().map(|j| j.0).collect();
+        for _ in 0..STEPS {
+            let (residuals, jacobian) = self.values(&self.rows, q);
+            if largest(&residuals) <= CLOSED {
+                return true;
+            }
+            let square = jacobian.iter().map(|row| dependents.iter().map(|&j| row[j]).collect());
+            let Some(step) = solve(square.collect(), &[residuals], 1e-20) else {
+                return false;
+            };
+            let steps: Vec<(usize, Dd)> = dependents.iter().copied().zip(step[0].iter().map(|x| -*x)).collect();
+            self.move_by(q, &steps);
+        }
+        false
+    }
+
+    /// Changes the positions of these velocities as little as possible so that the loops close (Levenberg and
+    /// Marquardt's method). Returns the largest residual.
+    pub fn assemble(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize]) -> f64 {
+        let mut damping = 1e-3;
+        let (mut residuals, mut jacobian) = self.values(rows, q);
+        for _ in 0..STEPS {
+            let size = square(&residuals);
+            if largest(&residuals) <= CLOSED {
+                break;
+            }
+            let Some(step) = least_step(&jacobian, &residuals, free, damping) else {
+                break;
+            };
+            let mut moved = q.to_vec();
+            self.move_by(&mut moved, &step);
+            let (found, there) = self.values(rows, &moved);
+            if square(&found) < size {
+                q.copy_from_slice(&moved);
+                (residuals, jacobian) = (found, there);
+                damping = f64::max(damping * 0.02, 1e-22);
+            } else {
+                damping *= 8.0;
+                if damping > 1e6 {
+                    break;
+                }
+            }
+        }
+        largest(&residuals)
+    }
+
+    /// Moves the positions of the loops' joints a random way through closed positions.
+    pub fn walk(&self, rows: &[LoopRow], q: &mut [Dd], random: &mut Random) {
+        let free: Vec<usize> = self.moving();
+        for _ in 0..WALK.0 {
+            let (_, jacobian) = self.values(rows, q);
+            let direction: Vec<Dd> = free.iter().map(|_| Dd::from_f64(random.signed())).collect();
+            let along = |row: &Vec<Dd>| dot(free.iter().map(|&j| row[j]), &direction);
+            let off: Vec<Dd> = jacobian.iter().map(along).collect();
+            let Some(back) = least_step(&jacobian, &off, &free, 1e-20) else {
+                continue;
+            };
+            let size = Dd::from_f64(WALK.1);
+            let tangent = direction.iter().zip(&back).map(|(&x, (j, y))| (*j, (x + *y) * size));
+            let mut moved = q.to_vec();
+            self.move_by(&mut moved, &tangent.collect::<Vec<_>>());
+            if self.assemble(rows, &mut moved, &free) <= CLOSED {
+                q.copy_from_slice(&moved);
+            }
+        }
+    }
+
+    /// Returns the velocities of the joints in loops.
+    pub fn moving(&self) -> Vec<usize> {
+        let all = 0..self.positions.len();
+        all.filter(|&j| self.positions[j].is_some()).collect()
+    }
+
+    /// Returns on which side of the line from the first link's joint to the last link's the places of a planar
+    /// loop lie: positive for left, seen against the loop's axis.
+    pub fn side(&self, closes: usize, q: &[Dd]) -> Option<f64> {
+        let one = &self.loops[closes];
+        let axis = one.axis?;
+        let frames = one.chain.frames(q, &DoubleDouble);
+        let [p, o] = frames.pivots();
+        Some((o - p).cross(-p).dot(axis).to_f64())
+    }
+
+    /// Returns whether a rotation that is held is turned by half a turn.
+    pub fn flipped(&self, closes: usize, q: &[Dd]) -> bool {
+        let one = &self.loops[closes];
+        let frames = one.chain.frames(q, &DoubleDouble);
+        let turned = one.chain.place(&frames, false, &DoubleDouble).rotation.0;
+        let names = one.kind.rows.iter().map(|(name, _)| *name);
+        let held = |axis: &str| names.clone().any(|name| name.starts_with(axis));
+        let against = |k: usize| turned[k][k] < Dd::ZERO;
+        (held("turn") && (0..3).any(against)) || (held("tilt") && against(2))
+    }
+
+    /// Adds the steps to the positions, scaled down if one is large.
+    fn move_by(&self, q: &mut [Dd], steps: &[(usize, Dd)]) {
+        let largest = steps.iter().map(|(_, x)| x.to_f64().abs()).fold(0.0, f64::max);
+        let scale = Dd::from_f64(f64::min(1.0, LARGEST_STEP / largest));
+        for &(j, step) in steps {
+            if let Some(p) = self.positions[j] {
+                q[p.0] += step * scale;
+            }
+        }
+    }
+}
+
+/// Returns the shortest x of these velocities with B x = −c, damped: −Bᵀ (B Bᵀ + μ)⁻¹ c.
+fn least_step(
+    jacobian: &[Vec<Dd>],
+    residuals: &[Dd],
+    free: &[usize],
+    damping: f64,
+) -> Option<Vec<(usize, Dd)>> {
+    let columns: Vec<Vec<Dd>> = jacobian.iter().map(|row| free.iter().map(|&j| row[j]).collect()).collect();
+    let mut normal: Vec<Vec<Dd>> = columns
+        .iter()
+        .map(|row| columns.iter().map(|other| dot(row.iter().copied(), other)).collect())
+        .collect();
+    let trace = (0..normal.len()).fold(0.0, |sum, k| sum + normal[k][k].to_f64());
+    for (k, row) in normal.iter_mut().enumerate() {
+        row[k] += Dd::from_f64(damping * f64::max(trace, 1e-12));
+    }
+    let multipliers = solve(normal, &[residuals.to_vec()], 0.0)?.remove(0);
+    let step = free.iter().enumerate().map(|(k, &j)| {
+        let sum = dot(columns.iter().map(|row| row[k]), &multipliers);
+        (j, -sum)
+    });
+    Some(step.collect())
+}
+
+fn dot(x: impl Iterator<Item = Dd>, y: &[Dd]) -> Dd {
+    x.zip(y).fold(Dd::ZERO, |sum, (x, y)| sum + x * *y)
+}
+
+fn square(x: &[Dd]) -> f64 {
+    x.iter().map(|x| x.to_f64() * x.to_f64()).sum()
+}
+
+fn largest(x: &[Dd]) -> f64 {
+    x.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max)
+}

@@ -1,0 +1,11 @@
+//! Tests mechanisms with loops: reference solutions with multipliers, random loops against the open tree with
+//! multipliers, the generator's own check, faults.
+
+#[path = "../joints/robot.rs"]
+#[allow(dead_code, reason = "shared with the tests of joints")]
+mod robot;
+
+mod faults;
+mod multipliers;
+mod references;
+mod verified;
