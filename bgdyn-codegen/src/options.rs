@@ -89,16 +89,13 @@ impl Options {
     ///
     /// # Errors
     /// Every name that the mechanism does not have.
-    pub fn select(
-        &self,
-        sites: &[Site],
-        velocities: usize,
-    ) -> Result<Vec<Method>, Vec<UnknownName>> {
+    pub fn select(&self, graph: &Multibody) -> Result<Vec<Method>, Vec<UnknownName>> {
+        let sites = &graph.sites;
         let mut unknown = self.misplaced_scene_options();
         let mut wanted = BTreeSet::new();
         match &self.methods {
-            None => wanted.extend(usual(velocities)),
-            Some(names) => wanted.extend(methods(names, sites, &mut unknown)),
+            None => wanted.extend(usual(graph)),
+            Some(names) => wanted.extend(methods(names, graph, &mut unknown)),
         }
         match &self.frames {
             Some(names) => wanted.extend(frames(names, sites, &mut unknown)),
@@ -114,7 +111,7 @@ impl Options {
             wanted.insert(Method::ForwardDynamicsDerivatives);
         }
         if unknown.is_empty() {
-            let all = Method::possible(sites).into_iter();
+            let all = Method::possible_of(graph).into_iter();
             Ok(all.filter(|m| wanted.contains(m)).collect())
         } else {
             Err(unknown)
@@ -228,19 +225,26 @@ impl UnknownName {
     }
 }
 
-fn usual(velocities: usize) -> Vec<Method> {
-    let coriolis = (velocities <= COMPACT).then_some(Method::CoriolisMatrix);
-    Method::OF_TRAIT.into_iter().chain(coriolis).collect()
+fn usual(graph: &Multibody) -> Vec<Method> {
+    let small = graph.coordinates.len() <= COMPACT;
+    let coriolis = small.then_some(Method::CoriolisMatrix);
+    dynamics(graph).into_iter().chain(coriolis).collect()
 }
 
-fn methods(names: &[String], sites: &[Site], unknown: &mut Vec<UnknownName>) -> Vec<Method> {
+/// Returns the methods of the trait `Dynamics`, and those that it needs for a mechanism with loops.
+fn dynamics(graph: &Multibody) -> Vec<Method> {
+    let of_loops = graph.closed.iter().flat_map(|_| Method::OF_LOOPS);
+    Method::OF_TRAIT.into_iter().chain(of_loops).collect()
+}
+
+fn methods(names: &[String], graph: &Multibody, unknown: &mut Vec<UnknownName>) -> Vec<Method> {
     let mut wanted = Vec::new();
     for (index, name) in names.iter().enumerate() {
         if name == DYNAMICS {
-            wanted.extend(Method::OF_TRAIT);
+            wanted.extend(dynamics(graph));
             continue;
         }
-        match Method::named(sites, name) {
+        match Method::named(graph, name) {
             Ok(method) => wanted.push(method),
             Err(message) => unknown.push(UnknownName {
                 option: OptionName::Methods,

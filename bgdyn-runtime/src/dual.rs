@@ -185,7 +185,7 @@ macro_rules! dual_scalar {
             fn failed<const M: usize>(
                 accelerations: SVector<Self, M>,
                 refused: Option<usize>,
-                names: &'static [&'static str; M],
+                names: &'static [&'static str],
                 arguments: impl FnOnce(&mut Look<'_, Self>),
             ) -> Option<Singular> {
                 failed(accelerations, refused, names, arguments)

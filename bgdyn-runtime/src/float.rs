@@ -133,7 +133,7 @@ macro_rules! float_scalar {
             fn failed<const N: usize>(
                 accelerations: SVector<Self, N>,
                 refused: Option<usize>,
-                names: &'static [&'static str; N],
+                names: &'static [&'static str],
                 arguments: impl FnOnce(&mut Look<'_, Self>),
             ) -> Option<Singular> {
                 failed(accelerations, refused, names, arguments)

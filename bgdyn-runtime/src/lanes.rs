@@ -160,14 +160,14 @@ macro_rules! lane_scalar {
             fn failed<const N: usize>(
                 accelerations: SVector<Self, N>,
                 refused: Self,
-                names: &'static [&'static str; N],
+                names: &'static [&'static str],
                 arguments: impl FnOnce(&mut Look<'_, Self>),
             ) -> Option<LaneSingular<Self, $n, N>> {
                 let zero = Self::splat(0.0);
                 let mut finite = refused.simd_lt(zero);
                 let mut errors = refused
                     .to_array()
-                    .map(|j| (j >= 0.0).then(|| Singular::new(j as usize, names)));
+                    .map(|j| (j >= 0.0).then(|| Singular::refused(j as usize, N, names)));
                 for (j, &a) in accelerations.iter().enumerate() {
                     let number = zero_if_finite(a).simd_eq(zero);
                     finite &= number;

@@ -33,6 +33,7 @@
 mod argument;
 mod arrays;
 mod base_motion;
+pub mod closure;
 mod dd;
 mod description;
 #[cfg(feature = "num-dual")]

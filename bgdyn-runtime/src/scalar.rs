@@ -108,13 +108,13 @@ pub trait Scalar:
 
     /// Returns the error if [`Scalar::succeeded`] is false: it names the joint of a refused pivot, or of
     /// an acceleration that is not finite. Returns `None` if only the sum of the accelerations overflowed.
-    /// `names` are the names of the model's joints. `arguments` passes the arguments of the failed
+    /// `names` are the names of the model's joints, and of its loops after them. `arguments` passes the arguments of the failed
     /// function to a callback; the first component that is NaN or infinite is reported as the cause. This
     /// function may be slow.
     fn failed<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Self::Refused,
-        names: &'static [&'static str; N],
+        names: &'static [&'static str],
         arguments: impl FnOnce(&mut Look<'_, Self>),
     ) -> Option<Self::Singular<N>>;
 
@@ -126,7 +126,7 @@ pub trait Scalar:
     fn finish<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Self::Refused,
-        names: &'static [&'static str; N],
+        names: &'static [&'static str],
         arguments: impl FnOnce(&mut Look<'_, Self>),
     ) -> Result<SVector<Self, N>, Self::Singular<N>> {
         if Self::succeeded(&accelerations, refused) {

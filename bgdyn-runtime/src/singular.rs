@@ -32,6 +32,9 @@ pub struct Singular {
 pub enum Cause {
     /// The pivot of the joint was refused: the joint has no inertia left to accelerate.
     Pivot,
+    /// The dependent joints of a kinematic loop do not follow from the independent ones: the position is
+    /// singular, on the other side of a singular one, or does not close.
+    Loop,
     /// An argument of the function is NaN or infinite.
     Argument {
         /// The argument.
@@ -48,6 +51,7 @@ pub enum Cause {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Pivot,
+    Loop,
     NotFinite,
     Argument(Argument),
 }
@@ -56,6 +60,7 @@ impl Kind {
     const fn cause(self, index: usize) -> Cause {
         match self {
             Kind::Pivot => Cause::Pivot,
+            Kind::Loop => Cause::Loop,
             Kind::NotFinite => Cause::NotFinite,
             Kind::Argument(argument) => Cause::Argument { argument, index },
         }
@@ -69,6 +74,14 @@ impl Singular {
         Singular::of_kind(Kind::Pivot, joint, names)
     }
 
+    /// Returns the error of a refused pivot: that of one of `joints` joints, or of a loop after them.
+    pub(crate) fn refused(pivot: usize, joints: usize, names: &'static [&'static str]) -> Self {
+        match pivot < joints {
+            true => Singular::of_kind(Kind::Pivot, pivot, names),
+            false => Singular::of_kind(Kind::Loop, pivot, names),
+        }
+    }
+
     /// Returns the error that the joint with this index has an acceleration that is not finite.
     pub(crate) fn not_finite(joint: usize, names: &'static [&'static str]) -> Self {
         Singular::of_kind(Kind::NotFinite, joint, names)
@@ -80,8 +93,8 @@ impl Singular {
         Singular { kind, index, name }
     }
 
-    /// Returns the index of the joint that failed, in the order of `JOINT_NAMES`; if an argument is the
-    /// cause, the index of its component.
+    /// Returns the index of the joint that failed, in the order of `JOINT_NAMES`; of a loop, in the order of
+    /// `PIVOT_NAMES`; if an argument is the cause, the index of its component.
     pub const fn joint(&self) -> usize {
         self.index as usize
     }
@@ -91,7 +104,7 @@ impl Singular {
         self.kind.cause(self.joint())
     }
 
-    /// Returns the name of the joint; if an argument is the cause, the name of its component: of a joint,
+    /// Returns the name of the joint or loop; if an argument is the cause, the name of its component: of a joint,
     /// of a part of a scene's state, of a run-time parameter.
     pub const fn name(&self) -> &'static str {
         self.name
@@ -105,7 +118,7 @@ impl Singular {
         components: &'static [&'static str],
         index: Option<usize>,
     ) {
-        if let (Some(index), Kind::Pivot | Kind::NotFinite) = (index, self.kind) {
+        if let (Some(index), Kind::Pivot | Kind::Loop | Kind::NotFinite) = (index, self.kind) {
             *self = Singular::of_kind(Kind::Argument(argument), index, components);
         }
     }
@@ -119,6 +132,7 @@ impl fmt::Display for Singular {
                 f,
                 "singular mass matrix: joint `{name}` (number {joint}) has {cause}"
             ),
+            Cause::Loop => write!(f, "loop `{name}` {cause}"),
             Cause::Argument {
                 argument: Argument::Time,
                 ..
@@ -142,6 +156,7 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Cause::Pivot => f.write_str("no inertia left to accelerate"),
+            Cause::Loop => f.write_str("is singular or does not close here"),
             Cause::Argument { argument, index } => write!(
                 f,
                 "component {index} of argument `{}` is NaN or infinite",
@@ -188,11 +203,11 @@ pub(crate) fn succeeded<T: Scalar, const N: usize>(
 pub(crate) fn failed<T: Scalar, const N: usize>(
     accelerations: SVector<T, N>,
     refused: Option<usize>,
-    names: &'static [&'static str; N],
+    names: &'static [&'static str],
     arguments: impl FnOnce(&mut Look<'_, T>),
 ) -> Option<Singular> {
     let mut error = match (refused, first_not_finite(accelerations.as_slice())) {
-        (Some(joint), _) => Singular::new(joint, names),
+        (Some(pivot), _) => Singular::refused(pivot, N, names),
         (None, Some(joint)) => Singular::not_finite(joint, names),
         // The accelerations are finite; only their sum was too large.
         (None, None) => return None,

@@ -137,7 +137,7 @@ impl Scalar for Counted {
     fn failed<const N: usize>(
         a: SVector<Self, N>,
         refused: Option<usize>,
-        names: &'static [&'static str; N],
+        names: &'static [&'static str],
         _: impl FnOnce(&mut Look<'_, Self>),
     ) -> Option<Singular> {
         f64::failed(a.map(|x| x.0), refused, names, |_| ())

@@ -29,7 +29,7 @@ impl Eval {
         }
         let mechanism = file.mechanism()?;
         let graph = bgdyn_codegen::bond_graph::build(&mechanism);
-        let method = Method::named(&graph.sites, &self.method).map_err(Usage)?;
+        let method = Method::named(&graph, &self.method).map_err(Usage)?;
         let parameters = parameters(mechanism.parameters(), &self.parameters)?;
         let states = states(&self.states)?;
         let function = bgdyn_codegen::pipeline::function(&mechanism, method, &options)
@@ -74,14 +74,23 @@ fn evaluate(
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
     if let Some(joint) = refused {
-        return Err(singular(&rates[joint]));
+        let loops = mechanism
+            .closure()
+            .into_iter()
+            .flat_map(|closure| &closure.loops);
+        let pivots: Vec<&String> = rates.iter().chain(loops.map(|one| &one.name)).collect();
+        return Err(singular(pivots[joint]));
     }
     if values.iter().any(|x| !x.is_finite()) {
         return Err(plain(
             "the result is not finite: the input is too large".into(),
         ));
     }
-    Ok(shaped(function.shape(), mechanism.nv(), &values))
+    // The velocities of the open tree, for mechanisms with loops.
+    let nt = mechanism
+        .closure()
+        .map_or(0, |closure| closure.positions.len());
+    Ok(shaped(function.shape(), (mechanism.nv(), nt), &values))
 }
 
 /// Returns the positions. A quaternion whose length differs from 1 by up to [`LENGTH`] is scaled to
@@ -143,7 +152,7 @@ fn vector(names: &[String], state: &Value, array: &str) -> Result<Vec<f64>, Fail
     Ok(numbers)
 }
 
-fn shaped(shape: Shape, nv: usize, values: &[f64]) -> Value {
+fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
     let rows = |values: &[f64], columns: usize| {
         json!(
             values
@@ -167,7 +176,9 @@ fn shaped(shape: Shape, nv: usize, values: &[f64]) -> Value {
             let row = |i: usize| (0..nv).map(|j| entry(i, j)).collect::<Vec<_>>();
             json!((0..nv).map(row).collect::<Vec<_>>())
         }
-        Shape::Square | Shape::Jacobian => rows(values, nv),
+        Shape::TreeVector | Shape::RowVector => json!(values),
+        Shape::Square | Shape::Jacobian | Shape::TreeMatrix => rows(values, nv),
+        Shape::RowMatrix => rows(values, nt),
         Shape::SquarePair => json!(squares(values)),
         Shape::CheckedSquares => json!(squares(&values[nv..])),
         Shape::Pose => json!({

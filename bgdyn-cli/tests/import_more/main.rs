@@ -41,8 +41,8 @@ fn value(mechanism: &Mechanism, method: Method, [q, v, a]: [&[f64]; 3]) -> Vec<f
 
 /// Returns the pose of a site: rotation in the method's order, and origin.
 fn pose(mechanism: &Mechanism, place: &str, q: &[f64]) -> Vec<f64> {
-    let sites = bgdyn_codegen::bond_graph::build(mechanism).multibody.sites;
-    let method = Method::named(&sites, &format!("pose_{place}")).expect("the place");
+    let graph = bgdyn_codegen::bond_graph::build(mechanism);
+    let method = Method::named(&graph, &format!("pose_{place}")).expect("the place");
     value(mechanism, method, [q, &[], &[]])
 }
 

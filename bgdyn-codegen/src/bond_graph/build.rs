@@ -4,8 +4,8 @@ use bgdyn_runtime::Dd;
 
 use super::pattern::{Coordinates, Modulus};
 use super::{
-    BondGraph, ClosedTree, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame, Multibody,
-    PositionVariable, Site, Store, StoreInertia, Transformer,
+    BondGraph, ClosedTree, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame,
+    Multibody, PositionVariable, Site, Store, StoreInertia, Transformer,
 };
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::joint::{Column, PoseNumbers};

@@ -182,8 +182,22 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
     unread
 }
 
+/// The numbers of velocities of a mechanism.
+#[derive(Clone, Copy)]
+pub(super) struct Sizes {
+    /// The independent ones.
+    pub(super) nv: usize,
+    /// Those of the open tree, for a mechanism with loops.
+    pub(super) of_tree: Option<usize>,
+}
+
 /// Returns the result of a method from its components.
-pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> TokenStream {
+pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> TokenStream {
+    let nv = sizes.nv;
+    let pivots = match sizes.of_tree {
+        None => quote! { &JOINT_NAMES },
+        Some(_) => quote! { &PIVOT_NAMES },
+    };
     let square = |values: &[TokenStream]| matrix(nv, values);
     let squares = |values: &[TokenStream], count: usize| -> Vec<TokenStream> {
         let one = |k: usize| square(&values[k * nv * nv..(k + 1) * nv * nv]);
@@ -194,7 +208,7 @@ pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> Token
         Shape::Vector => vector(values),
         Shape::CheckedVector => {
             let accelerations = vector(values);
-            checked(method, &accelerations, &quote! { &JOINT_NAMES })
+            checked(method, &accelerations, &pivots)
         }
         Shape::Symmetric => {
             let entry = |k: usize| {
@@ -212,7 +226,7 @@ pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> Token
             let (accelerations, rest) = values.split_at(nv);
             let accelerations = vector(accelerations);
             let squares = squares(rest, 3);
-            let found = checked(method, &accelerations, &quote! { &JOINT_NAMES });
+            let found = checked(method, &accelerations, &pivots);
             quote! {
                 #found?;
                 ::core::result::Result::Ok([#(#squares),*])
@@ -227,6 +241,9 @@ pub(super) fn result(method: Method, nv: usize, values: &[TokenStream]) -> Token
         }
         Shape::Spatial => vector(values),
         Shape::Jacobian => matrix(nv, values),
+        Shape::TreeVector | Shape::RowVector => vector(values),
+        Shape::TreeMatrix => matrix(nv, values),
+        Shape::RowMatrix => matrix(sizes.of_tree.unwrap_or(nv), values),
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene makes its own results"),
     }
 }

@@ -2,6 +2,7 @@
 
 mod base_access;
 mod body;
+mod closure;
 mod code;
 mod columns;
 mod constants;

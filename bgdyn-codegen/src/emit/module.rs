@@ -8,7 +8,7 @@ use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{body, code, constants, entries, explain, joint_segments, traits};
+use super::{body, closure, code, constants, entries, explain, joint_segments, traits};
 use crate::bond_graph::PositionVariable;
 use crate::function::Function;
 use crate::method::Method;
@@ -34,11 +34,15 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
         methods: &present,
         sites: &model.bond_graph.sites,
         joints: Some(joint_segments::segments(&model.bond_graph)),
+        closed: model.bond_graph.closed.as_deref(),
     };
     let traits = traits.tokens();
     let access = joint_access(&model.mechanism);
     let (ranges, poses) = (access.constants, access.functions);
     let base = base_access(model.mechanism.base().is_some());
+    let loops = model.bond_graph.closed.as_deref();
+    let loops = loops.map(|closed| closure::closure_access(closed, &model.bond_graph, &present));
+    let (loop_constants, loop_functions) = loops.unzip();
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*
@@ -57,11 +61,13 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             #rebuild
             #constants
             #ranges
+            #loop_constants
             #structure
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
                 #poses
                 #base
+                #loop_functions
                 #explainers
             }
             #traits
@@ -124,6 +130,8 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
         docs.push(format!(" | {j} | `{}` | `{link}` | {unit} |", c.name));
     }
     docs.extend(position_docs(model));
+    let closed = model.bond_graph.closed.as_deref();
+    docs.extend(closed.into_iter().flat_map(closure::loop_docs));
     docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
     docs.push(" |---|---|---|".into());
@@ -147,8 +155,12 @@ fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenSt
     let types = arguments.iter().map(|a| argument_type(*a));
     let result = return_type(function.shape());
     let docs = method_docs(function, model);
-    let finish =
-        |values: &[TokenStream]| body::result(function.method, model.mechanism.nv(), values);
+    let closed = model.bond_graph.closed.as_deref();
+    let sizes = body::Sizes {
+        nv: model.mechanism.nv(),
+        of_tree: closed.map(|closed| closed.tree.coordinates.len()),
+    };
+    let finish = |values: &[TokenStream]| body::result(function.method, sizes, values);
     let naming = code::Naming::of_model(model, output.plain);
     let places = entries::places(function.shape(), model.mechanism.nv());
     let body::FunctionBody { body, blocks } = body::body(function, &naming, places, finish);

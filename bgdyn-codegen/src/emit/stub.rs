@@ -44,6 +44,7 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
         name: &model,
         methods: &possible,
         sites: &sites,
+        closed: None,
         joints: (interface.certain).then(|| vec![JointSegment::PLAIN; interface.joints.len()]),
     };
     let traits = traits.tokens();

@@ -110,6 +110,10 @@ pub(super) fn return_type(shape: Shape) -> TokenStream {
         Shape::Pose => quote! { __rt::Pose<T> },
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
+        Shape::TreeVector => quote! { __na::SVector<T, NT> },
+        Shape::TreeMatrix => quote! { __na::SMatrix<T, NT, NV> },
+        Shape::RowVector => quote! { __na::SVector<T, NC> },
+        Shape::RowMatrix => quote! { __na::SMatrix<T, NC, NT> },
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene names its own results"),
     }
 }

@@ -2,11 +2,12 @@
 //! methods by delegation.
 
 use proc_macro2::{Ident, TokenStream};
-use quote::{format_ident, quote};
+use quote::quote;
 
-use super::joint_segments::{JointSegment, following, plain};
+use super::closure;
+use super::joint_segments::{JointSegment, joint_by_joint};
 use super::tokens::{argument_type, ident, return_type};
-use crate::bond_graph::{Site, SiteId};
+use crate::bond_graph::{ClosedTree, Site, SiteId};
 use crate::method::Method;
 
 /// The parts of a module that its traits provide.
@@ -18,17 +19,20 @@ pub(super) struct Traits<'a> {
     pub(super) sites: &'a [Site],
     /// The joints; `None` if their number is a guess, for any number.
     pub(super) joints: Option<Vec<JointSegment>>,
+    /// The loops.
+    pub(super) closed: Option<&'a ClosedTree>,
 }
-
-/// The number of components of a quaternion, the last positions of a joint that has one.
-const QUATERNION: usize = 4;
 
 impl Traits<'_> {
     /// Returns the implementations, and the types of the frames. If the number of joints is a guess, the
     /// code never runs.
     pub(super) fn tokens(&self) -> TokenStream {
         let has = |m: &Method| self.methods.contains(m);
-        let whole = Method::OF_TRAIT.iter().all(has);
+        let loops: &[Method] = match self.closed {
+            Some(_) => &Method::OF_LOOPS,
+            None => &[],
+        };
+        let whole = Method::OF_TRAIT.iter().chain(loops).all(has);
         let dynamics = whole.then(|| self.dynamics());
         let description = self.description();
         let coriolis = has(&Method::CoriolisMatrix)
@@ -164,91 +168,16 @@ impl Traits<'_> {
             let name = ident(name);
             quote! { #name: #of }
         });
-        let body = self.body(self.joint_by_joint(name, arguments, positions));
+        let joints = self.joints.as_deref().unwrap_or_default();
+        let body = match self.closed {
+            Some(closed) => closure::position_body(closed, joints, name, arguments),
+            None => joint_by_joint(joints, name, arguments, positions),
+        };
+        let body = self.body(body);
         quote! {
             fn #function(&self, #(#parameters),*) -> __na::SVector<T, #result> {
                 #body
             }
-        }
-    }
-
-    fn joint_by_joint(
-        &self,
-        name: &str,
-        arguments: &[(&str, &TokenStream, bool)],
-        positions: bool,
-    ) -> TokenStream {
-        let joints = self.joints.as_deref().unwrap_or_default();
-        let size = |s: &JointSegment, positions: bool| if positions { s.nq } else { s.nv };
-        // The components of each argument, joint by joint.
-        let components = |k: usize, of: bool| -> Vec<Vec<Ident>> {
-            let mut next = 0;
-            let own = |s: &JointSegment| {
-                let from = next;
-                next += size(s, of);
-                (from..next)
-                    .map(|i| format_ident!("{}{i}", ["x", "y"][k]))
-                    .collect()
-            };
-            joints.iter().map(own).collect()
-        };
-        let arrays: Vec<Vec<Vec<Ident>>> = arguments
-            .iter()
-            .enumerate()
-            .map(|(k, (_, _, of))| components(k, *of))
-            .collect();
-        let opened = arguments.iter().zip(&arrays).map(|((name, ..), array)| {
-            let (name, all) = (ident(name), array.iter().flatten());
-            quote! { let [[#(#all),*]] = #name.data.0; }
-        });
-        let (mut statements, mut results) = (TokenStream::new(), Vec::new());
-        for (j, segment) in joints.iter().enumerate() {
-            let own: Vec<&Vec<Ident>> = arrays.iter().map(|array| &array[j]).collect();
-            if !segment.leaders.is_empty() {
-                let velocities: Option<Vec<Ident>> = (arguments.iter().zip(&arrays))
-                    .find(|((.., of), _)| !of)
-                    .map(|(_, array)| array.iter().flatten().cloned().collect());
-                let result = following(name, &segment.leaders, &own, velocities.as_deref());
-                results.extend(positions.then_some(result));
-                continue;
-            }
-            if segment.manifold.is_empty() {
-                results.extend((0..segment.nq).map(|k| plain(name, segment.turns, &own, k)));
-                continue;
-            }
-            let (module, function) = (ident(segment.manifold), ident(name));
-            let found = |letter: &str| -> Vec<Ident> {
-                let all = 0..size(segment, positions);
-                all.map(|i| format_ident!("{letter}{j}_{i}")).collect()
-            };
-            let call = |normal: bool| {
-                let given = own.iter().zip(arguments).map(|(array, (.., of))| {
-                    let array = quote! { [#(#array),*] };
-                    match normal && *of {
-                        true => quote! { __rt::manifold::#module::normalize(#array) },
-                        false => array,
-                    }
-                });
-                quote! { __rt::manifold::#module::#function(#(#given),*) }
-            };
-            // A quaternion of any length is scaled first. Its own rates are proportional to its length.
-            let (normal, rates) = (segment.any_length, name == "position_rates");
-            let (first, call_first) = (found("r"), call(normal));
-            statements.extend(quote! { let [#(#first),*] = #call_first; });
-            if normal && rates {
-                let (second, call_second) = (found("s"), call(false));
-                statements.extend(quote! { let [#(#second),*] = #call_second; });
-                let shifts = first.len() - QUATERNION;
-                let both = first[..shifts].iter().chain(&second[shifts..]);
-                results.extend(both.map(|r| quote! { #r }));
-            } else {
-                results.extend(first.iter().map(|r| quote! { #r }));
-            }
-        }
-        quote! {
-            #(#opened)*
-            #statements
-            __rt::vector([#(#results),*])
         }
     }
 }

@@ -6,9 +6,7 @@ use crate::unit::Dimension;
 
 impl Reader {
     pub(super) fn closing(&mut self, at: &At<'_>) -> Option<LoopSpec> {
-        let keys = [
-            "name", "type", "a", "b", "axis", "length", "branch", "near",
-        ];
+        let keys = ["name", "type", "a", "b", "axis", "length", "branch", "near"];
         let example = "`- { name: …, type: hinge, a: { link: … }, b: { link: … } }`";
         let map = self.mapping(at, ("a loop", example), &keys)?;
         Some(LoopSpec {

@@ -307,7 +307,12 @@ impl Reader {
         self.field(map, key, Self::text)
     }
 
-    pub(super) fn number_field(&mut self, map: &Mapping<'_>, key: &str, fit: &[Dimension]) -> Field<Number> {
+    pub(super) fn number_field(
+        &mut self,
+        map: &Mapping<'_>,
+        key: &str,
+        fit: &[Dimension],
+    ) -> Field<Number> {
         self.field(map, key, |r, at| r.number(at, fit))
     }
 

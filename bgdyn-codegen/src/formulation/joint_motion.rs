@@ -79,7 +79,7 @@ pub(crate) fn position_rates<'g>(
 ) -> Vec<Expr<'g>> {
     if let Some(closed) = &graph.closed {
         let rows = loop_rows(b, &closed.closure, q);
-        let all = VelocityMap::new(b, &closed.closure, rows).velocities(v);
+        let all = VelocityMap::new(b, &closed.closure, rows, None).velocities(v);
         return position_rates(b, &closed.tree, (q, &all));
     }
     let mut rates = vec![b.zero(); graph.positions.len()];

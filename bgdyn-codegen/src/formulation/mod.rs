@@ -22,10 +22,10 @@ mod velocity_map;
 
 pub use definition::{Formulation, Offer};
 pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};
+pub(crate) use loops::mass_and_bias as mass_and_bias_of_loops;
 pub use prepared::Prepared;
 pub(crate) use prepared::{Candidate, Candidates};
 pub(crate) use recursion::expressions::mass_and_bias;
-pub(crate) use loops::mass_and_bias as mass_and_bias_of_loops;
 pub(crate) use recursion::geometry;
 pub(crate) use solve::ltdl as solve_symmetric;
 pub(crate) use subspaces::mass_and_bias as mass_and_bias_of_any_joint;

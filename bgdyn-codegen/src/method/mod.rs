@@ -4,7 +4,7 @@
 
 mod scene_function;
 
-use crate::bond_graph::{Site, SiteId};
+use crate::bond_graph::{Multibody, Site, SiteId};
 use crate::fault::unknown_name;
 pub use scene_function::SceneFunction;
 
@@ -75,6 +75,14 @@ pub enum Shape {
     Spatial,
     /// A 6 × NV matrix, row by row, angular part first.
     Jacobian,
+    /// A number for each velocity of the open tree.
+    TreeVector,
+    /// An NT × NV matrix, row by row: velocities of the open tree by independent ones.
+    TreeMatrix,
+    /// A number for each row of the loops.
+    RowVector,
+    /// An NC × NT matrix, row by row.
+    RowMatrix,
     /// The named parts of a scene's result.
     Parts,
     /// The same, or an error with a coordinate.
@@ -82,7 +90,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// Returns the number of expressions of the result; 0 for parts, whose number depends on the scene.
+    /// Returns the number of expressions of the result; 0 if it depends on more than the number of velocities.
     pub fn len(self, nv: usize) -> usize {
         match self {
             Shape::Scalar => 1,
@@ -94,6 +102,7 @@ impl Shape {
             Shape::Pose => 12,
             Shape::Spatial => 6,
             Shape::Jacobian => 6 * nv,
+            Shape::TreeVector | Shape::TreeMatrix | Shape::RowVector | Shape::RowMatrix => 0,
             Shape::Parts | Shape::CheckedParts => 0,
         }
     }
@@ -138,14 +147,30 @@ pub enum Method {
     Jacobian(SiteId),
     /// Acceleration of a site at zero joint accelerations.
     JacobianDotV(SiteId),
+    /// S(q), of a mechanism with loops.
+    VelocityMap,
+    /// q̇ of the open tree: S v.
+    TreeVelocity,
+    /// q̈ of the open tree: S a + z.
+    TreeAcceleration,
+    /// c(q): by how much the loops are open.
+    ConstraintResidual,
+    /// B(q): the rates of c for the velocities of the open tree.
+    ConstraintJacobian,
+    /// λ: the efforts of the rows.
+    Multipliers,
+    /// The step of Newton's method for the dependent positions.
+    ClosingStep,
     /// A function of a scene.
     Scene(SceneFunction),
 }
 
 /// Returns the names of all methods that a generated struct may have, for any names of sites.
 pub fn names() -> Vec<String> {
-    let all = Method::possible(&[]);
-    all.iter().map(|method| method.name(&[])).collect()
+    let all = Method::possible(&[]).into_iter();
+    all.chain(Method::OF_LOOPS)
+        .map(|method| method.name(&[]))
+        .collect()
 }
 
 impl Method {
@@ -160,6 +185,17 @@ impl Method {
         Method::PotentialEnergy,
     ];
 
+    /// The methods of mechanisms with loops.
+    pub const OF_LOOPS: [Method; 7] = [
+        Method::VelocityMap,
+        Method::TreeVelocity,
+        Method::TreeAcceleration,
+        Method::ConstraintResidual,
+        Method::ConstraintJacobian,
+        Method::Multipliers,
+        Method::ClosingStep,
+    ];
+
     /// Returns the four methods of a site.
     pub fn of_site(site: SiteId) -> [Method; 4] {
         [
@@ -170,7 +206,16 @@ impl Method {
         ]
     }
 
-    /// Returns every method that a mechanism can have.
+    /// Returns every method that this mechanism can have.
+    pub fn possible_of(graph: &Multibody) -> Vec<Method> {
+        let mut all = Method::possible(&graph.sites);
+        if graph.closed.is_some() {
+            all.extend(Method::OF_LOOPS);
+        }
+        all
+    }
+
+    /// Returns every method that a mechanism without loops can have.
     pub fn possible(sites: &[Site]) -> Vec<Method> {
         let own = [
             Method::CoriolisMatrix,
@@ -189,8 +234,8 @@ impl Method {
     ///
     /// # Errors
     /// A sentence with the nearest name, or with all names.
-    pub fn named(sites: &[Site], name: &str) -> Result<Method, String> {
-        let possible = Method::possible(sites);
+    pub fn named(graph: &Multibody, name: &str) -> Result<Method, String> {
+        let (possible, sites) = (Method::possible_of(graph), &graph.sites);
         let found = possible.iter().find(|m| m.name(sites) == name);
         found.copied().ok_or_else(|| {
             let known: Vec<String> = possible.iter().map(|m| m.name(sites)).collect();
@@ -240,6 +285,13 @@ impl Method {
             Method::Velocity(s) => site("velocity", s),
             Method::Jacobian(s) => site("jacobian_world", s),
             Method::JacobianDotV(s) => site("jacobian_dot_v_world", s),
+            Method::VelocityMap => "velocity_map".into(),
+            Method::TreeVelocity => "tree_velocity".into(),
+            Method::TreeAcceleration => "tree_acceleration".into(),
+            Method::ConstraintResidual => "constraint_residual".into(),
+            Method::ConstraintJacobian => "constraint_jacobian".into(),
+            Method::Multipliers => "multipliers".into(),
+            Method::ClosingStep => "closing_step".into(),
             Method::Scene(role) => role.name().into(),
         }
     }
@@ -253,6 +305,10 @@ impl Method {
             Method::Pose(_) | Method::Jacobian(_) => &[Q],
             Method::Bias | Method::KineticEnergy | Method::CoriolisMatrix => &[Q, V],
             Method::Velocity(_) | Method::JacobianDotV(_) => &[Q, V],
+            Method::VelocityMap | Method::ConstraintResidual => &[Q],
+            Method::ConstraintJacobian | Method::ClosingStep => &[Q],
+            Method::TreeVelocity => &[Q, V],
+            Method::TreeAcceleration | Method::Multipliers => &[Q, V, A],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
@@ -285,6 +341,11 @@ impl Method {
             Method::Pose(_) => Shape::Pose,
             Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,
             Method::Jacobian(_) => Shape::Jacobian,
+            Method::VelocityMap => Shape::TreeMatrix,
+            Method::TreeVelocity | Method::TreeAcceleration => Shape::TreeVector,
+            Method::ClosingStep => Shape::TreeVector,
+            Method::ConstraintResidual | Method::Multipliers => Shape::RowVector,
+            Method::ConstraintJacobian => Shape::RowMatrix,
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse
@@ -337,6 +398,25 @@ impl Method {
                 "J̇ v of {}: its acceleration, angular part first, where the joints' is zero; world axes.",
                 of(s)
             ),
+            Method::VelocityMap => {
+                "Velocity map S(q): the velocities of the open tree are S v.".into()
+            }
+            Method::TreeVelocity => "Velocities of the open tree: S v.".into(),
+            Method::TreeAcceleration => "Accelerations of the open tree: S a + Ṡ v.".into(),
+            Method::ConstraintResidual => {
+                "By how much the loops are open, as in [`CONSTRAINT_NAMES`]; zero at closed positions.".into()
+            }
+            Method::ConstraintJacobian => {
+                "Rates of the loops' conditions for the velocities of the open tree: B S = 0.".into()
+            }
+            Method::Multipliers => {
+                "Efforts of the loops on place b, in the axes of place a, for the accelerations `a`, if all other efforts are those of the independent joints."
+                    .into()
+            }
+            Method::ClosingStep => {
+                "Step of Newton's method: the change of the dependent positions that closes the loops, with the opposite sign; `close` repeats it."
+                    .into()
+            }
             Method::Scene(role) => role.summary().into(),
         }
     }
@@ -359,6 +439,13 @@ impl Method {
             Method::Velocity(_) => "rad/s, m/s",
             Method::Jacobian(_) => "rad and m per unit of each joint",
             Method::JacobianDotV(_) => "rad/s², m/s²",
+            Method::VelocityMap => "rad and m per unit of each independent joint",
+            Method::TreeVelocity => "rad/s, m/s",
+            Method::TreeAcceleration => "rad/s², m/s²",
+            Method::ConstraintResidual => "m, rad",
+            Method::ConstraintJacobian => "m and rad per unit of each joint",
+            Method::Multipliers => "N, N·m",
+            Method::ClosingStep => "rad, m",
             Method::Scene(_) => "as its parts say",
         }
     }

@@ -53,7 +53,7 @@ pub fn verify(model: &Model, options: &Options) -> Result<(), Refusal> {
 pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<UnknownName>> {
     let bond_graph = bond_graph::build(&mechanism);
     options.check_formulation(&bond_graph)?;
-    let methods = options.select(&bond_graph.sites, bond_graph.coordinates.len())?;
+    let methods = options.select(&bond_graph)?;
     let choice = Choice::new(&bond_graph, options.formulation);
     let chosen = methods
         .into_iter()

@@ -34,6 +34,9 @@ pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) ->
     found.collect()
 }
 
+/// Permitted relative error of a step of Newton's method at a position that is open by 1e-12.
+const NEARLY_CLOSED: f64 = 1e-9;
+
 /// The literal sum of a bond graph.
 struct LiteralValues<'a> {
     prepared: Prepared<'a>,
@@ -176,7 +179,10 @@ impl Subject<'_> {
         let laws = self.laws(state, found).into_iter();
         laws.filter_map(|sides| {
             let pair = (&sides.found[..], &sides.expected[..]);
-            let size = sides.size.max(size);
+            let size = match self.function.method {
+                Method::ConstraintResidual | Method::ClosingStep => sides.size,
+                _ => sides.size.max(size),
+            };
             differs((self.name, self.function), &sides.law, pair, size, at)
         })
         .next()
@@ -228,12 +234,37 @@ impl Subject<'_> {
             Method::CoriolisMatrix => self.coriolis(state, &found),
             Method::InverseDynamicsDerivatives => vec![self.inverse_slopes(state, &found)],
             Method::ForwardDynamicsDerivatives => self.forward_slopes(state, &found),
+            Method::ConstraintResidual => vec![self.open_loops(at, Dd::from_f64(0.1), EXACT)],
+            // J_d of the generated code is that of closed positions.
+            Method::ClosingStep => vec![self.open_loops(at, Dd::from_f64(1e-12), NEARLY_CLOSED)],
             method => {
                 let form = self.form.get_or_init(|| lit.form(method)).as_ref();
                 let expected = form.map(|form| form.evaluate(at.clone()).0);
                 expected.map_or(vec![], |e| exact("its literal form", found, e))
             }
         }
+    }
+
+    /// Compares with the literal form where the loops are open by about this size.
+    fn open_loops(&self, at: &Inputs<Dd>, by: Dd, allowed: f64) -> Sides {
+        let mut open = at.clone();
+        let closed = self.literal.prepared.graph.closed.iter();
+        let joints = closed.flat_map(|closed| closed.closure.positions.iter().flatten());
+        for (k, p) in joints.enumerate() {
+            open.q[p.0] += by * Dd::from_f64(1.0 + 0.3 * k as f64);
+        }
+        let form = self
+            .form
+            .get_or_init(|| self.literal.form(self.function.method))
+            .as_ref();
+        let found = self.function.evaluate(open.clone()).0;
+        let expected = form.map_or_else(Vec::new, |form| form.evaluate(open).0);
+        Sides::new(
+            "its literal form where the loops are open",
+            allowed,
+            found,
+            expected,
+        )
     }
 
     fn solved(&self, state: &State, accelerations: &[Dd]) -> Sides {

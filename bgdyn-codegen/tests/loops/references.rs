@@ -38,17 +38,25 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 fn names(value: &Value) -> Vec<String> {
     let all = value.as_array().expect("a list").iter();
-    all.map(|x| x.as_str().expect("a name").to_owned()).collect()
+    all.map(|x| x.as_str().expect("a name").to_owned())
+        .collect()
 }
 
 /// Returns the joints of the reference, and the index of each independent joint among them: a joint is called like
 /// its link, with an ending.
 fn joints(robot: &Robot, file: &Value) -> (Vec<String>, Vec<usize>) {
     let links = file["mechanism"].as_array().expect("links").iter();
-    let all: Vec<String> = links.map(|l| l["name"].as_str().expect("a name").to_owned()).collect();
+    let all: Vec<String> = links
+        .map(|l| l["name"].as_str().expect("a name").to_owned())
+        .collect();
     let own = |name: String| {
-        let link = name.trim_end_matches("_angle").trim_end_matches("_position").to_owned();
-        all.iter().position(|known| *known == link).expect("a joint of the reference")
+        let link = name
+            .trim_end_matches("_angle")
+            .trim_end_matches("_position")
+            .to_owned();
+        all.iter()
+            .position(|known| *known == link)
+            .expect("a joint of the reference")
     };
     let independent = robot.mechanism.joint_names().into_iter().map(own).collect();
     (all, independent)
@@ -72,7 +80,10 @@ fn compare(
 ) {
     let closed = robot.graph.closed.as_deref().expect("loops");
     let q_exact: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
-    let map = closed.closure.velocity_map(&q_exact).expect("a regular position");
+    let map = closed
+        .closure
+        .velocity_map(&q_exact)
+        .expect("a regular position");
     // Sᵀ P
     let drive = |k: usize| -> f64 {
         let terms = map.iter().zip(efforts).map(|(row, p)| row[k].to_f64() * p);
@@ -84,7 +95,10 @@ fn compare(
     for (row, rate) in map.iter().zip(v) {
         let sum: f64 = row.iter().zip(&u).map(|(s, u)| s.to_f64() * u).sum();
         let off = (sum - rate).abs();
-        assert!(off <= tolerance * size, "{what}: velocity off by {off:e} of {size}");
+        assert!(
+            off <= tolerance * size,
+            "{what}: velocity off by {off:e} of {size}"
+        );
     }
     let state = State {
         q: q.to_vec(),
@@ -97,14 +111,20 @@ fn compare(
         let size = largest(a);
         for (k, (a, expected)) in found.iter().zip(&state.a).enumerate() {
             let off = (a - expected).abs();
-            assert!(off <= tolerance * size, "{what}, {way:?}, {k}: {off:e} of {size}");
+            assert!(
+                off <= tolerance * size,
+                "{what}, {way:?}, {k}: {off:e} of {size}"
+            );
         }
         let found: Vec<f64> = state.value(&robot.function(way, Method::InverseDynamics));
         let bias: Vec<f64> = state.value(&robot.function(way, Method::Bias));
         let size = largest(efforts).max(largest(&bias)).max(largest(&state.u));
         for (p, expected) in found.iter().zip(&state.u) {
             let off = (p - expected).abs();
-            assert!(off <= 10.0 * tolerance * size, "{what}, {way:?}: {off:e} of {size}");
+            assert!(
+                off <= 10.0 * tolerance * size,
+                "{what}, {way:?}: {off:e} of {size}"
+            );
         }
     }
 }
@@ -120,24 +140,37 @@ fn motion(name: &str, of: &str, tolerance: f64, effort: impl Fn(&str, f64, f64, 
         let sample = numbers(sample);
         let at = |column: &str| sample[columns.iter().position(|c| c == column).expect("a column")];
         let read = |ending: &str| -> Vec<f64> {
-            all.iter().map(|name| at(&format!("{name}{ending}"))).collect()
+            all.iter()
+                .map(|name| at(&format!("{name}{ending}")))
+                .collect()
         };
         let (q, v, a) = (read(""), read("_rate"), read("_acceleration"));
         let efforts: Vec<f64> = (all.iter().enumerate())
             .map(|(j, name)| effort(name, at("t"), q[j], v[j]))
             .collect();
         let what = format!("{name} at {} s", at("t"));
-        compare(&robot, &what, (&q, &v, &a, &efforts), &independent, tolerance);
+        compare(
+            &robot,
+            &what,
+            (&q, &v, &a, &efforts),
+            &independent,
+            tolerance,
+        );
     }
 }
 
 #[test]
 fn the_five_bar_moves_as_with_multipliers() {
-    motion("five_bar", "five_bar_parallel", 1e-13, |name, t, q, _| match name {
-        "proximal1" => -20.0 * (q - 1.9) + 3.0 * (4.0 * t).sin() + 1.2,
-        "proximal2" => -20.0 * (q - 1.2) + 2.0 * (3.0 * t).cos() - 0.5,
-        _ => 0.0,
-    });
+    motion(
+        "five_bar",
+        "five_bar_parallel",
+        1e-13,
+        |name, t, q, _| match name {
+            "proximal1" => -20.0 * (q - 1.9) + 3.0 * (4.0 * t).sin() + 1.2,
+            "proximal2" => -20.0 * (q - 1.2) + 2.0 * (3.0 * t).cos() - 0.5,
+            _ => 0.0,
+        },
+    );
 }
 
 #[test]
@@ -148,18 +181,31 @@ fn the_slider_crank_moves_as_with_multipliers() {
 
 #[test]
 fn the_slider_crank_moves_near_its_singular_position_as_with_multipliers() {
-    motion("slider_crank_near_singular", "slider_crank_near_singular", 1e-12, |_, _, _, _| 0.0);
+    motion(
+        "slider_crank_near_singular",
+        "slider_crank_near_singular",
+        1e-12,
+        |_, _, _, _| 0.0,
+    );
 }
 
 #[test]
 fn the_stewart_platform_moves_as_with_multipliers() {
-    motion("stewart_platform", "stewart_platform", 1e-12, |name, t, q, v| {
-        let Some(leg) = name.strip_prefix("leg").and_then(|n| n.strip_suffix("_length")) else {
-            return 0.0;
-        };
-        let k: f64 = leg.parse::<f64>().expect("a number") - 1.0;
-        30.0 - 2000.0 * (q - 0.75) - 60.0 * v + 40.0 * ((k + 2.0) * t + k).sin()
-    });
+    motion(
+        "stewart_platform",
+        "stewart_platform",
+        1e-12,
+        |name, t, q, v| {
+            let Some(leg) = name
+                .strip_prefix("leg")
+                .and_then(|n| n.strip_suffix("_length"))
+            else {
+                return 0.0;
+            };
+            let k: f64 = leg.parse::<f64>().expect("a number") - 1.0;
+            30.0 - 2000.0 * (q - 0.75) - 60.0 * v + 40.0 * ((k + 2.0) * t + k).sin()
+        },
+    );
 }
 
 /// Compares the states of a static file: accelerations under efforts of the actuated joints.
@@ -167,9 +213,18 @@ fn states(name: &str, of: &str, tolerance: f64) {
     let (robot, file) = (Robot::read(&spec(name)), reference(of));
     let (all, independent) = joints(&robot, &file);
     let actuated = names(&file["actuated"]);
-    for (k, state) in file["states"].as_array().expect("states").iter().enumerate() {
+    for (k, state) in file["states"]
+        .as_array()
+        .expect("states")
+        .iter()
+        .enumerate()
+    {
         let forward = &state["forward"];
-        let (q, v, a) = (numbers(&state["q"]), numbers(&state["qd"]), numbers(&forward["qdd"]));
+        let (q, v, a) = (
+            numbers(&state["q"]),
+            numbers(&state["qd"]),
+            numbers(&forward["qdd"]),
+        );
         let drive = numbers(&forward["actuator_efforts"]);
         let effort = |name: &String| match actuated.iter().position(|known| known == name) {
             Some(k) => drive[k],
@@ -177,7 +232,13 @@ fn states(name: &str, of: &str, tolerance: f64) {
         };
         let efforts: Vec<f64> = all.iter().map(effort).collect();
         let what = format!("{name}, state {k}");
-        compare(&robot, &what, (&q, &v, &a, &efforts), &independent, tolerance);
+        compare(
+            &robot,
+            &what,
+            (&q, &v, &a, &efforts),
+            &independent,
+            tolerance,
+        );
     }
 }
 

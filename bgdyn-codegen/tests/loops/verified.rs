@@ -10,7 +10,12 @@ use bgdyn_codegen::verify::{check_functions, explain};
 use super::references::spec;
 use super::robot::{Robot, Way};
 
-const PLANAR: [&str; 4] = ["five_bar", "four_bar", "slider_crank", "slider_crank_near_singular"];
+const PLANAR: [&str; 4] = [
+    "five_bar",
+    "four_bar",
+    "slider_crank",
+    "slider_crank_near_singular",
+];
 
 fn options(way: Way) -> Options {
     Options {

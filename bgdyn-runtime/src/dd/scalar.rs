@@ -90,7 +90,7 @@ impl Scalar for Dd {
     fn failed<const N: usize>(
         accelerations: SVector<Self, N>,
         refused: Option<usize>,
-        names: &'static [&'static str; N],
+        names: &'static [&'static str],
         arguments: impl FnOnce(&mut Look<'_, Self>),
     ) -> Option<Singular> {
         failed(accelerations, refused, names, arguments)

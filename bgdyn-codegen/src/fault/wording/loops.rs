@@ -18,13 +18,21 @@ pub(crate) fn unknown_loop_type(location: &Location, word: &str, words: &[&str])
 }
 
 pub(crate) fn loop_end_missing(location: &Location) -> Fault {
-    Fault::new(location, "missing-key", "the place has neither `link` nor `frame`")
-        .with_help("write `{ link: …, origin: { xyz: [x, y, z] } }`, or `{ frame: … }`")
+    Fault::new(
+        location,
+        "missing-key",
+        "the place has neither `link` nor `frame`",
+    )
+    .with_help("write `{ link: …, origin: { xyz: [x, y, z] } }`, or `{ frame: … }`")
 }
 
 pub(crate) fn loop_end_twice(location: &Location) -> Fault {
-    Fault::new(location, "place-twice", "the place has a `link` and a `frame`")
-        .with_help("leave one of them out: a frame is on a link already")
+    Fault::new(
+        location,
+        "place-twice",
+        "the place has a `link` and a `frame`",
+    )
+    .with_help("leave one of them out: a frame is on a link already")
 }
 
 pub(crate) fn unknown_frame(location: &Location, name: &str, known: &[&str]) -> Fault {
@@ -42,7 +50,12 @@ pub(crate) fn loop_closes_nothing(location: &Location, name: &str) -> Fault {
         .with_help("name places on two links that move relative to each other")
 }
 
-pub(crate) fn loop_through_joint(location: &Location, name: &str, joint: &str, keyword: &str) -> Fault {
+pub(crate) fn loop_through_joint(
+    location: &Location,
+    name: &str,
+    joint: &str,
+    keyword: &str,
+) -> Fault {
     let message = format!(
         "the loop {} goes through {}, a {keyword} joint that is none of one degree of freedom with a position of its own",
         quote(name),
@@ -54,8 +67,12 @@ pub(crate) fn loop_through_joint(location: &Location, name: &str, joint: &str, k
 }
 
 pub(crate) fn rod_without_length(location: &Location) -> Fault {
-    Fault::new(location, "missing-key", "a loop of type `distance` has no `length`")
-        .with_help("add `length:`, the length of the rod")
+    Fault::new(
+        location,
+        "missing-key",
+        "a loop of type `distance` has no `length`",
+    )
+    .with_help("add `length:`, the length of the rod")
 }
 
 pub(crate) fn rod_length(location: &Location, text: &str) -> Fault {
@@ -76,7 +93,8 @@ pub(crate) fn unknown_branch(location: &Location, word: &str) -> Fault {
 }
 
 pub(crate) fn branch_of_spatial_loop(location: &Location) -> Fault {
-    let message = "only loops with parallel axes, between two moving links, have a left and a right branch";
+    let message =
+        "only loops with parallel axes, between two moving links, have a left and a right branch";
     Fault::new(location, "branch-of-spatial-loop", message)
         .with_help("give positions on the branch: `near: { elbow: 30 deg }`")
 }
@@ -96,17 +114,26 @@ pub(crate) fn loop_row_never_holds(
         .with_help("correct the places: `origin` and `axis` of `a` and `b`, or the origins of the joints in the loop")
 }
 
-pub(crate) fn loop_not_assembled(location: &Location, (name, row): (&str, &str), left: f64) -> Fault {
+pub(crate) fn loop_not_assembled(
+    location: &Location,
+    (name, row): (&str, &str),
+    left: f64,
+) -> Fault {
     let message = format!(
         "no position closes the loops: in the best one found, {} is off by {} (row `{row}`)",
         quote(name),
         six_digits(left)
     );
-    Fault::new(location, "loop-not-assembled", message)
-        .with_help("correct the lengths; or give positions near a closed one with `near: { elbow: 30 deg }`")
+    Fault::new(location, "loop-not-assembled", message).with_help(
+        "correct the lengths; or give positions near a closed one with `near: { elbow: 30 deg }`",
+    )
 }
 
-pub(crate) fn loop_closes_to_rounding(location: &Location, (name, row): (&str, &str), left: f64) -> Fault {
+pub(crate) fn loop_closes_to_rounding(
+    location: &Location,
+    (name, row): (&str, &str),
+    left: f64,
+) -> Fault {
     let message = format!(
         "the loops close only to {}, not exactly: {} remains open (row `{row}`)",
         six_digits(left),
@@ -128,7 +155,9 @@ pub(crate) fn dependent_loop_row(
     (name, row): (&str, &str),
     others: &[(String, f64)],
 ) -> Fault {
-    let terms = others.iter().map(|(name, factor)| format!("{} · `{name}`", six_digits(*factor)));
+    let terms = others
+        .iter()
+        .map(|(name, factor)| format!("{} · `{name}`", six_digits(*factor)));
     let terms: Vec<String> = terms.collect();
     let message = match terms.as_slice() {
         [] => format!("the row `{row}` of the loop {} moves no joint", quote(name)),
@@ -144,9 +173,9 @@ pub(crate) fn dependent_loop_row(
 }
 
 pub(crate) fn nothing_left_to_move(location: &Location, rows: usize, joints: usize) -> Fault {
-    let message = format!("nothing is left to move: the loops have {rows} rows for {joints} velocities");
-    Fault::new(location, "nothing-left-to-move", message)
-        .with_help("remove a loop, or add a joint")
+    let message =
+        format!("nothing is left to move: the loops have {rows} rows for {joints} velocities");
+    Fault::new(location, "nothing-left-to-move", message).with_help("remove a loop, or add a joint")
 }
 
 pub(crate) fn too_many_independents(location: &Location, listed: &[&str], most: usize) -> Fault {

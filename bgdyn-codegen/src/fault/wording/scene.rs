@@ -60,6 +60,15 @@ pub(crate) fn velocity_constraint(location: &Location, joint: &str, leaders: &[S
     )
 }
 
+pub(crate) fn loops_in_scene(location: &Location, names: &[&str]) -> Fault {
+    let message = format!(
+        "the mechanism has loops ({}): scenes do not support them yet",
+        quoted_list(names.iter().copied())
+    );
+    Fault::new(location, "loops-in-scene", message)
+        .with_help("the mechanism's own methods support loops: integrate its trait `Dynamics`")
+}
+
 pub(crate) fn lock_of_several(location: &Location, joint: &str, kind: &str) -> Fault {
     let message = format!(
         "`{joint}` is a {kind} joint: `lock` takes joints of one degree of freedom, with their position"

@@ -52,10 +52,10 @@ pub(super) fn outputs<'g>(
     let rows = LoopRows {
         rates: rates.clone(),
     };
-    let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows), &x, bias);
+    let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows, None), &x, bias);
     let prepared = Prepared::new(&closed.tree);
     let read = |method: Method| Literal.function(&prepared, method).map(Rc::new);
-    compose(b, closed, method, (&x, &motion), &read)
+    compose(b, closed, method, (&x, &motion), (&read, &conditions))
 }
 
 /// Returns c(q), row by row.
@@ -66,7 +66,10 @@ fn conditions<'g>(b: &'g Builder, closed: &ClosedTree, q: &[Expr<'g>]) -> Vec<Ex
         let origin = b.vector(pose.translation);
         match link {
             None => (rotation, origin),
-            Some(LinkId(i)) => (placement.rotations[i] * rotation, placement.point(i, origin)),
+            Some(LinkId(i)) => (
+                placement.rotations[i] * rotation,
+                placement.point(i, origin),
+            ),
         }
     };
     let closure = &closed.closure;
@@ -79,7 +82,8 @@ fn conditions<'g>(b: &'g Builder, closed: &ClosedTree, q: &[Expr<'g>]) -> Vec<Ex
             position: a.0.transpose() * (other.1 - a.1),
             columns: Vec::new(),
         };
-        row.kind.residual(&relative, one.length, |x: Dd| b.constant(x))
+        row.kind
+            .residual(&relative, one.length, |x: Dd| b.constant(x))
     };
     closure.rows.iter().map(condition).collect()
 }

@@ -31,6 +31,7 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
         Method::ForwardDynamics => vec![Method::InverseDynamics, Method::MassMatrix],
         Method::KineticEnergy | Method::PotentialEnergy => vec![method],
         Method::CoriolisMatrix => vec![method, Method::MassMatrix],
+        Method::Multipliers => vec![Method::InverseDynamics],
         Method::Pose(_) | Method::Velocity(_) | Method::Jacobian(_) => vec![method],
         Method::JacobianDotV(site) => vec![method, Method::Jacobian(site)],
         _ => vec![],
@@ -60,20 +61,23 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
     }
 }
 
-/// Returns the expressions of a method; `None` for one that is not composed of those of the tree.
+/// Returns the expressions of a method; `None` for one that is not composed of those of the tree. `residuals` are
+/// c(q).
 pub(in crate::formulation) fn compose<'g>(
     b: &'g Builder,
     closed: &ClosedTree,
     method: Method,
     (x, motion): (&Arguments<'g>, &LoopMotion<'_, 'g>),
-    read: &ReadTree<'_>,
+    (read, residuals): (&ReadTree<'_>, &[Expr<'g>]),
 ) -> Option<Vec<Expr<'g>>> {
     let map = &motion.map;
     let tree = TreeFunctions { b, motion, read };
     let n = closed.closure.independents.len();
     Some(match method {
-        Method::InverseDynamics | Method::Bias | Method::Gravity => map.efforts(&tree.efforts(method, x)?),
-        Method::MassMatrix => triangle(&tree.mass_matrix(b)?),
+        Method::InverseDynamics | Method::Bias | Method::Gravity => {
+            map.efforts(&tree.efforts(method, x)?)
+        }
+        Method::MassMatrix => entries(&tree.mass_matrix(b)?),
         Method::ForwardDynamics => {
             let bias = map.efforts(&tree.efforts(Method::Bias, x)?);
             let drive = x.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
@@ -90,6 +94,13 @@ pub(in crate::formulation) fn compose<'g>(
             let own = tree.read(method, None)?;
             own.into_iter().zip(moved).map(|(x, y)| x + y).collect()
         }
+        Method::VelocityMap => entries(&map.map),
+        Method::TreeVelocity => motion.velocities.clone(),
+        Method::TreeAcceleration => motion.accelerations(&x.a),
+        Method::ConstraintResidual => residuals.to_vec(),
+        Method::ConstraintJacobian => entries(map.rates()),
+        Method::Multipliers => map.multipliers(&tree.efforts(Method::InverseDynamics, x)?),
+        Method::ClosingStep => map.steps(residuals),
         _ => return None,
     })
 }
@@ -115,7 +126,9 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
             _ => None,
         };
         let outputs = &function.blocks[0].outputs;
-        let copied = self.b.with_graph(|g| copy_into(g, &function.graph, outputs, |_, l| leaf(l)));
+        let copied = self
+            .b
+            .with_graph(|g| copy_into(g, &function.graph, outputs, |_, l| leaf(l)));
         Some(copied.into_iter().map(|e| self.b.expr(e)).collect())
     }
 
@@ -137,14 +150,18 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
         let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
         let mass = self.read(Method::MassMatrix, None)?;
         let entry = |i: usize, j: usize| mass[in_triangle(i.max(j), i.min(j))];
-        let moved = |i: usize, k: usize| {
-            (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k])
-        };
-        let moved: Vec<Vec<Expr<'g>>> = (0..all).map(|i| (0..n).map(|k| moved(i, k)).collect()).collect();
-        let entry = |k: usize, l: usize| {
-            (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l])
-        };
-        Some((0..n).map(|k| (0..=k).map(|l| entry(k, l)).collect()).collect())
+        let moved =
+            |i: usize, k: usize| (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k]);
+        let moved: Vec<Vec<Expr<'g>>> = (0..all)
+            .map(|i| (0..n).map(|k| moved(i, k)).collect())
+            .collect();
+        let entry =
+            |k: usize, l: usize| (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l]);
+        Some(
+            (0..n)
+                .map(|k| (0..=k).map(|l| entry(k, l)).collect())
+                .collect(),
+        )
     }
 
     /// Returns Sᵀ (C S + M Ṡ), row by row: bias = C u + gravity, Ṁ − 2 C skew.
@@ -159,7 +176,10 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
             let e = e.signed();
             b.expr(b.with_graph(|g| rate.of(g, e)))
         };
-        let rates: Vec<Vec<Expr<'g>>> = map.iter().map(|row| row.iter().map(|&e| rate_of(e)).collect()).collect();
+        let rates: Vec<Vec<Expr<'g>>> = map
+            .iter()
+            .map(|row| row.iter().map(|&e| rate_of(e)).collect())
+            .collect();
         let mut moved = product(&coriolis, map, n, b);
         let symmetric: Vec<Expr<'g>> = (0..all * all)
             .map(|k| mass[in_triangle((k / all).max(k % all), (k / all).min(k % all))])
@@ -181,9 +201,11 @@ fn product<'g>(a: &[Expr<'g>], map: &[Vec<Expr<'g>>], n: usize, b: &'g Builder) 
         terms.fold(b.zero(), |sum, (x, column)| sum + *x * column[k])
     };
     let rows = a.chunks(inner.max(1));
-    rows.flat_map(|row| (0..n).map(move |k| entry(row, k))).collect()
+    rows.flat_map(|row| (0..n).map(move |k| entry(row, k)))
+        .collect()
 }
 
-fn triangle<'g>(mass: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
-    mass.iter().flatten().copied().collect()
+/// Returns the entries row by row.
+fn entries<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
+    matrix.iter().flatten().copied().collect()
 }

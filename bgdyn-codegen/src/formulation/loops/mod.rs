@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use super::arguments::Arguments;
 use super::subspaces::Subspaces;
-use super::velocity_map::{VelocityMap, loop_bias, loop_rows};
+use super::velocity_map::{FirstPivot, VelocityMap, loop_bias, loop_residuals, loop_rows};
 use super::{Formulation, Offer, Prepared};
 use crate::bond_graph::{ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
@@ -42,7 +42,7 @@ impl Formulation for Elimination {
     }
 
     fn knows(&self, method: Method) -> bool {
-        !self.reads_of_tree(method).is_empty()
+        !self.reads_of_tree(method).is_empty() || Method::OF_LOOPS.contains(&method)
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
@@ -60,27 +60,33 @@ impl Formulation for Elimination {
         let mut of_tree = String::new();
         let outputs: Vec<Signed> = {
             let x = Arguments::new(&b, graph, method);
-            let motion = loop_motion(&b, closed, &x);
+            let first = method.shape().checked().then_some(graph.coordinates.len());
+            let motion = loop_motion(&b, closed, &x, first);
+            let residuals = loop_residuals(&b, &closed.closure, &x.q);
             let read = |method: Method| prepared.tree_function(method);
-            let outputs = compose(&b, closed, method, (&x, &motion), &read)?;
+            let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
             if let Some(first) = self.reads_of_tree(method).first() {
                 of_tree = read(*first)?.formulation.clone();
             }
             outputs.into_iter().map(Expr::signed).collect()
         };
-        let name = format!("{of_tree}; loops eliminated");
+        let name = match of_tree.as_str() {
+            "" => self.name().into(),
+            _ => format!("{of_tree}; loops eliminated"),
+        };
         Some(Function::flat(graph, method, name, b.into_graph(), outputs))
     }
 }
 
-/// Returns the motion of the open tree for the arguments of a method.
+/// Returns the motion of the open tree for the arguments of a method; with `first` pivots are checked.
 fn loop_motion<'a, 'g>(
     b: &'g Builder,
     closed: &'a ClosedTree,
     x: &Arguments<'g>,
+    first: FirstPivot,
 ) -> LoopMotion<'a, 'g> {
     let closure = &closed.closure;
-    let map = VelocityMap::new(b, closure, loop_rows(b, closure, &x.q));
+    let map = VelocityMap::new(b, closure, loop_rows(b, closure, &x.q), first);
     LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v)))
 }
 
@@ -93,9 +99,15 @@ pub(crate) fn mass_and_bias(graph: &Multibody) -> Option<(Graph, Vec<Signed>)> {
     let b = Builder::new();
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, Method::Bias);
-        let motion = loop_motion(&b, closed, &x);
-        let mut all = compose(&b, closed, Method::MassMatrix, (&x, &motion), &read)?;
-        all.extend(compose(&b, closed, Method::Bias, (&x, &motion), &read)?);
+        let motion = loop_motion(&b, closed, &x, None);
+        let mut all = compose(&b, closed, Method::MassMatrix, (&x, &motion), (&read, &[]))?;
+        all.extend(compose(
+            &b,
+            closed,
+            Method::Bias,
+            (&x, &motion),
+            (&read, &[]),
+        )?);
         all.into_iter().map(Expr::signed).collect()
     };
     Some((b.into_graph(), outputs))

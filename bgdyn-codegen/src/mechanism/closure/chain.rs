@@ -94,7 +94,8 @@ impl ChainStep {
                 (fixed, origin + axis.map(constant).scale(own[0]))
             }
             Motion::Compound(motion) => {
-                let (turned, shift) = motion.pose(&self.degrees.constants(self.axis), &own, numbers);
+                let (turned, shift) =
+                    motion.pose(&self.degrees.constants(self.axis), &own, numbers);
                 (fixed * turned, origin + fixed * shift)
             }
         }
@@ -224,15 +225,12 @@ impl Chain {
             if step.outward {
                 let along = before.cross(s);
                 velocity = velocity + along + l;
-                acceleration = acceleration
-                    + alpha_before.cross(s)
-                    + before.cross(along + l)
-                    + omega.cross(l);
+                acceleration =
+                    acceleration + alpha_before.cross(s) + before.cross(along + l) + omega.cross(l);
             } else {
                 let along = l + omega.cross(s);
                 velocity = velocity + along;
-                acceleration =
-                    acceleration + before.cross(l) + alpha.cross(s) + omega.cross(along);
+                acceleration = acceleration + before.cross(l) + alpha.cross(s) + omega.cross(along);
             }
         }
         let s = frames.segments[self.steps.len() + 1];

@@ -97,6 +97,8 @@ impl Closure {
 
     /// Returns the dependent velocities, block by block.
     pub fn dependents(&self) -> impl Iterator<Item = CoordinateId> {
-        self.blocks.iter().flat_map(|block| block.dependents.iter().copied())
+        self.blocks
+            .iter()
+            .flat_map(|block| block.dependents.iter().copied())
     }
 }

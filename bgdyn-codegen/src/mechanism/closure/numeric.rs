@@ -21,10 +21,14 @@ const WALK: (usize, f64) = (8, 0.3);
 impl Closure {
     /// Returns c(q), and B(q) row by row.
     pub fn values(&self, rows: &[LoopRow], q: &[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>) {
-        let places: Vec<RelativePlace<Dd>> = self.loops.iter().map(|one| {
-            let frames = one.chain.frames(q, &DoubleDouble);
-            one.chain.place(&frames, false, &DoubleDouble)
-        }).collect();
+        let places: Vec<RelativePlace<Dd>> = self
+            .loops
+            .iter()
+            .map(|one| {
+                let frames = one.chain.frames(q, &DoubleDouble);
+                one.chain.place(&frames, false, &DoubleDouble)
+            })
+            .collect();
         let value = |row: &LoopRow| {
             let (place, length) = (&places[row.closes], self.loops[row.closes].length);
             let mut rates = vec![Dd::ZERO; self.positions.len()];
@@ -52,7 +56,9 @@ impl Closure {
     pub fn velocity_map(&self, q: &[Dd]) -> Option<Vec<Vec<Dd>>> {
         let (_, jacobian) = self.values(&self.rows, q);
         let dependents: Vec<usize> = self.dependents().map(|j| j.0).collect();
-        let square = jacobian.iter().map(|row| dependents.iter().map(|&j| row[j]).collect());
+        let square = jacobian
+            .iter()
+            .map(|row| dependents.iter().map(|&j| row[j]).collect());
         let sides: Vec<Vec<Dd>> = (self.independents.iter())
             .map(|i| jacobian.iter().map(|row| -row[i.0]).collect())
             .collect();
@@ -75,11 +81,17 @@ impl Closure {
             if largest(&residuals) <= CLOSED {
                 return true;
             }
-            let square = jacobian.iter().map(|row| dependents.iter().map(|&j| row[j]).collect());
+            let square = jacobian
+                .iter()
+                .map(|row| dependents.iter().map(|&j| row[j]).collect());
             let Some(step) = solve(square.collect(), &[residuals], 1e-20) else {
                 return false;
             };
-            let steps: Vec<(usize, Dd)> = dependents.iter().copied().zip(step[0].iter().map(|x| -*x)).collect();
+            let steps: Vec<(usize, Dd)> = dependents
+                .iter()
+                .copied()
+                .zip(step[0].iter().map(|x| -*x))
+                .collect();
             self.move_by(q, &steps);
         }
         false
@@ -127,7 +139,10 @@ impl Closure {
                 continue;
             };
             let size = Dd::from_f64(WALK.1);
-            let tangent = direction.iter().zip(&back).map(|(&x, (j, y))| (*j, (x + *y) * size));
+            let tangent = direction
+                .iter()
+                .zip(&back)
+                .map(|(&x, (j, y))| (*j, (x + *y) * size));
             let mut moved = q.to_vec();
             self.move_by(&mut moved, &tangent.collect::<Vec<_>>());
             if self.assemble(rows, &mut moved, &free) <= CLOSED {
@@ -165,7 +180,10 @@ impl Closure {
 
     /// Adds the steps to the positions, scaled down if one is large.
     fn move_by(&self, q: &mut [Dd], steps: &[(usize, Dd)]) {
-        let largest = steps.iter().map(|(_, x)| x.to_f64().abs()).fold(0.0, f64::max);
+        let largest = steps
+            .iter()
+            .map(|(_, x)| x.to_f64().abs())
+            .fold(0.0, f64::max);
         let scale = Dd::from_f64(f64::min(1.0, LARGEST_STEP / largest));
         for &(j, step) in steps {
             if let Some(p) = self.positions[j] {
@@ -182,10 +200,18 @@ fn least_step(
     free: &[usize],
     damping: f64,
 ) -> Option<Vec<(usize, Dd)>> {
-    let columns: Vec<Vec<Dd>> = jacobian.iter().map(|row| free.iter().map(|&j| row[j]).collect()).collect();
+    let columns: Vec<Vec<Dd>> = jacobian
+        .iter()
+        .map(|row| free.iter().map(|&j| row[j]).collect())
+        .collect();
     let mut normal: Vec<Vec<Dd>> = columns
         .iter()
-        .map(|row| columns.iter().map(|other| dot(row.iter().copied(), other)).collect())
+        .map(|row| {
+            columns
+                .iter()
+                .map(|other| dot(row.iter().copied(), other))
+                .collect()
+        })
         .collect();
     let trace = (0..normal.len()).fold(0.0, |sum, k| sum + normal[k][k].to_f64());
     for (k, row) in normal.iter_mut().enumerate() {

@@ -47,7 +47,11 @@ pub(crate) fn eliminate(a: &mut [Vec<Dd>], columns: usize) -> (Vec<(usize, usize
             other[column] = Dd::ZERO;
         }
     }
-    let ratio = if largest > 0.0 { smallest / largest } else { 0.0 };
+    let ratio = if largest > 0.0 {
+        smallest / largest
+    } else {
+        0.0
+    };
     (pivots, ratio)
 }
 

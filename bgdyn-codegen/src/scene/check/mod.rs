@@ -206,9 +206,14 @@ fn moving_base(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
     moving
 }
 
-/// Refuses a constraint on velocities only: integrators assume that a position outside of joints with
+/// Refuses loops, and a constraint on velocities only: integrators assume that a position outside of joints with
 /// quasi-velocities has a velocity of its own. Returns whether there is one.
 fn velocity_constraint(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> bool {
+    if let (Some(closure), Some(path)) = (mechanism.closure(), spec.mechanism.given()) {
+        let names: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
+        faults.push(wording::loops_in_scene(&path.location, &names));
+        return true;
+    }
     let mut followers = mechanism.followers();
     let found = followers.find(|(_, coupling, _)| !coupling.of_positions());
     if let (Some((joint, coupling, _)), Some(path)) = (found, spec.mechanism.given()) {

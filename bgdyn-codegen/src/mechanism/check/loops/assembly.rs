@@ -36,7 +36,11 @@ pub(super) fn assemble(
         }
     }
     let moving = closure.moving();
-    let others: Vec<usize> = moving.iter().copied().filter(|j| !kept.contains(&CoordinateId(*j))).collect();
+    let others: Vec<usize> = moving
+        .iter()
+        .copied()
+        .filter(|j| !kept.contains(&CoordinateId(*j)))
+        .collect();
     let mut best = (f64::INFINITY, given.clone());
     let mut wrong: Option<usize> = None;
     for seed in 0..STARTS {
@@ -70,7 +74,10 @@ pub(super) fn assemble(
     }
     match wrong {
         Some(one) => {
-            let location = read[one].branch.as_ref().map_or(&read[one].closes.location, |b| &b.location);
+            let location = read[one]
+                .branch
+                .as_ref()
+                .map_or(&read[one].closes.location, |b| &b.location);
             faults.push(wording::branch_not_found(location, &read[one].closes.name));
         }
         None => report_gap(closure, best, faults),

@@ -20,9 +20,16 @@ pub(super) fn arrange(closure: &mut Closure) {
             }
         }
     }
-    let Some(row_of) = matching(&reads) else { return };
+    let Some(row_of) = matching(&reads) else {
+        return;
+    };
     // The row of dependent d reads others: it waits for their rows.
-    let waits = |d: usize| (0..n).filter(move |&e| e != d).filter(|&e| reads[row_of[d]][e]).collect::<Vec<_>>();
+    let waits = |d: usize| {
+        (0..n)
+            .filter(move |&e| e != d)
+            .filter(|&e| reads[row_of[d]][e])
+            .collect::<Vec<_>>()
+    };
     let waits: Vec<Vec<usize>> = (0..n).map(waits).collect();
     let reach: Vec<Vec<bool>> = (0..n).map(|d| reachable(&waits, d)).collect();
     let mut blocks: Vec<Vec<usize>> = Vec::new();
@@ -56,7 +63,12 @@ fn matching(reads: &[Vec<bool>]) -> Option<Vec<usize>> {
     row_of.into_iter().collect()
 }
 
-fn augment(reads: &[Vec<bool>], row: usize, row_of: &mut [Option<usize>], seen: &mut [bool]) -> bool {
+fn augment(
+    reads: &[Vec<bool>],
+    row: usize,
+    row_of: &mut [Option<usize>],
+    seen: &mut [bool],
+) -> bool {
     for column in 0..reads.len() {
         if !reads[row][column] || seen[column] {
             continue;

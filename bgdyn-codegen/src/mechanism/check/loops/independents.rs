@@ -12,7 +12,11 @@ use crate::mechanism::{CoordinateId, Mechanism};
 const RATIOS: [f64; 6] = [0.1, 0.03, 0.01, 1e-3, 1e-6, 1e-9];
 
 /// Returns the velocities that the file names as independent. `None` if a rule is broken.
-pub(super) fn named(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -> Option<Vec<CoordinateId>> {
+pub(super) fn named(
+    spec: &Spec,
+    mechanism: &Mechanism,
+    faults: &mut Faults,
+) -> Option<Vec<CoordinateId>> {
     let names = mechanism.joint_names();
     let mut kept = Vec::new();
     for name in spec.independent.value().into_iter().flatten() {
@@ -20,7 +24,11 @@ pub(super) fn named(spec: &Spec, mechanism: &Mechanism, faults: &mut Faults) -> 
             Some(j) => kept.push(CoordinateId(j)),
             None => {
                 let known: Vec<&str> = names.iter().map(String::as_str).collect();
-                faults.push(wording::unknown_constrained_joint(&name.location, &name.value, &known));
+                faults.push(wording::unknown_constrained_joint(
+                    &name.location,
+                    &name.value,
+                    &known,
+                ));
                 return None;
             }
         }
@@ -36,7 +44,10 @@ pub(super) fn choose(
 ) -> Option<()> {
     let moving = closure.moving();
     let rows = closure.rows.len();
-    let location = spec.loops.given().map_or(&spec.location, |loops| &loops.location);
+    let location = spec
+        .loops
+        .given()
+        .map_or(&spec.location, |loops| &loops.location);
     let names = mechanism.joint_names();
     if rows >= moving.len() && mechanism.nv() == moving.len() {
         faults.push(wording::nothing_left_to_move(location, rows, moving.len()));
@@ -47,20 +58,38 @@ pub(super) fn choose(
         .iter()
         .map(|q| scaled(closure.values(&closure.rows, q).1))
         .collect();
-    let fixed: Vec<usize> = moving.iter().copied().filter(|j| kept.contains(&CoordinateId(*j))).collect();
-    let free: Vec<usize> = moving.iter().copied().filter(|j| !kept.contains(&CoordinateId(*j))).collect();
+    let fixed: Vec<usize> = moving
+        .iter()
+        .copied()
+        .filter(|j| kept.contains(&CoordinateId(*j)))
+        .collect();
+    let free: Vec<usize> = moving
+        .iter()
+        .copied()
+        .filter(|j| !kept.contains(&CoordinateId(*j)))
+        .collect();
     let Some(more) = free.len().checked_sub(rows) else {
         let listed: Vec<&str> = fixed.iter().map(|&j| names[j].as_str()).collect();
-        faults.push(wording::too_many_independents(location, &listed, moving.len() - rows));
+        faults.push(wording::too_many_independents(
+            location,
+            &listed,
+            moving.len() - rows,
+        ));
         return None;
     };
-    let choice = RATIOS.iter().find_map(|&ratio| first_choice(&free, more, (&jacobians, ratio)));
+    let choice = RATIOS
+        .iter()
+        .find_map(|&ratio| first_choice(&free, more, (&jacobians, ratio)));
     let Some(chosen) = choice else {
         let listed: Vec<&str> = fixed.iter().map(|&j| names[j].as_str()).collect();
         faults.push(wording::independents_do_not_determine(location, &listed));
         return None;
     };
-    let dependents: Vec<usize> = free.iter().copied().filter(|j| !chosen.contains(j)).collect();
+    let dependents: Vec<usize> = free
+        .iter()
+        .copied()
+        .filter(|j| !chosen.contains(j))
+        .collect();
     closure.independents = (0..closure.positions.len())
         .filter(|j| !dependents.contains(j))
         .map(CoordinateId)
@@ -84,15 +113,27 @@ fn first_choice(
         if chosen.len() == count {
             break;
         }
-        let left: Vec<usize> = free.iter().copied().filter(|k| *k != j && !chosen.contains(k)).collect();
-        if jacobians.iter().all(|jacobian| smallest_pivot(jacobian, &left) >= ratio) {
+        let left: Vec<usize> = free
+            .iter()
+            .copied()
+            .filter(|k| *k != j && !chosen.contains(k))
+            .collect();
+        if jacobians
+            .iter()
+            .all(|jacobian| smallest_pivot(jacobian, &left) >= ratio)
+        {
             chosen.push(j);
         }
     }
-    (chosen.len() == count && jacobians.iter().all(|jacobian| {
-        let left: Vec<usize> = free.iter().copied().filter(|k| !chosen.contains(k)).collect();
-        smallest_pivot(jacobian, &left) >= ratio
-    }))
+    (chosen.len() == count
+        && jacobians.iter().all(|jacobian| {
+            let left: Vec<usize> = free
+                .iter()
+                .copied()
+                .filter(|k| !chosen.contains(k))
+                .collect();
+            smallest_pivot(jacobian, &left) >= ratio
+        }))
     .then_some(chosen)
 }
 
@@ -110,7 +151,14 @@ fn scaled(mut jacobian: Vec<Vec<Dd>>) -> Vec<Vec<Dd>> {
 /// Returns the ratio of the smallest pivot in these columns to the largest one; 0 if the rows depend on each other
 /// there.
 fn smallest_pivot(jacobian: &[Vec<Dd>], columns: &[usize]) -> f64 {
-    let mut part: Vec<Vec<Dd>> = jacobian.iter().map(|row| columns.iter().map(|&j| row[j]).collect()).collect();
+    let mut part: Vec<Vec<Dd>> = jacobian
+        .iter()
+        .map(|row| columns.iter().map(|&j| row[j]).collect())
+        .collect();
     let (pivots, ratio) = eliminate(&mut part, columns.len());
-    if pivots.len() < jacobian.len() { 0.0 } else { ratio }
+    if pivots.len() < jacobian.len() {
+        0.0
+    } else {
+        ratio
+    }
 }

@@ -34,7 +34,9 @@ pub(super) fn close(
         return Some(());
     }
     let before = faults.count();
-    let read = specs.iter().map(|one| read::read(one, (spec, mechanism, directions), faults));
+    let read = specs
+        .iter()
+        .map(|one| read::read(one, (spec, mechanism, directions), faults));
     let read: Vec<Option<read::ReadLoop>> = read.collect();
     let read: Vec<read::ReadLoop> = read.into_iter().collect::<Option<_>>()?;
     if faults.count() > before {
@@ -95,7 +97,18 @@ fn neutral(mechanism: &Mechanism) -> Vec<bgdyn_runtime::Dd> {
 }
 
 /// Reports a joint that no loop can go through.
-fn unsuitable(one: &crate::format::LoopSpec, name: &str, mechanism: &Mechanism, link: usize, faults: &mut Faults) {
+fn unsuitable(
+    one: &crate::format::LoopSpec,
+    name: &str,
+    mechanism: &Mechanism,
+    link: usize,
+    faults: &mut Faults,
+) {
     let joint = &mechanism.links()[link].joint;
-    faults.push(wording::loop_through_joint(&one.location, name, &joint.name, joint.kind.keyword));
+    faults.push(wording::loop_through_joint(
+        &one.location,
+        name,
+        &joint.name,
+        joint.kind.keyword,
+    ));
 }

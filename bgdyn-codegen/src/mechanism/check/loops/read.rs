@@ -51,16 +51,26 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
     };
     let chain = Chain {
         start: turned(a.1),
-        steps: path.iter().map(|&(link, outward)| step(mechanism, link, outward)).collect(),
+        steps: path
+            .iter()
+            .map(|&(link, outward)| step(mechanism, link, outward))
+            .collect(),
         end: turned(b.1),
     };
     let mut suitable = true;
-    for &(link, _) in path.iter().filter(|(link, _)| !is_suitable(mechanism, *link)) {
+    for &(link, _) in path
+        .iter()
+        .filter(|(link, _)| !is_suitable(mechanism, *link))
+    {
         suitable = false;
         unsuitable(one, &name.value, mechanism, link.0, faults);
     }
     let axis = loop_axis(&chain);
-    let branch = branch(one, axis.is_some() && a.0.is_some() && b.0.is_some() && kind.coincident, faults);
+    let branch = branch(
+        one,
+        axis.is_some() && a.0.is_some() && b.0.is_some() && kind.coincident,
+        faults,
+    );
     suitable.then(|| ReadLoop {
         closes: KinematicLoop {
             name: name.value.clone(),
@@ -92,10 +102,16 @@ fn is_taken(spec: &Spec, mechanism: &Mechanism, own: &LoopSpec, name: &str) -> b
 
 fn kind(one: &LoopSpec, faults: &mut Faults) -> Option<&'static ClosingType> {
     let word = one.kind.given()?;
-    let found = CLOSING_TYPES.into_iter().find(|kind| kind.keyword == word.value);
+    let found = CLOSING_TYPES
+        .into_iter()
+        .find(|kind| kind.keyword == word.value);
     if found.is_none() {
         let words: Vec<&str> = CLOSING_TYPES.iter().map(|kind| kind.keyword).collect();
-        faults.push(wording::unknown_loop_type(&word.location, &word.value, &words));
+        faults.push(wording::unknown_loop_type(
+            &word.location,
+            &word.value,
+            &words,
+        ));
     }
     found
 }
@@ -113,7 +129,11 @@ fn end(
         let mut frames = mechanism.frames().iter();
         let Some(found) = frames.find(|known| known.name == frame.value) else {
             let known: Vec<&str> = mechanism.frames().iter().map(|f| f.name.as_str()).collect();
-            faults.push(wording::unknown_frame(&frame.location, &frame.value, &known));
+            faults.push(wording::unknown_frame(
+                &frame.location,
+                &frame.value,
+                &known,
+            ));
             return None;
         };
         return Some((found.link, found.origin));
@@ -129,11 +149,23 @@ fn end(
         return Some((None, pose));
     }
     let shown = || mechanism.links().iter().filter(|link| !link.hidden);
-    let found = mechanism.links().iter().position(|known| !known.hidden && known.name == link.value);
+    let found = mechanism
+        .links()
+        .iter()
+        .position(|known| !known.hidden && known.name == link.value);
     if found.is_none() {
         let known: Vec<&str> = shown().map(|link| link.name.as_str()).collect();
-        let is_frame = mechanism.frames().iter().any(|frame| frame.name == link.value);
-        faults.push(wording::unknown_link(&link.location, "unknown-link", &link.value, &known, is_frame));
+        let is_frame = mechanism
+            .frames()
+            .iter()
+            .any(|frame| frame.name == link.value);
+        faults.push(wording::unknown_link(
+            &link.location,
+            "unknown-link",
+            &link.value,
+            &known,
+            is_frame,
+        ));
     }
     Some((Some(LinkId(found?)), pose))
 }
@@ -148,7 +180,12 @@ fn length(one: &LoopSpec, kind: &ClosingType, faults: &mut Faults) -> Option<Dd>
             None
         }
         (Field::Given(length), false) => {
-            faults.push(wording::loop_key_unused(&length.location, "length", kind.keyword, "distance"));
+            faults.push(wording::loop_key_unused(
+                &length.location,
+                "length",
+                kind.keyword,
+                "distance",
+            ));
             None
         }
         (Field::Given(length), true) => {
@@ -163,14 +200,24 @@ fn length(one: &LoopSpec, kind: &ClosingType, faults: &mut Faults) -> Option<Dd>
 }
 
 /// Returns the rotation that turns z to the axis.
-fn axis(one: &LoopSpec, kind: &ClosingType, directions: &Directions, faults: &mut Faults) -> Option<Mat3<Dd>> {
+fn axis(
+    one: &LoopSpec,
+    kind: &ClosingType,
+    directions: &Directions,
+    faults: &mut Faults,
+) -> Option<Mat3<Dd>> {
     let given = match &one.axis {
         Field::Broken => return None,
         Field::Absent => return Some(Directions::identity().rotation),
         Field::Given(given) => given,
     };
     if !kind.axial {
-        faults.push(wording::loop_key_unused(&given.location, "axis", kind.keyword, "hinge` and `slider"));
+        faults.push(wording::loop_key_unused(
+            &given.location,
+            "axis",
+            kind.keyword,
+            "hinge` and `slider",
+        ));
         return None;
     }
     let axis = directions.axis(given, faults)?;
@@ -181,7 +228,11 @@ fn axis(one: &LoopSpec, kind: &ClosingType, directions: &Directions, faults: &mu
     e.0[least] = Dd::ONE;
     let across = e.cross(axis);
     let size = across.dot(across);
-    let first = if size == Dd::ONE { across } else { across.scale(Dd::ONE / size.sqrt()) };
+    let first = if size == Dd::ONE {
+        across
+    } else {
+        across.scale(Dd::ONE / size.sqrt())
+    };
     let second = axis.cross(first);
     Some(Mat3::from_fn(|i, j| [first, second, axis][j].0[i]))
 }
@@ -192,14 +243,20 @@ fn near(one: &LoopSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(Link
     for (joint, number) in one.near.value().into_iter().flatten() {
         let known = || {
             let links = mechanism.links().iter().enumerate();
-            links.filter(|(_, link)| link.joint.degrees.own_positions() && link.joint.kind.one_degree())
+            links.filter(|(_, link)| {
+                link.joint.degrees.own_positions() && link.joint.kind.one_degree()
+            })
         };
         let at = known().find(|(_, link)| link.joint.name == joint.value);
         match at {
             Some((link, _)) => found.push((LinkId(link), number_of(number))),
             None => {
                 let names: Vec<&str> = known().map(|(_, link)| link.joint.name.as_str()).collect();
-                faults.push(wording::unknown_constrained_joint(&joint.location, &joint.value, &names));
+                faults.push(wording::unknown_constrained_joint(
+                    &joint.location,
+                    &joint.value,
+                    &names,
+                ));
             }
         }
     }
@@ -224,7 +281,10 @@ fn branch(one: &LoopSpec, planar: bool, faults: &mut Faults) -> Option<Located<b
         faults.push(wording::branch_of_spatial_loop(&word.location));
         return None;
     }
-    Some(Located { value: left, location: word.location.clone() })
+    Some(Located {
+        value: left,
+        location: word.location.clone(),
+    })
 }
 
 /// Returns the links whose joints lead from place a to place b, and whether each is passed outward.
@@ -238,8 +298,15 @@ fn path(mechanism: &Mechanism, a: Option<LinkId>, b: Option<LinkId>) -> Vec<(Lin
         all
     };
     let (from, to) = (to_base(a), to_base(b));
-    let inward = from.iter().filter(|link| !to.contains(link)).map(|&link| (link, false));
-    let outward = to.iter().rev().filter(|link| !from.contains(link)).map(|&link| (link, true));
+    let inward = from
+        .iter()
+        .filter(|link| !to.contains(link))
+        .map(|&link| (link, false));
+    let outward = to
+        .iter()
+        .rev()
+        .filter(|link| !from.contains(link))
+        .map(|&link| (link, true));
     inward.chain(outward).collect()
 }
 

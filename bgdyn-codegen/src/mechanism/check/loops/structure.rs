@@ -15,12 +15,18 @@ const ROUNDING: f64 = 1e-24;
 /// Drops the rows that hold at every position; reports those with a constant value that is not zero.
 pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
     let values: Vec<Vec<Dd>> = (0..POSITIONS)
-        .map(|seed| closure.values(&closure.rows, &random_position(closure, seed)).0)
+        .map(|seed| {
+            closure
+                .values(&closure.rows, &random_position(closure, seed))
+                .0
+        })
         .collect();
     let of_row = |r: usize| values.iter().map(move |at| at[r]);
     let spread = |r: usize| {
         let first = values[0][r];
-        of_row(r).map(|x| (x - first).to_f64().abs()).fold(0.0, f64::max)
+        of_row(r)
+            .map(|x| (x - first).to_f64().abs())
+            .fold(0.0, f64::max)
     };
     let (mut kept, mut dropped) = (Vec::new(), Vec::new());
     for (r, row) in closure.rows.iter().enumerate() {
@@ -32,7 +38,11 @@ pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
         if spread(r) <= ROUNDING {
             let one = &closure.loops[row.closes];
             let value = (values[0][r].to_f64(), row.kind.unit());
-            faults.push(wording::loop_row_never_holds(&one.location, (&one.name, row.name), value));
+            faults.push(wording::loop_row_never_holds(
+                &one.location,
+                (&one.name, row.name),
+                value,
+            ));
         }
         kept.push(*row);
     }
@@ -68,9 +78,18 @@ pub(super) fn check_rank(closure: &Closure, faults: &mut Faults) -> Option<()> {
         let row: &LoopRow = &closure.rows[r];
         let one = &closure.loops[row.closes];
         let factors = combinations.into_iter().next().unwrap_or_default();
-        let terms = independent.iter().zip(factors).filter(|(_, factor)| factor.abs() > 1e-9);
-        let terms: Vec<(String, f64)> = terms.map(|(&k, f)| (closure.row_name(&closure.rows[k]), f)).collect();
-        faults.push(wording::dependent_loop_row(&one.location, (&one.name, row.name), &terms));
+        let terms = independent
+            .iter()
+            .zip(factors)
+            .filter(|(_, factor)| factor.abs() > 1e-9);
+        let terms: Vec<(String, f64)> = terms
+            .map(|(&k, f)| (closure.row_name(&closure.rows[k]), f))
+            .collect();
+        faults.push(wording::dependent_loop_row(
+            &one.location,
+            (&one.name, row.name),
+            &terms,
+        ));
     }
     (faults.count() == before).then_some(())
 }
@@ -82,13 +101,18 @@ fn combination(jacobian: &[Vec<Dd>], of: &[usize], r: usize) -> Option<Vec<f64>>
     let mut system: Vec<Vec<Dd>> = (0..n)
         .map(|j| of.iter().chain([&r]).map(|&k| jacobian[k][j]).collect())
         .collect();
-    let size = jacobian[r].iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+    let size = jacobian[r]
+        .iter()
+        .map(|x| x.to_f64().abs())
+        .fold(0.0, f64::max);
     let (pivots, _) = eliminate(&mut system, of.len());
     let mut factors = vec![0.0; of.len()];
     for &(row, column) in &pivots {
         factors[column] = (system[row][of.len()] / system[row][column]).to_f64();
     }
     let used = |i: usize| pivots.iter().any(|(row, _)| *row == i);
-    let left = (0..n).filter(|&i| !used(i)).map(|i| system[i][of.len()].to_f64().abs());
+    let left = (0..n)
+        .filter(|&i| !used(i))
+        .map(|i| system[i][of.len()].to_f64().abs());
     (left.fold(0.0, f64::max) <= 1e-18 * size.max(1e-6)).then_some(factors)
 }

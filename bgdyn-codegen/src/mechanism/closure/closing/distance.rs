@@ -7,9 +7,7 @@ use crate::mechanism::closure::row::RowKind::Length;
 pub(super) static DISTANCE: ClosingType = ClosingType {
     keyword: "distance",
     about: "The places are connected by a massless rod with a ball at both ends.",
-    rows: &[
-        ("length", Length),
-    ],
+    rows: &[("length", Length)],
     axial: false,
     length: true,
     coincident: false,

@@ -7,11 +7,7 @@ use crate::mechanism::closure::row::RowKind::Place;
 pub(super) static POINT: ClosingType = ClosingType {
     keyword: "point",
     about: "The places coincide: every rotation is free.",
-    rows: &[
-        ("x", Place(0)),
-        ("y", Place(1)),
-        ("z", Place(2)),
-    ],
+    rows: &[("x", Place(0)), ("y", Place(1)), ("z", Place(2))],
     axial: false,
     length: false,
     coincident: true,

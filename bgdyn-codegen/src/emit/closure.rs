@@ -1,0 +1,187 @@
+//! Emits what only mechanisms with loops have: names of the open tree and of the rows, the function that closes
+//! positions, and the functions of positions of the trait `Dynamics`.
+
+use bgdyn_runtime::Dd;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::constants::size;
+use super::joint_segments::{JointSegment, joint_by_joint, segments};
+use super::tokens::number;
+use crate::bond_graph::{ClosedTree, Multibody};
+use crate::mechanism::CoordinateId;
+use crate::mechanism::closure::LoopRow;
+use crate::method::Method;
+
+/// Returns the constants of the module, and the functions of the struct.
+pub(super) fn closure_access(
+    closed: &ClosedTree,
+    graph: &Multibody,
+    present: &[Method],
+) -> (TokenStream, TokenStream) {
+    let (tree, closure) = (&closed.tree, &closed.closure);
+    let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
+    let rows: Vec<String> = closure
+        .rows
+        .iter()
+        .map(|row| closure.row_name(row))
+        .collect();
+    let loops: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
+    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
+    let pivots: Vec<&str> = joints.chain(loops.iter().copied()).collect();
+    let positions = graph.positions.iter().map(|p| p.name.as_str());
+    let closing: Vec<&str> = positions.chain(loops.iter().copied()).collect();
+    let dependents: Vec<TokenStream> = closure.dependents().map(|j| dependent(closed, j)).collect();
+    let free: Vec<_> = (closure.independents.iter())
+        .filter_map(|j| closure.positions[j.0])
+        .map(|p| size(p.0))
+        .collect();
+    let [nt, nc, np, nl, nd, nf] = [
+        of_tree.len(),
+        rows.len(),
+        pivots.len(),
+        closing.len(),
+        dependents.len(),
+        free.len(),
+    ]
+    .map(size);
+    let constants = quote! {
+        /// Number of velocities of the open tree.
+        pub const NT: usize = #nt;
+        /// Number of rows of the loops.
+        pub const NC: usize = #nc;
+        /// Names of the joints of the open tree, in the order of its velocities.
+        pub const TREE_JOINT_NAMES: [&str; NT] = [#(#of_tree),*];
+        /// Names of the rows of the loops: the loop, and the direction in the axes of its place a.
+        pub const CONSTRAINT_NAMES: [&str; NC] = [#(#rows),*];
+        /// Names of the joints, and of the loops after them: the causes of missing accelerations.
+        pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
+        /// Names of the positions, and of the loops after them: the causes of positions that do not close.
+        pub const CLOSING_NAMES: [&str; #nl] = [#(#closing),*];
+        /// The dependent joints of the loops.
+        pub const DEPENDENTS: [__rt::closure::Dependent; #nd] = [#(#dependents),*];
+        /// Positions of the independent joints in loops.
+        const INDEPENDENT_POSITIONS: [usize; #nf] = [#(#free),*];
+    };
+    let close = present.contains(&Method::ClosingStep).then(|| {
+        quote! {
+            /// Returns `q` with the dependent positions changed so that all loops close: Newton's method, at most 11
+            /// steps of at most 0.5 rad or m, from the dependent positions in `q`.
+            ///
+            /// # Errors
+            /// Names the first loop that does not close: it is out of reach, or at a singular position.
+            pub fn close(
+                &self,
+                q: &__na::SVector<T, NQ>,
+            ) -> ::core::result::Result<__na::SVector<T, NQ>, T::Singular<NQ>> {
+                __rt::closure::close(*q, &DEPENDENTS, |q| self.closing_step(q)).finish(&CLOSING_NAMES)
+            }
+        }
+    });
+    (constants, quote! { #close })
+}
+
+/// Returns a dependent joint with its position and its loop.
+fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
+    let closure = &closed.closure;
+    let block = closure
+        .blocks
+        .iter()
+        .find(|block| block.dependents.contains(&j));
+    let row = block.and_then(|block| block.rows.first());
+    let closes = row.map_or(0, |&r| closure.rows[r].closes);
+    let position = closure.positions[j.0].map_or(0, |p| p.0);
+    let [velocity, position, closes] = [j.0, position, closes].map(size);
+    quote! {
+        __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }
+    }
+}
+
+/// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint; the arguments are
+/// those of [`joint_by_joint`].
+pub(super) fn position_body(
+    closed: &ClosedTree,
+    joints: &[JointSegment],
+    name: &str,
+    arguments: &[(&str, &TokenStream, bool)],
+) -> TokenStream {
+    let of_tree = segments(&closed.tree);
+    let q = quote! { &__na::SVector<T, NQ> };
+    let moved = quote! { &__na::SVector<T, NT> };
+    let tree_arguments = [("q", &q, true), ("moved", &moved, false)];
+    match name {
+        "neutral" => start(closed),
+        "position_rates" => {
+            let body = joint_by_joint(&of_tree, name, &tree_arguments, true);
+            quote! {
+                let moved = self.tree_velocity(q, v);
+                #body
+            }
+        }
+        "integrate" => {
+            let body = joint_by_joint(&of_tree, name, &tree_arguments, true);
+            quote! {
+                let moved = self.tree_velocity(q, dv);
+                let q = { #body };
+                __rt::closure::close(q, &DEPENDENTS, |q| self.closing_step(q)).or_nan(&DEPENDENTS)
+            }
+        }
+        "sample" => {
+            let body = joint_by_joint(joints, name, arguments, true);
+            let start = start(closed);
+            quote! {
+                let (start, target) = ({ #start }, { #body });
+                let free = (&INDEPENDENT_POSITIONS[..], &DEPENDENTS[..]);
+                __rt::closure::towards(start, target, free, |q| self.closing_step(q))
+            }
+        }
+        "difference" => joint_by_joint(joints, name, arguments, false),
+        _ => joint_by_joint(joints, name, arguments, true),
+    }
+}
+
+/// Returns the closed position of the start.
+fn start(closed: &ClosedTree) -> TokenStream {
+    let part = |x: &Dd| {
+        let [hi, lo] = [x.hi(), x.lo()].map(|part| {
+            let size = number(part.abs());
+            if part < 0.0 {
+                quote! { -#size }
+            } else {
+                quote! { #size }
+            }
+        });
+        quote! { T::from_parts(#hi, #lo) }
+    };
+    let parts = closed.closure.start.iter().map(part);
+    quote! { __rt::vector([#(#parts),*]) }
+}
+
+/// Returns the lines of documentation about the loops: which rows hold at every position, which joints follow.
+pub(super) fn loop_docs(closed: &ClosedTree) -> Vec<String> {
+    let (tree, closure) = (&closed.tree, &closed.closure);
+    let quoted = |name: String| format!("`{name}`");
+    let rows = |rows: &[LoopRow]| {
+        let names = rows.iter().map(|row| quoted(closure.row_name(row)));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let dependents = closure
+        .dependents()
+        .map(|j| quoted(tree.coordinates[j.0].name.clone()));
+    let dependents: Vec<String> = dependents.collect();
+    let mut docs = vec![
+        String::new(),
+        format!(
+            " Loops: the velocities of {} follow from the others.",
+            dependents.join(", ")
+        ),
+        format!(" Rows: {}.", rows(&closure.rows)),
+    ];
+    if !closure.dropped.is_empty() {
+        let dropped = rows(&closure.dropped);
+        docs.push(format!(
+            " Left out, because they hold at every position of the joints: {dropped}."
+        ));
+    }
+    docs
+}
