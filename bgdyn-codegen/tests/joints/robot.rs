@@ -99,7 +99,8 @@ impl Robot {
                 Method::InverseDynamicsDerivatives,
                 Method::ForwardDynamicsDerivatives,
             ];
-            let own = made.formulation.contains(name) || derived.contains(&method);
+            let derived = derived.contains(&method) || Method::OF_LOOPS.contains(&method);
+            let own = made.formulation.contains(name) || derived;
             assert!(own, "{method:?} by {name} is by {}", made.formulation);
         }
         made
