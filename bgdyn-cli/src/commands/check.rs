@@ -132,6 +132,7 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
         found
             .lines
             .extend(m.followers().map(|follower| follows(&m, follower)));
+        found.lines.extend(super::loops::lines(&m));
         let snapped = m.snapped().map(snapped_words);
         found
             .lines
@@ -249,7 +250,7 @@ fn model(mechanism: &Mechanism) -> Value {
         })
     };
     let parameters: Vec<Value> = mechanism.parameters().iter().map(parameter).collect();
-    json!({
+    let mut model = json!({
         "name": mechanism.name(),
         "nq": mechanism.nq(),
         "nv": mechanism.nv(),
@@ -257,7 +258,11 @@ fn model(mechanism: &Mechanism) -> Value {
         "positions": mechanism.position_names(),
         "parameters": parameters,
         "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.location.path })),
-    })
+    });
+    if mechanism.closure().is_some() {
+        model["closure"] = super::loops::model(mechanism);
+    }
+    model
 }
 
 fn finding(fault: &Fault) -> Value {

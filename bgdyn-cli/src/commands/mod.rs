@@ -6,6 +6,7 @@ pub(crate) mod equations;
 pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod graph;
+mod loops;
 pub(crate) mod ops;
 mod per_effect;
 pub(crate) mod schema;

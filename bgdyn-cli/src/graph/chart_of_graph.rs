@@ -19,12 +19,20 @@ impl Chart {
     /// Returns the drawing of a mechanism's bond graph.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let title = mechanism.label().unwrap_or(mechanism.name());
-        let graph = bond_graph::build(mechanism);
-        let driven = graph.coordinates.iter().map(|c| c.name.clone()).collect();
-        let network = BondNetwork::of_mechanism(&graph, driven);
-        let drive = |part: &NodePart| drive(&graph, part);
+        let whole = bond_graph::build(mechanism);
+        let driven = whole.coordinates.iter().map(|c| c.name.clone()).collect();
+        // The junctions of a mechanism with loops are those of its open tree.
+        let closed = whole.closed.as_deref();
+        let graph = closed.map_or(&whole, |closed| &closed.tree);
+        let mut network = BondNetwork::of_mechanism(graph, driven);
+        if let Some(closed) = closed {
+            network.close(&closed.closure);
+        }
+        let drive = |part: &NodePart| drive(graph, part);
         let mut unfolding = Unfolding::new(&network, &drive);
-        Chart::of_graph(&graph, &mut unfolding, title, mechanism.description())
+        let mut chart = Chart::of_graph(graph, &mut unfolding, title, mechanism.description());
+        chart.add_ports(graph, &network, &mut unfolding);
+        chart
     }
 
     /// Returns the drawing of a bond graph, without flows that have no ports.

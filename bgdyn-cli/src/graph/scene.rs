@@ -1,6 +1,6 @@
 //! Adds a scene's effects to the drawing: nodes at joints, and flows along lines and at sites of links.
 
-use bgdyn_codegen::bond_graph::{BondGraph, GraphNode, NodePart, PlacePort, PortSite};
+use bgdyn_codegen::bond_graph::{BondGraph, BondNetwork, GraphNode, NodePart, PlacePort, PortSite};
 use bgdyn_codegen::system::SceneEquations;
 
 use super::chart::{Chart, ChartLink, Component, Flow, Transformer};
@@ -16,7 +16,28 @@ impl Chart {
         let mut unfolding = Unfolding::new(network, &drive);
         let description = scene.description.as_deref();
         let mut chart = Chart::of_graph(graph, &mut unfolding, &scene.name, description);
-        let (mut lines, mut sites) = (0, 0);
+        chart.add_ports(graph, network, &mut unfolding);
+        if !graph.velocity_products && chart.varies() {
+            let note = "The rates of the transformers are left out: no velocity products.";
+            chart.notes.push(note.into());
+        }
+        let missing = not_met(system, &unfolding);
+        if !missing.is_empty() {
+            let names = missing.join(", ");
+            chart.notes.push(format!("Not drawn: {names}."));
+        }
+        chart
+    }
+
+    /// Adds the flows along lines, at sites of links, and of loops.
+    pub(super) fn add_ports(
+        &mut self,
+        graph: &BondGraph,
+        network: &BondNetwork,
+        unfolding: &mut Unfolding<'_>,
+    ) {
+        let chart = self;
+        let (mut lines, mut sites, mut loops) = (0, 0, 0);
         for port in network.ports.iter().filter(|p| !p.coordinates.is_empty()) {
             let own = unfolding.ports_of(port.junction);
             let (name, symbol, partial, all) = match &port.place {
@@ -37,6 +58,12 @@ impl Chart {
                         &mut chart.sites,
                     )
                 }
+                PortSite::Loop(name) => {
+                    loops += 1;
+                    let n = subscript(loops);
+                    let name = format!("loop {name}, rad/s and m/s");
+                    (name, format!("ċ{n}"), format!("∂c{n}/∂q"), &mut chart.lines)
+                }
             };
             let names = chart.velocities.iter().map(|v| v.name.as_str());
             let flow = Flow {
@@ -50,16 +77,6 @@ impl Chart {
                 flows: vec![flow],
             });
         }
-        if !graph.velocity_products && chart.varies() {
-            let note = "The rates of the transformers are left out: no velocity products.";
-            chart.notes.push(note.into());
-        }
-        let missing = not_met(system, &unfolding);
-        if !missing.is_empty() {
-            let names = missing.join(", ");
-            chart.notes.push(format!("Not drawn: {names}."));
-        }
-        chart
     }
 }
 

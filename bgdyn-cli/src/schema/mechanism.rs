@@ -1,6 +1,7 @@
 //! Builds the JSON Schema of a mechanism's file.
 
 use bgdyn_codegen::format::{Dimension, Key, LENGTHS, LIMIT_PARTS};
+use bgdyn_codegen::mechanism::closure::CLOSING_TYPES;
 use bgdyn_codegen::mechanism::constraint_types;
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use serde_json::{Value, json};
@@ -57,10 +58,18 @@ pub fn mechanism() -> Value {
                 }),
             ),
             (
+                "loops",
+                json!({
+                    "type": "array",
+                    "description": "kinematic loops: each connects two places, and makes joints follow others",
+                    "items": { "$ref": "#/$defs/loop" },
+                }),
+            ),
+            (
                 "independent",
                 json!({
                     "type": "array",
-                    "description": "joints that follow no others, although constraints contain them",
+                    "description": "joints that follow no others, although constraints or loops contain them",
                     "items": identifier(),
                 }),
             ),
@@ -86,6 +95,8 @@ pub fn mechanism() -> Value {
             "frame": frame(),
             "effect": effects(),
             "constraint": constraints(),
+            "loop": closing(),
+            "place": place(),
         }),
     )
 }
@@ -238,6 +249,63 @@ fn constraints() -> Value {
         object(&own.chain([word]).collect::<Vec<_>>(), &needed)
     };
     json!({ "oneOf": constraint_types().map(one).collect::<Vec<_>>() })
+}
+
+/// Returns an entry of `loops`.
+fn closing() -> Value {
+    let words: Vec<Value> = CLOSING_TYPES
+        .iter()
+        .map(|kind| described(kind.about, json!({ "const": kind.keyword })))
+        .collect();
+    let place = json!({ "$ref": "#/$defs/place" });
+    let position = quantity(&[Dimension::Angle, Dimension::Length]);
+    let near = json!({
+        "type": "object",
+        "description": "positions of joints from which the loops are assembled",
+        "propertyNames": identifier(),
+        "additionalProperties": position,
+    });
+    let side = "side of the line from the joint of a's link to the joint of b's link on which the places lie";
+    object(
+        &[
+            (
+                "name",
+                described("unique among links, joints, frames and loops", identifier()),
+            ),
+            ("type", json!({ "oneOf": words })),
+            ("a", place.clone()),
+            ("b", place),
+            (
+                "axis",
+                described(
+                    "of hinge and slider, in the axes of both places; z without it",
+                    axis(),
+                ),
+            ),
+            (
+                "length",
+                described("of a rod", quantity(&[Dimension::Length])),
+            ),
+            (
+                "branch",
+                described(side, json!({ "enum": ["left", "right"] })),
+            ),
+            ("near", near),
+        ],
+        &["name", "type", "a", "b"],
+    )
+}
+
+/// Returns a place of a loop: a link with an origin on it, or a frame.
+fn place() -> Value {
+    let origin = json!({ "$ref": "#/$defs/origin" });
+    let link = described("the link, or `world`", identifier());
+    let on_link = object(&[("link", link), ("origin", origin)], &["link"]);
+    let frame = object(
+        &[("frame", described("a named frame", identifier()))],
+        &["frame"],
+    );
+    json!({ "oneOf": [on_link, frame] })
 }
 
 fn mimic() -> Value {

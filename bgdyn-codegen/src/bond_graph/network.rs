@@ -11,6 +11,7 @@ use super::node::{
     Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm,
 };
 use super::{BondGraph, Junction, JunctionId};
+use crate::mechanism::closure::{Closure, LoopRow};
 use crate::mechanism::{CoordinateId, LinkId};
 
 /// A node of a hydraulic circuit.
@@ -254,7 +255,35 @@ impl BondNetwork {
         let coordinates: BTreeSet<CoordinateId> = match &place {
             PortSite::Line([a, b]) => of(a).symmetric_difference(&of(b)).copied().collect(),
             PortSite::Site(name) => of(name),
+            PortSite::Loop(_) => BTreeSet::new(),
         };
+        self.add_port(place, coordinates)
+    }
+
+    /// Adds the flows of loops to the network of their open tree: for each the velocity of place b relative to place
+    /// a, with a flow source 0 whose effort are the multipliers.
+    pub fn close(&mut self, closure: &Closure) {
+        for (closes, one) in closure.loops.iter().enumerate() {
+            let steps = one.chain.steps.iter();
+            let coordinates = steps.flat_map(|step| step.degrees.velocities.iter().copied());
+            let place = PortSite::Loop(one.name.clone());
+            let junction = self.add_port(place, coordinates.collect());
+            let of_loop = |rows: &[LoopRow]| {
+                let own = rows.iter().filter(|row| row.closes == closes);
+                own.map(|row| row.name).collect::<Vec<_>>().join(", ")
+            };
+            let source = self.add_on(junction, NodeKind::FlowSource, "0, effort λ");
+            let dropped = of_loop(&closure.dropped);
+            let more = match dropped.as_str() {
+                "" => of_loop(&closure.rows),
+                _ => format!("{}; always 0: {dropped}", of_loop(&closure.rows)),
+            };
+            self.set_more(source, Some(more));
+        }
+    }
+
+    /// Adds the 1-junction of a flow, with a transformer from each of these velocities.
+    fn add_port(&mut self, place: PortSite, coordinates: BTreeSet<CoordinateId>) -> GraphNodeId {
         let part = NodePart::Port(self.ports.len());
         let junction = self.add_part(NodeKind::One, part);
         let feeds: Vec<(NodePart, GraphNodeId)> = coordinates

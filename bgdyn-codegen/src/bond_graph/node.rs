@@ -154,6 +154,8 @@ pub enum PortSite {
     Line([String; 2]),
     /// The origin of a site on a link: its flow is [ω; v], rad/s and m/s.
     Site(String),
+    /// A loop: its flow is the velocity of place b relative to place a, rad/s and m/s.
+    Loop(String),
 }
 
 /// The flow at a site, with the transformers from the velocities that move it.

@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::velocity_map::{VelocityMap, loop_rows};
+use super::loop_rows::{LoopForm, loop_rows};
+use super::velocity_map::VelocityMap;
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
 use crate::math::{Mat3, Vec3};
@@ -78,7 +79,8 @@ pub(crate) fn position_rates<'g>(
     (q, v): (&[Expr<'g>], &[Expr<'g>]),
 ) -> Vec<Expr<'g>> {
     if let Some(closed) = &graph.closed {
-        let rows = loop_rows(b, &closed.closure, q);
+        let form = LoopForm::default();
+        let rows = (loop_rows(b, &closed.closure, q, form), form);
         let all = VelocityMap::new(b, &closed.closure, rows, None).velocities(v);
         return position_rates(b, &closed.tree, (q, &all));
     }

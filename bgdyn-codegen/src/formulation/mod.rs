@@ -8,8 +8,10 @@
 mod arguments;
 mod definition;
 mod derivatives;
+mod elimination;
 mod joint_motion;
 mod literal;
+mod loop_rows;
 mod loops;
 mod placed_sites;
 mod placement;

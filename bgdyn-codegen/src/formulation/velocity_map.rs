@@ -1,22 +1,14 @@
 //! The dependent velocities of a mechanism with loops: q̇ = S u, q̈ = S u̇ + z, as expressions.
 //!
-//! Each block of rows is solved by elimination: J_d S_d = −J_i, J_d z_d = γ. Pivots are chosen from the values at
-//! sampled positions: large at all of them, constant if possible.
+//! Each block of rows is solved by elimination: J_d S_d = −J_i, J_d z_d = γ.
 
 use bgdyn_runtime::Dd;
 
-use crate::expr::{Builder, Expr, Inputs, Signed, evaluate};
+use super::elimination::Elimination;
+use super::loop_rows::{LoopForm, LoopRows};
+use crate::expr::{Builder, Expr};
 use crate::mechanism::CoordinateId;
-use crate::mechanism::closure::{Closure, LoopRow, RelativePlace};
-
-/// A pivot may be smaller than the best one by this factor if it is constant or saves operations.
-const AS_LARGE: f64 = 0.1;
-
-/// The rows of the loops: rates per unit velocity of the open tree, and −γ.
-pub(super) struct LoopRows<'g> {
-    /// For each row of the closure, the rate for a unit of each velocity of the tree.
-    pub(super) rates: Vec<Vec<Expr<'g>>>,
-}
+use crate::mechanism::closure::{Closure, ClosureBlock};
 
 /// Checks of pivots: the first index of the loops' pivots, after those of the joints.
 pub(super) type FirstPivot = Option<usize>;
@@ -26,115 +18,68 @@ pub(super) struct VelocityMap<'a, 'g> {
     b: &'g Builder,
     closure: &'a Closure,
     rows: LoopRows<'g>,
-    blocks: Vec<Elimination<'g>>,
-    /// S, row by row for the velocities of the tree.
+    blocks: Vec<ClosureBlock>,
+    eliminations: Vec<Elimination<'g>>,
+    /// S, row by row for the velocities of the tree; empty if only vectors are solved for.
     pub(super) map: Vec<Vec<Expr<'g>>>,
 }
 
-/// Returns the rows of the loops in the axes of their places a.
-pub(super) fn loop_rows<'g>(b: &'g Builder, closure: &Closure, q: &[Expr<'g>]) -> LoopRows<'g> {
-    let places: Vec<RelativePlace<Expr<'g>>> = closure
-        .loops
-        .iter()
-        .map(|one| {
-            let frames = one.chain.frames(q, &b);
-            one.chain.place(&frames, one.kind.coincident, &b)
-        })
-        .collect();
-    let rates = closure.rows.iter().map(|row| {
-        let (place, length) = (&places[row.closes], closure.loops[row.closes].length);
-        let mut rates = vec![b.zero(); closure.positions.len()];
-        for (j, column) in &place.columns {
-            rates[j.0] = row.kind.rate(place, column, length);
-        }
-        rates
-    });
-    LoopRows {
-        rates: rates.collect(),
-    }
-}
-
-/// Returns c(q), row by row.
-pub(super) fn loop_residuals<'g>(
-    b: &'g Builder,
-    closure: &Closure,
-    q: &[Expr<'g>],
-) -> Vec<Expr<'g>> {
-    let row = |row: &LoopRow| {
-        let one = &closure.loops[row.closes];
-        let frames = one.chain.frames(q, &b);
-        let place = one.chain.place(&frames, one.kind.coincident, &b);
-        row.kind.residual(&place, one.length, |x| b.constant(x))
-    };
-    closure.rows.iter().map(row).collect()
-}
-
-/// Returns −γ = Ḃ q̇ for velocities of the tree, row by row.
-pub(super) fn loop_bias<'g>(
-    b: &'g Builder,
-    closure: &Closure,
-    (q, v): (&[Expr<'g>], &[Expr<'g>]),
-) -> Vec<Expr<'g>> {
-    let row = |row: &LoopRow| {
-        let one = &closure.loops[row.closes];
-        let frames = one.chain.frames(q, &b);
-        let place = one.chain.place(&frames, one.kind.coincident, &b);
-        let rates = one.chain.rates(&frames, v, &b);
-        row.kind.bias(&place, &rates, one.length)
-    };
-    closure.rows.iter().map(row).collect()
-}
-
 impl<'a, 'g> VelocityMap<'a, 'g> {
-    /// Solves the rows for the dependent velocities; with `first` pivots are checked.
+    /// Eliminates the dependent velocities from the rows; with `first` pivots are checked.
     pub(super) fn new(
         b: &'g Builder,
         closure: &'a Closure,
-        rows: LoopRows<'g>,
+        (rows, form): (LoopRows<'g>, LoopForm),
         first: FirstPivot,
     ) -> Self {
-        let nv = closure.independents.len();
-        let mut map = vec![vec![b.zero(); nv]; closure.positions.len()];
-        for (k, i) in closure.independents.iter().enumerate() {
-            map[i.0][k] = b.constant(Dd::ONE);
-        }
-        let mut blocks = Vec::new();
         b.section(|| "dependent velocities of the loops".into());
-        for block in &closure.blocks {
-            let own = |j: usize| block.dependents.iter().any(|d| d.0 == j);
-            let entries = |&r: &usize| {
-                block
-                    .dependents
+        // The blocks are those of the rows in the axes of places a.
+        let blocks = match form.reversed {
+            false => closure.blocks.clone(),
+            true => vec![ClosureBlock {
+                rows: closure
+                    .blocks
                     .iter()
-                    .map(|d| rows.rates[r][d.0])
-                    .collect()
+                    .flat_map(|block| block.rows.clone())
+                    .collect(),
+                dependents: closure.dependents().collect(),
+            }],
+        };
+        let elimination = |block: &ClosureBlock| {
+            let row = |&r: &usize| {
+                let columns = block.dependents.iter();
+                columns.map(|d| rows.rates[r][d.0]).collect()
             };
-            let matrix: Vec<Vec<Expr<'g>>> = block.rows.iter().map(entries).collect();
-            let of_loop = block.rows.first().map_or(0, |&r| closure.rows[r].closes);
-            let check = first.map(|first| first + of_loop);
-            let elimination = Elimination::new(b, matrix, &closure.samples, check);
-            let mut found = Vec::new();
-            for k in 0..nv {
-                let side = |&r: &usize| {
-                    let others = (0..map.len()).filter(|&j| !own(j));
-                    -others.fold(b.zero(), |sum, j| sum + rows.rates[r][j] * map[j][k])
-                };
-                found.push(elimination.solve(block.rows.iter().map(side).collect()));
-            }
-            for (d, j) in block.dependents.iter().enumerate() {
-                for (k, column) in found.iter().enumerate() {
-                    map[j.0][k] = column[d];
-                }
-            }
-            blocks.push(elimination);
-        }
-        VelocityMap {
+            let matrix = block.rows.iter().map(row).collect();
+            let pivot = |&r: &usize| first.map(|first| first + closure.rows[r].closes);
+            let checks: Option<Vec<usize>> = block.rows.iter().map(pivot).collect();
+            Elimination::new(b, matrix, &closure.samples, checks.as_deref())
+        };
+        let eliminations = blocks.iter().map(elimination).collect();
+        let mut map = VelocityMap {
             b,
             closure,
             rows,
             blocks,
-            map,
+            eliminations,
+            map: Vec::new(),
+        };
+        if !form.by_vectors {
+            let n = closure.independents.len();
+            let unit = |k: usize| {
+                let one = |i: usize| b.constant(if i == k { Dd::ONE } else { Dd::ZERO });
+                map.solve(&(0..n).map(one).collect::<Vec<_>>(), None)
+            };
+            let columns: Vec<Vec<Expr<'g>>> = (0..n).map(unit).collect();
+            let row = |j: usize| columns.iter().map(|column| column[j]).collect();
+            map.map = (0..closure.positions.len()).map(row).collect();
         }
+        map
+    }
+
+    /// Returns the number of independent velocities.
+    pub(super) fn independents(&self) -> usize {
+        self.closure.independents.len()
     }
 
     /// Returns B, row by row.
@@ -142,8 +87,32 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
         &self.rows.rates
     }
 
+    /// Returns the values of all velocities of the tree for these of the independent ones, such that B x + open = 0.
+    fn solve(&self, independent: &[Expr<'g>], open: Option<&[Expr<'g>]>) -> Vec<Expr<'g>> {
+        let mut all = vec![self.b.zero(); self.closure.positions.len()];
+        for (i, &x) in self.closure.independents.iter().zip(independent) {
+            all[i.0] = x;
+        }
+        for (block, elimination) in self.blocks.iter().zip(&self.eliminations) {
+            let side = |&r: &usize| {
+                let own = |j: &usize| block.dependents.iter().any(|d| d.0 == *j);
+                let start = open.map_or(self.b.zero(), |open| open[r]);
+                let others = (0..all.len()).filter(|j| !own(j));
+                -others.fold(start, |sum, j| sum + self.rows.rates[r][j] * all[j])
+            };
+            let found = elimination.solve(block.rows.iter().map(side).collect());
+            for (j, x) in block.dependents.iter().zip(found) {
+                all[j.0] = x;
+            }
+        }
+        all
+    }
+
     /// Returns S u.
     pub(super) fn velocities(&self, u: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        if self.map.is_empty() {
+            return self.solve(u, None);
+        }
         let row = |row: &Vec<Expr<'g>>| {
             let terms = row.iter().zip(u);
             terms.fold(self.b.zero(), |sum, (s, u)| sum + *s * *u)
@@ -151,20 +120,37 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
         self.map.iter().map(row).collect()
     }
 
-    /// Returns Sᵀ f for efforts on the joints of the tree.
+    /// Returns Sᵀ f for efforts on the joints of the tree: f_i − B_iᵀ λ with B_dᵀ λ = f_d, or by S.
     pub(super) fn efforts(&self, f: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let independents = self.closure.independents.iter();
+        if self.map.is_empty() {
+            let lambda = self.multipliers(f);
+            let rows = || self.rows.rates.iter().zip(&lambda);
+            let left = |i: &CoordinateId| rows().fold(f[i.0], |sum, (row, l)| sum - row[i.0] * *l);
+            return independents.map(left).collect();
+        }
         let column = |k: usize| {
             let terms = self.map.iter().zip(f);
             terms.fold(self.b.zero(), |sum, (row, f)| sum + row[k] * *f)
         };
-        (0..self.closure.independents.len()).map(column).collect()
+        (0..independents.len()).map(column).collect()
+    }
+
+    /// Returns S u̇ + z, from −γ.
+    pub(super) fn accelerations(&self, a: &[Expr<'g>], bias: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        if self.map.is_empty() {
+            return self.solve(a, Some(bias));
+        }
+        let z = self.solve(&[], Some(bias));
+        let moved = self.velocities(a).into_iter();
+        moved.zip(z).map(|(x, z)| x + z).collect()
     }
 
     /// Returns the solution of Bᵀ λ = f in the dependent rows: the efforts of the rows for efforts that the joints of
     /// the tree lack.
     pub(super) fn multipliers(&self, f: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut found = vec![self.b.zero(); self.rows.rates.len()];
-        let blocks = self.closure.blocks.iter().zip(&self.blocks).rev();
+        let blocks = self.blocks.iter().zip(&self.eliminations).rev();
         for (block, elimination) in blocks {
             let side = |j: &CoordinateId| {
                 let later = (0..found.len()).filter(|r| !block.rows.contains(r));
@@ -181,190 +167,6 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
     /// Returns J_d⁻¹ c, by velocity of the tree.
     pub(super) fn steps(&self, residuals: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let opposite: Vec<Expr<'g>> = residuals.iter().map(|&c| -c).collect();
-        self.accelerations(&opposite)
+        self.solve(&[], Some(&opposite))
     }
-
-    /// Returns z, from −γ.
-    pub(super) fn accelerations(&self, bias: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let mut z = vec![self.b.zero(); self.map.len()];
-        for (block, elimination) in self.closure.blocks.iter().zip(&self.blocks) {
-            let own = |j: usize| block.dependents.iter().any(|d| d.0 == j);
-            let side = |&r: &usize| {
-                let others = (0..z.len()).filter(|&j| !own(j));
-                -others.fold(bias[r], |sum, j| sum + self.rows.rates[r][j] * z[j])
-            };
-            let found = elimination.solve(block.rows.iter().map(side).collect());
-            for (j, x) in block.dependents.iter().zip(found) {
-                z[j.0] = x;
-            }
-        }
-        z
-    }
-}
-
-/// A square matrix, eliminated.
-struct Elimination<'g> {
-    b: &'g Builder,
-    /// The pivots in their order: row, column.
-    pivots: Vec<(usize, usize)>,
-    /// The matrix after elimination: factors of rows below a pivot, in its column.
-    matrix: Vec<Vec<Expr<'g>>>,
-    /// 1 / pivot, by column.
-    inverse: Vec<Expr<'g>>,
-}
-
-/// A place for a pivot.
-struct PivotPlace {
-    row: usize,
-    column: usize,
-    /// Its size at the sampled positions.
-    size: f64,
-    /// Whether it is negative at all of them; `None` if it changes its sign.
-    negative: Option<bool>,
-}
-
-impl<'g> Elimination<'g> {
-    fn new(
-        b: &'g Builder,
-        mut matrix: Vec<Vec<Expr<'g>>>,
-        samples: &[Vec<Dd>],
-        check: Option<usize>,
-    ) -> Self {
-        let n = matrix.len();
-        let mut pivots: Vec<(usize, usize)> = Vec::new();
-        let mut inverse = vec![b.zero(); n];
-        for _ in 0..n {
-            let place = pivot(b, &matrix, &pivots, samples);
-            let (row, column) = (place.row, place.column);
-            pivots.push((row, column));
-            inverse[column] = inverted(b, matrix[row][column], &place, check);
-            let free_row = |i: &usize| pivots.iter().all(|(row, _)| row != i);
-            let free_column = |j: &usize| pivots.iter().all(|(_, column)| column != j);
-            for i in (0..n).filter(free_row) {
-                if matrix[i][column].is_zero() {
-                    continue;
-                }
-                let factor = matrix[i][column] * inverse[column];
-                for j in (0..n).filter(free_column) {
-                    matrix[i][j] = matrix[i][j] - factor * matrix[row][j];
-                }
-                matrix[i][column] = factor;
-            }
-        }
-        Elimination {
-            b,
-            pivots,
-            matrix,
-            inverse,
-        }
-    }
-
-    /// Returns the solution of the transposed equations for one side, which is by column; the result is by row.
-    fn solve_transposed(&self, mut side: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        let mut x = vec![self.b.zero(); side.len()];
-        for (k, &(row, column)) in self.pivots.iter().enumerate() {
-            x[row] = side[column] * self.inverse[column];
-            for &(_, j) in &self.pivots[k + 1..] {
-                side[j] = side[j] - self.matrix[row][j] * x[row];
-            }
-        }
-        for (k, &(row, column)) in self.pivots.iter().enumerate().rev() {
-            for &(i, _) in &self.pivots[k + 1..] {
-                x[row] = x[row] - self.matrix[i][column] * x[i];
-            }
-        }
-        x
-    }
-
-    /// Returns the solution for one side.
-    fn solve(&self, mut side: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        let mut x = vec![self.b.zero(); side.len()];
-        for (k, &(row, column)) in self.pivots.iter().enumerate() {
-            for &(i, _) in &self.pivots[k + 1..] {
-                side[i] = side[i] - self.matrix[i][column] * side[row];
-            }
-        }
-        for (k, &(row, column)) in self.pivots.iter().enumerate().rev() {
-            let later = self.pivots[k + 1..].iter();
-            let rest = later.fold(side[row], |rest, &(_, j)| rest - self.matrix[row][j] * x[j]);
-            x[column] = rest * self.inverse[column];
-        }
-        x
-    }
-}
-
-/// Returns 1 / pivot. A checked pivot is refused if it is a rounding error of its size, or has changed its sign: then
-/// the loop is at a singular position, or beyond one.
-fn inverted<'g>(
-    b: &'g Builder,
-    value: Expr<'g>,
-    place: &PivotPlace,
-    check: Option<usize>,
-) -> Expr<'g> {
-    let one = b.constant(Dd::ONE);
-    let Some(index) = check.filter(|_| value.as_constant().is_none()) else {
-        return one / value;
-    };
-    let size = b.number(place.size);
-    match place.negative {
-        Some(false) => one / value.pivot(size, index),
-        Some(true) => -(one / (-value).pivot(size, index)),
-        None => value / (value * value).pivot(size * size, index),
-    }
-}
-
-/// Returns the next pivot: among those that are large at all sampled positions a constant one, else the one with
-/// the fewest entries in its row and column.
-fn pivot(
-    b: &Builder,
-    matrix: &[Vec<Expr<'_>>],
-    pivots: &[(usize, usize)],
-    samples: &[Vec<Dd>],
-) -> PivotPlace {
-    let n = matrix.len();
-    let rows: Vec<usize> = (0..n)
-        .filter(|i| pivots.iter().all(|(row, _)| row != i))
-        .collect();
-    let columns: Vec<usize> = (0..n)
-        .filter(|j| pivots.iter().all(|(_, column)| column != j))
-        .collect();
-    let places: Vec<(usize, usize)> = (rows.iter())
-        .flat_map(|&i| columns.iter().map(move |&j| (i, j)))
-        .collect();
-    let outputs: Vec<Signed> = places.iter().map(|&(i, j)| matrix[i][j].signed()).collect();
-    let sampled: Vec<Vec<f64>> = samples.iter().map(|q| at(b, &outputs, q)).collect();
-    let of = |k: usize| sampled.iter().map(move |values| values[k]);
-    let least = |k: usize| of(k).map(f64::abs).fold(f64::INFINITY, f64::min);
-    let best = (0..places.len()).map(least).fold(0.0, f64::max);
-    let entries = |&(i, j): &(usize, usize)| {
-        let in_row = columns.iter().filter(|&&k| !matrix[i][k].is_zero()).count();
-        let in_column = rows.iter().filter(|&&k| !matrix[k][j].is_zero()).count();
-        in_row * in_column
-    };
-    let large = (0..places.len()).filter(|&k| least(k) >= AS_LARGE * best && least(k) > 0.0);
-    let chosen = large.min_by_key(|&k| {
-        let (i, j) = places[k];
-        (matrix[i][j].as_constant().is_none(), entries(&places[k]))
-    });
-    let k = chosen.unwrap_or(0);
-    PivotPlace {
-        row: places[k].0,
-        column: places[k].1,
-        size: of(k).map(f64::abs).fold(0.0, f64::max),
-        negative: match (of(k).all(|x| x < 0.0), of(k).all(|x| x > 0.0)) {
-            (true, _) => Some(true),
-            (_, true) => Some(false),
-            _ => None,
-        },
-    }
-}
-
-/// Returns the values of expressions at a position of the tree.
-fn at(b: &Builder, outputs: &[Signed], q: &[Dd]) -> Vec<f64> {
-    let inputs = Inputs {
-        q: q.to_vec(),
-        ..Inputs::default()
-    };
-    let values = b.with_graph(|g| evaluate(g, outputs, &inputs, &mut None));
-    values.into_iter().map(Dd::to_f64).collect()
 }

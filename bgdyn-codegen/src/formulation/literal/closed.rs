@@ -12,9 +12,10 @@ use crate::bond_graph::{ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Tangent};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::joint_motion::{along, tangents, unit_tangents};
+use crate::formulation::loop_rows::{LoopForm, LoopRows};
 use crate::formulation::loops::{LoopMotion, compose};
 use crate::formulation::placement::Placement;
-use crate::formulation::velocity_map::{LoopRows, VelocityMap};
+use crate::formulation::velocity_map::VelocityMap;
 use crate::formulation::{Formulation, Prepared};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::closure::RelativePlace;
@@ -52,6 +53,7 @@ pub(super) fn outputs<'g>(
     let rows = LoopRows {
         rates: rates.clone(),
     };
+    let rows = (rows, LoopForm::default());
     let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows, None), &x, bias);
     let prepared = Prepared::new(&closed.tree);
     let read = |method: Method| Literal.function(&prepared, method).map(Rc::new);

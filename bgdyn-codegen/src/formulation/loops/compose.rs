@@ -16,7 +16,7 @@ pub(in crate::formulation) struct LoopMotion<'a, 'g> {
     map: VelocityMap<'a, 'g>,
     /// S u
     velocities: Vec<Expr<'g>>,
-    /// z
+    /// −γ, row by row.
     bias: Vec<Expr<'g>>,
 }
 
@@ -46,18 +46,23 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
         bias: impl FnOnce(&[Expr<'g>]) -> Vec<Expr<'g>>,
     ) -> Self {
         let velocities = map.velocities(&x.v);
-        let z = map.accelerations(&bias(&velocities));
+        let bias = bias(&velocities);
         LoopMotion {
             map,
             velocities,
-            bias: z,
+            bias,
         }
     }
 
     /// Returns S u̇ + z.
     fn accelerations(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let all = self.map.velocities(a).into_iter().zip(&self.bias);
-        all.map(|(x, z)| x + *z).collect()
+        self.map.accelerations(a, &self.bias)
+    }
+
+    /// Returns z.
+    fn bias_accelerations(&self, b: &'g Builder) -> Vec<Expr<'g>> {
+        let still = vec![b.zero(); self.map.independents()];
+        self.accelerations(&still)
     }
 }
 
@@ -89,7 +94,8 @@ pub(in crate::formulation) fn compose<'g>(
         Method::Jacobian(_) => product(&tree.read(method, None)?, &map.map, n, b),
         Method::JacobianDotV(site) => {
             let jacobian = tree.read(Method::Jacobian(site), None)?;
-            let z: Vec<Vec<Expr<'g>>> = motion.bias.iter().map(|&z| vec![z]).collect();
+            let z = motion.bias_accelerations(b).into_iter();
+            let z: Vec<Vec<Expr<'g>>> = z.map(|z| vec![z]).collect();
             let moved = product(&jacobian, &z, 1, b);
             let own = tree.read(method, None)?;
             own.into_iter().zip(moved).map(|(x, y)| x + y).collect()
@@ -136,7 +142,10 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
     fn efforts(&self, method: Method, x: &Arguments<'g>) -> Option<Vec<Expr<'g>>> {
         match method {
             Method::Gravity => self.read(method, None),
-            Method::Bias => self.read(Method::InverseDynamics, Some(&self.motion.bias)),
+            Method::Bias => {
+                let z = self.motion.bias_accelerations(self.b);
+                self.read(Method::InverseDynamics, Some(&z))
+            }
             _ => {
                 let accelerations = self.motion.accelerations(&x.a);
                 self.read(Method::InverseDynamics, Some(&accelerations))

@@ -9,13 +9,15 @@ mod compose;
 use std::rc::Rc;
 
 use super::arguments::Arguments;
+use super::loop_rows::{LoopForm, loop_bias, loop_residuals, loop_rows};
 use super::subspaces::Subspaces;
-use super::velocity_map::{FirstPivot, VelocityMap, loop_bias, loop_residuals, loop_rows};
+use super::velocity_map::{FirstPivot, VelocityMap};
 use super::{Formulation, Offer, Prepared};
 use crate::bond_graph::{ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
 use crate::method::Method;
+use crate::passes::factor;
 pub(super) use compose::{LoopMotion, compose};
 
 /// Elimination of the dependent velocities, on the functions chosen for the open tree.
@@ -54,28 +56,74 @@ impl Formulation for Elimination {
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
-        let graph: &Multibody = prepared.graph;
-        let closed = graph.closed.as_deref()?;
-        let b = Builder::new();
-        let mut of_tree = String::new();
-        let outputs: Vec<Signed> = {
-            let x = Arguments::new(&b, graph, method);
-            let first = method.shape().checked().then_some(graph.coordinates.len());
-            let motion = loop_motion(&b, closed, &x, first);
-            let residuals = loop_residuals(&b, &closed.closure, &x.q);
-            let read = |method: Method| prepared.tree_function(method);
-            let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
-            if let Some(first) = self.reads_of_tree(method).first() {
-                of_tree = read(*first)?.formulation.clone();
-            }
-            outputs.into_iter().map(Expr::signed).collect()
-        };
-        let name = match of_tree.as_str() {
-            "" => self.name().into(),
-            _ => format!("{of_tree}; loops eliminated"),
-        };
-        Some(Function::flat(graph, method, name, b.into_graph(), outputs))
+        let forms = forms(prepared.graph, method).into_iter();
+        let made = forms.filter_map(|form| function(prepared, method, form));
+        made.min_by_key(|made| factor(made.clone()).cost().weighted())
     }
+}
+
+/// Returns the forms of the rows that are compared.
+fn forms(graph: &Multibody, method: Method) -> Vec<LoopForm> {
+    let loops = graph.closed.iter().flat_map(|closed| &closed.closure.loops);
+    let in_axes_of_a = matches!(
+        method,
+        Method::Multipliers
+            | Method::ConstraintResidual
+            | Method::ConstraintJacobian
+            | Method::ClosingStep
+    );
+    let reversible = !in_axes_of_a && loops.clone().any(|one| one.reversible);
+    let vectors = matches!(
+        method,
+        Method::InverseDynamics
+            | Method::Bias
+            | Method::Gravity
+            | Method::KineticEnergy
+            | Method::Velocity(_)
+            | Method::JacobianDotV(_)
+            | Method::TreeVelocity
+            | Method::TreeAcceleration
+            | Method::Multipliers
+    );
+    let choices = |can: bool| {
+        if can {
+            &[false, true][..]
+        } else {
+            &[false][..]
+        }
+    };
+    let with = |&reversed: &bool| {
+        let each = choices(vectors).iter();
+        each.map(move |&by_vectors| LoopForm {
+            reversed,
+            by_vectors,
+        })
+    };
+    choices(reversible).iter().flat_map(with).collect()
+}
+
+/// Returns the function of a method in one form.
+fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<Function> {
+    let graph: &Multibody = prepared.graph;
+    let closed = graph.closed.as_deref()?;
+    let b = Builder::new();
+    let outputs: Vec<Signed> = {
+        let x = Arguments::new(&b, graph, method);
+        let first = method.shape().checked().then_some(graph.coordinates.len());
+        let motion = loop_motion(&b, closed, &x, (form, first));
+        let residuals = loop_residuals(&b, &closed.closure, &x.q);
+        let read = |method: Method| prepared.tree_function(method);
+        let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
+        outputs.into_iter().map(Expr::signed).collect()
+    };
+    let name = match compose::reads(method).first() {
+        None => Elimination.name().into(),
+        Some(&first) => {
+            let of_tree = prepared.tree_function(first)?.formulation.clone();
+            format!("{of_tree}; loops eliminated")
+        }
+    };
+    Some(Function::flat(graph, method, name, b.into_graph(), outputs))
 }
 
 /// Returns the motion of the open tree for the arguments of a method; with `first` pivots are checked.
@@ -83,11 +131,12 @@ fn loop_motion<'a, 'g>(
     b: &'g Builder,
     closed: &'a ClosedTree,
     x: &Arguments<'g>,
-    first: FirstPivot,
+    (form, first): (LoopForm, FirstPivot),
 ) -> LoopMotion<'a, 'g> {
     let closure = &closed.closure;
-    let map = VelocityMap::new(b, closure, loop_rows(b, closure, &x.q), first);
-    LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v)))
+    let rows = loop_rows(b, closure, &x.q, form);
+    let map = VelocityMap::new(b, closure, (rows, form), first);
+    LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v), form))
 }
 
 /// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, with the recursion over
@@ -99,7 +148,7 @@ pub(crate) fn mass_and_bias(graph: &Multibody) -> Option<(Graph, Vec<Signed>)> {
     let b = Builder::new();
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, Method::Bias);
-        let motion = loop_motion(&b, closed, &x, None);
+        let motion = loop_motion(&b, closed, &x, (LoopForm::default(), None));
         let mut all = compose(&b, closed, Method::MassMatrix, (&x, &motion), (&read, &[]))?;
         all.extend(compose(
             &b,

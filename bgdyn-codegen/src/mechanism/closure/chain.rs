@@ -117,6 +117,19 @@ impl ChainStep {
 }
 
 impl Chain {
+    /// Returns the chain from b to a.
+    pub fn reversed(&self) -> Self {
+        let turned = self.steps.iter().rev().map(|step| ChainStep {
+            outward: !step.outward,
+            ..step.clone()
+        });
+        Chain {
+            start: self.end,
+            steps: turned.collect(),
+            end: self.start,
+        }
+    }
+
     /// Returns the frames of the links at a position of the open tree.
     pub fn frames<E: Ring + Mul<Dd, Output = E>>(
         &self,

@@ -44,6 +44,8 @@ pub struct KinematicLoop {
     pub length: Dd,
     /// Unit vector of the axis of a planar loop, in the axes of place a.
     pub axis: Option<Vec3<Dd>>,
+    /// Whether the same rows hold in the axes of place b: those of the chain from b to a.
+    pub reversible: bool,
     /// The location of its entry in the file.
     pub location: Location,
 }
@@ -87,6 +89,9 @@ pub struct Closure {
     pub start: Vec<Dd>,
     /// Closed positions at random, on the branch of the start.
     pub samples: Vec<Vec<Dd>>,
+    /// For each block, whether the determinant of its columns is positive at the start: it changes its sign at
+    /// singular positions only, so that it tells the branch.
+    pub signs: Vec<bool>,
 }
 
 impl Closure {

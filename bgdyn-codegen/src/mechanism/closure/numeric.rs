@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{Closure, LoopRow, RelativePlace, solve};
+use super::solve::is_positive;
+use super::{Closure, ClosureBlock, LoopRow, RelativePlace, solve};
 use crate::mechanism::joint::DoubleDouble;
 use crate::random::Random;
 
@@ -127,7 +128,8 @@ impl Closure {
         largest(&residuals)
     }
 
-    /// Moves the positions of the loops' joints a random way through closed positions.
+    /// Moves the positions of the loops' joints a random way through closed positions; once the signs of the start
+    /// are known, on its branch.
     pub fn walk(&self, rows: &[LoopRow], q: &mut [Dd], random: &mut Random) {
         let free: Vec<usize> = self.moving();
         for _ in 0..WALK.0 {
@@ -145,10 +147,23 @@ impl Closure {
                 .map(|(&x, (j, y))| (*j, (x + *y) * size));
             let mut moved = q.to_vec();
             self.move_by(&mut moved, &tangent.collect::<Vec<_>>());
-            if self.assemble(rows, &mut moved, &free) <= CLOSED {
+            let closed = self.assemble(rows, &mut moved, &free) <= CLOSED;
+            if closed && self.signs_at(&moved) == self.signs {
                 q.copy_from_slice(&moved);
             }
         }
+    }
+
+    /// Returns for each block whether the determinant of its columns is positive; none before the signs of the start
+    /// are known.
+    pub fn signs_at(&self, q: &[Dd]) -> Vec<bool> {
+        let (_, jacobian) = self.values(&self.rows, q);
+        let positive = |block: &ClosureBlock| {
+            let rows = block.rows.iter();
+            let columns = |&r: &usize| block.dependents.iter().map(|j| jacobian[r][j.0]).collect();
+            is_positive(rows.map(columns).collect())
+        };
+        self.blocks.iter().map(positive).collect()
     }
 
     /// Returns the velocities of the joints in loops.

@@ -74,3 +74,31 @@ fn best_pivot(
     }
     best
 }
+
+/// Returns whether the determinant of a square matrix is positive.
+pub(super) fn is_positive(mut a: Vec<Vec<Dd>>) -> bool {
+    let n = a.len();
+    let mut positive = true;
+    for k in 0..n {
+        let size = |i: &usize| a[*i][k].to_f64().abs();
+        let Some(row) = (k..n).max_by(|i, j| size(i).total_cmp(&size(j))) else {
+            return positive;
+        };
+        if row != k {
+            a.swap(row, k);
+            positive = !positive;
+        }
+        let pivot = a[k].clone();
+        if pivot[k] == Dd::ZERO {
+            return false;
+        }
+        positive ^= pivot[k] < Dd::ZERO;
+        for other in &mut a[k + 1..] {
+            let factor = other[k] / pivot[k];
+            for (x, &y) in other.iter_mut().zip(&pivot) {
+                *x -= factor * y;
+            }
+        }
+    }
+    positive
+}

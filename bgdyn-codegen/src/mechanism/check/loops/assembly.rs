@@ -110,7 +110,8 @@ fn report_gap(closure: &Closure, (left, q): (f64, Vec<Dd>), faults: &mut Faults)
     });
 }
 
-fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
+/// Returns closed positions at random; once the blocks are known, on the branch of the start.
+pub(super) fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
     let mut q = closure.start.clone();
     let mut random = Random(17);
     let next = |_| {

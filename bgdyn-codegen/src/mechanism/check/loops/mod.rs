@@ -52,6 +52,8 @@ pub(super) fn close(
     structure::check_rank(&closure, faults)?;
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
     blocks::arrange(&mut closure);
+    closure.signs = closure.signs_at(&closure.start);
+    closure.samples = assembly::sample(&closure);
     mechanism.close(closure);
     Some(())
 }
@@ -78,6 +80,7 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
         positions,
         start: neutral(mechanism),
         samples: Vec::new(),
+        signs: Vec::new(),
         loops,
     }
 }

@@ -79,6 +79,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
             chain,
             length,
             axis,
+            reversible: false,
             location: one.location.clone(),
         },
         branch,

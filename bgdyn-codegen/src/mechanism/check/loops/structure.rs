@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::mechanism::closure::{Closure, LoopRow, eliminate};
+use crate::mechanism::closure::{Closure, LoopRow, RowKind, eliminate};
+use crate::mechanism::joint::DoubleDouble;
 use crate::random::Random;
 
 /// Positions of the tree at which rows are tested.
@@ -47,6 +48,36 @@ pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
         kept.push(*row);
     }
     (closure.rows, closure.dropped) = (kept, dropped);
+    let reversible = (0..closure.loops.len()).map(|closes| is_reversible(closure, closes));
+    let reversible: Vec<bool> = reversible.collect();
+    for (one, reversible) in closure.loops.iter_mut().zip(reversible) {
+        one.reversible = reversible;
+    }
+}
+
+/// Returns whether the rows of a loop hold in the axes of place b as well: those that are dropped must be zero there
+/// too.
+fn is_reversible(closure: &Closure, closes: usize) -> bool {
+    let one = &closure.loops[closes];
+    let symmetric = |row: &(&str, RowKind)| {
+        matches!(
+            row.1,
+            RowKind::Place(_) | RowKind::Tilt(_) | RowKind::Turn(_)
+        )
+    };
+    if !one.kind.coincident || !one.kind.rows.iter().all(symmetric) {
+        return false;
+    }
+    let chain = one.chain.reversed();
+    let dropped = closure.dropped.iter().filter(|row| row.closes == closes);
+    let dropped: Vec<RowKind> = dropped.map(|row| row.kind).collect();
+    (0..POSITIONS).all(|seed| {
+        let frames = chain.frames(&random_position(closure, seed), &DoubleDouble);
+        let place = chain.place(&frames, false, &DoubleDouble);
+        let zero =
+            |kind: &RowKind| kind.residual(&place, one.length, |x| x).to_f64().abs() <= ROUNDING;
+        dropped.iter().all(zero)
+    })
 }
 
 /// Returns the neutral position with the loops' joints anywhere.
