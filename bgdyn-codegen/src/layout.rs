@@ -2,6 +2,7 @@
 
 mod followers;
 mod quasi_joints;
+mod references;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -10,6 +11,7 @@ use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use crate::mechanism::CoordinateId;
 use crate::unit::Dimension;
+pub use references::Level;
 
 /// A coordinate: a joint's, or one that an effect adds.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,30 +177,10 @@ pub struct StateLayout {
     pub modes: Vec<Variable>,
     /// Inputs.
     pub inputs: Vec<Variable>,
+    /// Names of the prescribed joints, whose position, rate and acceleration are inputs.
+    pub prescribed: Vec<String>,
     /// Event functions; an event occurs where one falls through zero.
     pub events: Vec<Variable>,
-}
-
-/// Level of a reference's time derivative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Level {
-    /// Its position.
-    Position,
-    /// Its rate.
-    Rate,
-    /// Its acceleration.
-    Acceleration,
-}
-
-impl Level {
-    /// Returns the name of a reference's input.
-    pub fn name(self, reference: &str) -> String {
-        match self {
-            Level::Position => reference.to_owned(),
-            Level::Rate => format!("{reference}_rate"),
-            Level::Acceleration => format!("{reference}_acceleration"),
-        }
-    }
 }
 
 impl StateLayout {
@@ -310,29 +292,6 @@ impl StateLayout {
     /// Adds an event.
     pub fn event(&mut self, name: String, about: String) {
         self.events.push(Variable::new(name, Dimension::One, about));
-    }
-
-    /// Adds a moving reference up to a level of its derivatives; several effects may share it.
-    pub fn reference(&mut self, name: &str, from: Level, to: Level, dimension: Dimension) {
-        for level in [Level::Position, Level::Rate, Level::Acceleration] {
-            let own = level.name(name);
-            if level < from || level > to || self.inputs.iter().any(|i| i.name == own) {
-                continue;
-            }
-            let about = match level {
-                Level::Position => format!("place of the reference `{name}`"),
-                Level::Rate => format!("speed of the reference `{name}`"),
-                Level::Acceleration => format!("acceleration of the reference `{name}`"),
-            };
-            let dimension = match (level, dimension) {
-                (Level::Position, d) => d,
-                (Level::Rate, Dimension::Angle) => Dimension::AngularSpeed,
-                (Level::Rate, _) => Dimension::Speed,
-                (Level::Acceleration, Dimension::Angle) => Dimension::One,
-                (Level::Acceleration, _) => Dimension::Acceleration,
-            };
-            self.input(own, dimension, about);
-        }
     }
 
     /// Returns the mode that an event may change; `None` if the law only has a kink.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use crate::bond_graph::{Multibody, Site, SiteId};
+use crate::bond_graph::{BondGraph, Multibody, Site, SiteId};
 pub use crate::choice::Preference;
 use crate::fault::unknown_name;
 use crate::formulation::{self, FORMULATIONS, Formulation};
@@ -89,7 +89,7 @@ impl Options {
     ///
     /// # Errors
     /// Every name that the mechanism does not have.
-    pub fn select(&self, graph: &Multibody) -> Result<Vec<Method>, Vec<UnknownName>> {
+    pub fn select(&self, graph: &BondGraph) -> Result<Vec<Method>, Vec<UnknownName>> {
         let sites = &graph.sites;
         let mut unknown = self.misplaced_scene_options();
         let mut wanted = BTreeSet::new();
@@ -145,6 +145,7 @@ impl Options {
             link.name,
             match link.degrees.own_velocities() {
                 false => "follows another joint",
+                true if graph.first_prescribed() == Some(link) => "is prescribed",
                 true => "is no rotation about an axis and no translation along one",
             },
             served.join(" or ")
@@ -161,6 +162,13 @@ impl Options {
             let own = f.motion.velocity_positions();
             own.iter().any(Option::is_none)
         });
+        if let (true, Some(frame)) = (self.canonical, graph.first_prescribed()) {
+            let message = format!(
+                "`canonical`: the motion of the joint of link `{}` is prescribed, and it has no momentum in the state",
+                frame.name
+            );
+            return Err(vec![UnknownName::whole("canonical", message)]);
+        }
         match quasi.filter(|_| self.canonical) {
             None => Ok(()),
             Some(frame) => {
@@ -225,10 +233,16 @@ impl UnknownName {
     }
 }
 
-fn usual(graph: &Multibody) -> Vec<Method> {
+fn usual(graph: &BondGraph) -> Vec<Method> {
     let small = graph.coordinates.len() <= COMPACT;
     let coriolis = small.then_some(Method::CoriolisMatrix);
-    dynamics(graph).into_iter().chain(coriolis).collect()
+    let drives = graph.released.iter().map(|r| r.prescribed.len());
+    let drives = drives.map(Method::DriveEfforts);
+    dynamics(graph)
+        .into_iter()
+        .chain(coriolis)
+        .chain(drives)
+        .collect()
 }
 
 /// Returns the methods of the trait `Dynamics`, and those that it needs for a mechanism with loops.
@@ -237,7 +251,7 @@ fn dynamics(graph: &Multibody) -> Vec<Method> {
     Method::OF_TRAIT.into_iter().chain(of_loops).collect()
 }
 
-fn methods(names: &[String], graph: &Multibody, unknown: &mut Vec<UnknownName>) -> Vec<Method> {
+fn methods(names: &[String], graph: &BondGraph, unknown: &mut Vec<UnknownName>) -> Vec<Method> {
     let mut wanted = Vec::new();
     for (index, name) in names.iter().enumerate() {
         if name == DYNAMICS {

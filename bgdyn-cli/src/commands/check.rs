@@ -133,6 +133,9 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
             .lines
             .extend(m.followers().map(|follower| follows(&m, follower)));
         found.lines.extend(super::loops::lines(&m));
+        let prescribed = m.prescribed_names().join(", ");
+        let line = format!("prescribed: {prescribed}");
+        found.lines.extend((!prescribed.is_empty()).then_some(line));
         let snapped = m.snapped().map(snapped_words);
         found
             .lines

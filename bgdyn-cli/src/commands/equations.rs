@@ -66,7 +66,10 @@ impl Equations {
     fn refused(&self, refused: &NoClosedForm) -> anyhow::Error {
         let (file, limit) = (self.file.display(), self.limit);
         match refused {
-            NoClosedForm::NotTrigonometric | NoClosedForm::Joint { .. } => {
+            NoClosedForm::NotTrigonometric
+            | NoClosedForm::MovingBase
+            | NoClosedForm::Prescribed { .. }
+            | NoClosedForm::Joint { .. } => {
                 anyhow!("{file}: no closed form: {refused}")
             }
             _ => anyhow!(

@@ -169,7 +169,7 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
     };
     match shape {
         Shape::Scalar => json!(values[0]),
-        Shape::Vector | Shape::CheckedVector | Shape::Spatial => json!(values),
+        Shape::Vector | Shape::CheckedVector | Shape::Spatial | Shape::Drives(_) => json!(values),
         Shape::Parts | Shape::CheckedParts => json!(values),
         Shape::Symmetric => {
             let entry = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];

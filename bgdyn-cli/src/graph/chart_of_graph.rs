@@ -19,16 +19,15 @@ impl Chart {
     /// Returns the drawing of a mechanism's bond graph.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let title = mechanism.label().unwrap_or(mechanism.name());
-        let whole = bond_graph::build(mechanism);
-        let driven = whole.coordinates.iter().map(|c| c.name.clone()).collect();
-        // The junctions of a mechanism with loops are those of its open tree.
-        let closed = whole.closed.as_deref();
-        let graph = closed.map_or(&whole, |closed| &closed.tree);
+        let built = bond_graph::build(mechanism);
+        let driven = built.coordinates.iter().map(|c| c.name.clone()).collect();
+        let (graph, prescribed) = (drawn(&built), mechanism.prescribed_names());
         let mut network = BondNetwork::of_mechanism(graph, driven);
-        if let Some(closed) = closed {
+        prescribed.iter().for_each(|joint| network.prescribe(joint));
+        if let Some(closed) = &built.closed {
             network.close(&closed.closure);
         }
-        let drive = |part: &NodePart| drive(graph, part);
+        let drive = |part: &NodePart| drive(graph, &prescribed, part);
         let mut unfolding = Unfolding::new(&network, &drive);
         let mut chart = Chart::of_graph(graph, &mut unfolding, title, mechanism.description());
         chart.add_ports(graph, &network, &mut unfolding);
@@ -125,13 +124,27 @@ fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
     order
 }
 
-/// Returns the text beside the drive of a joint.
-pub(super) fn drive(graph: &BondGraph, part: &NodePart) -> Option<String> {
+/// Returns the graph that is drawn: prescribed joints are in it, with the flow sources of their velocities; the
+/// junctions of a mechanism with loops are those of its open tree.
+pub(super) fn drawn(graph: &BondGraph) -> &BondGraph {
+    match (&graph.released, &graph.closed) {
+        (Some(released), _) => released,
+        (None, Some(closed)) => &closed.tree,
+        (None, None) => graph,
+    }
+}
+
+/// Returns the text beside the drive of a joint: its effort; for a prescribed one its flow, and the effort that it
+/// supplies.
+pub(super) fn drive(graph: &BondGraph, prescribed: &[String], part: &NodePart) -> Option<String> {
     let NodePart::Drive(Some(j)) = part else {
         return None;
     };
-    let [_, effort] = units(graph, *j);
-    Some(format!("P{}, {effort}", subscript(j.0 + 1)))
+    let ([_, effort], n) = (units(graph, *j), subscript(j.0 + 1));
+    Some(match prescribed.contains(&graph.coordinates[j.0].name) {
+        true => format!("q̇{n}(t), supplies P{n}, {effort}"),
+        false => format!("P{n}, {effort}"),
+    })
 }
 
 /// Returns the units of the velocity of a joint and of its effort.

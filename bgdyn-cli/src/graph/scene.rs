@@ -4,15 +4,16 @@ use bgdyn_codegen::bond_graph::{BondGraph, BondNetwork, GraphNode, NodePart, Pla
 use bgdyn_codegen::system::SceneEquations;
 
 use super::chart::{Chart, ChartLink, Component, Flow, Transformer};
-use super::chart_of_graph::drive;
+use super::chart_of_graph::{drawn, drive};
 use super::notation::{coordinates, subscript};
 use super::unfold::Unfolding;
 
 impl Chart {
     /// Returns the drawing of a scene.
     pub(crate) fn of_scene(system: &SceneEquations) -> Self {
-        let (scene, graph, network) = (&system.scene, &system.graph, &system.network);
-        let drive = |part: &NodePart| drive(graph, part);
+        let (scene, network) = (&system.scene, &system.network);
+        let graph = drawn(&system.graph);
+        let drive = |part: &NodePart| drive(graph, &scene.layout.prescribed, part);
         let mut unfolding = Unfolding::new(network, &drive);
         let description = scene.description.as_deref();
         let mut chart = Chart::of_graph(graph, &mut unfolding, &scene.name, description);

@@ -52,7 +52,7 @@ pub fn mechanism() -> Value {
                 "constraints",
                 json!({
                     "type": "object",
-                    "description": "relations between joints, by name: each makes one joint follow others",
+                    "description": "relations between joints, and joints whose motion is given, by name: each takes one velocity from v",
                     "propertyNames": identifier(),
                     "additionalProperties": { "$ref": "#/$defs/constraint" },
                 }),

@@ -5,10 +5,10 @@ use bgdyn_runtime::Dd;
 use super::pattern::{Coordinates, Modulus};
 use super::{
     BondGraph, ClosedTree, Coordinate, Effort, EffortSource, Junction, JunctionId, LinkFrame,
-    Multibody, PositionVariable, Site, Store, StoreInertia, Transformer,
+    Multibody, PositionVariable, Released, Site, Store, StoreInertia, Transformer,
 };
 use crate::math::{Mat3, Vec3, rodrigues};
-use crate::mechanism::joint::{Column, PoseNumbers};
+use crate::mechanism::joint::{self, Column, PoseNumbers};
 use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
 
 /// Builds the bond graph of a mechanism. With loops, the junctions of the open tree are those of its own graph.
@@ -43,6 +43,7 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
         stores: Vec::new(),
         sources: Vec::new(),
         transformers: Vec::new(),
+        released: released(mechanism).map(Box::new),
     };
     graph.junctions = (0..mechanism.nv())
         .map(|j| Junction::Velocity(CoordinateId(j)))
@@ -54,7 +55,22 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
     for i in 0..graph.frames.len() {
         add_transformers(&mut graph, &places, LinkId(i));
     }
+    // The transformers depend on the poses of all joints; formulations read those of prescribed joints from
+    // the mechanism in which they are free.
+    for prescribed in mechanism.prescribed() {
+        graph.multibody.frames[prescribed.link.0].motion = joint::given().motion;
+    }
     graph
+}
+
+/// Returns the mechanism in which the prescribed joints are free; `None` if there are none.
+fn released(mechanism: &Mechanism) -> Option<Released> {
+    if mechanism.prescribed().is_empty() {
+        return None;
+    }
+    let free = mechanism.released();
+    let graph = without_loops(&free);
+    Some(Released::new(mechanism, &free, graph))
 }
 
 /// Returns the frames of the links, then the named frames. A tip is a link without children.

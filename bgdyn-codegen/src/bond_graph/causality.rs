@@ -10,7 +10,8 @@
 //! The velocities q̇ of a mechanism are given: their store is the inertia of all links together, the mass
 //! matrix. So the stores of links have derivative causality, and the drive of a joint has no stroke:
 //! inverse dynamics computes the effort from q̇, forward dynamics has the effort as an argument. A
-//! separate store on the junction of q̇, such as a rotor, determines the flow.
+//! separate store on the junction of q̇, such as a rotor, determines the flow, and so does the flow source of a
+//! prescribed joint.
 
 use super::network::BondNetwork;
 use super::node::{GraphNodeId, NodeKind, NodePart};
@@ -91,7 +92,7 @@ impl<'a> Pass<'a> {
                 all.any(|&b| self.kind(self.other(b, node)) == kind)
             };
             self.given[node.0] = match self.network.nodes[node.0].part {
-                NodePart::Velocity(_) => !at(NodeKind::Inertia),
+                NodePart::Velocity(_) => !at(NodeKind::Inertia) && !at(NodeKind::FlowSource),
                 NodePart::Flow(_) | NodePart::Port(_) if self.kind(node) == NodeKind::One => {
                     !at(NodeKind::Transformer) && !at(NodeKind::Zero)
                 }

@@ -13,6 +13,8 @@ mod multibody;
 mod network;
 mod node;
 mod pattern;
+mod prescribed;
+mod released;
 
 use std::ops::Deref;
 
@@ -29,6 +31,7 @@ pub use multibody::{
 pub use network::BondNetwork;
 pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm};
 pub use pattern::Modulus;
+pub use prescribed::{FreeArgument, PrescribedVelocity};
 
 /// A junction of [`BondGraph::junctions`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -109,6 +112,29 @@ pub struct BondGraph {
     pub sources: Vec<EffortSource>,
     /// Modulated transformers.
     pub transformers: Vec<Transformer>,
+    /// The mechanism in which the prescribed joints are free, if there are such joints. In this one they have no
+    /// coordinates, and their frames no poses.
+    pub released: Option<Box<Released>>,
+}
+
+/// The mechanism in which the prescribed joints are free. It dereferences to its bond graph.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Released {
+    graph: BondGraph,
+    /// The prescribed joints, in the order of the links.
+    pub prescribed: Vec<PrescribedVelocity>,
+    /// The origins of its positions.
+    pub positions: Vec<FreeArgument>,
+    /// The origins of its velocities.
+    pub velocities: Vec<FreeArgument>,
+}
+
+impl Deref for Released {
+    type Target = BondGraph;
+
+    fn deref(&self) -> &BondGraph {
+        &self.graph
+    }
 }
 
 impl Deref for BondGraph {

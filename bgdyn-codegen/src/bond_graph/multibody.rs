@@ -169,11 +169,17 @@ impl Multibody {
         self.first_compound().is_none()
     }
 
-    /// Returns the first link whose joint has several degrees of freedom or a lead, or is coupled; the base if its
-    /// motion is given.
+    /// Returns the first link whose joint has several degrees of freedom or a lead, is coupled, or is prescribed;
+    /// the base if its motion is given.
     pub fn first_compound(&self) -> Option<&LinkFrame> {
         let plain = |f: &&LinkFrame| f.coordinate.is_some() || f.motion == Motion::None;
         self.frames.iter().find(|frame| !plain(frame))
+    }
+
+    /// Returns the first link whose joint is prescribed.
+    pub fn first_prescribed(&self) -> Option<&LinkFrame> {
+        let mut frames = self.frames.iter().skip(usize::from(self.base.is_some()));
+        frames.find(|frame| frame.motion.is_given())
     }
 
     /// Returns q̇ = N(q) v; with loops q̇ = N(q) S(q) v.

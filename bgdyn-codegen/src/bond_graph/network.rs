@@ -87,6 +87,17 @@ impl BondNetwork {
         self.followers.push((joint.to_owned(), leaders));
     }
 
+    /// Adds the flow source of a prescribed joint to the junction of its velocity.
+    pub fn prescribe(&mut self, joint: &str) {
+        let velocity = self.velocity(joint);
+        let NodePart::Velocity(j) = self.nodes[velocity.0].part else {
+            return;
+        };
+        let source = self.add_part(NodeKind::FlowSource, NodePart::Drive(Some(j)));
+        self.nodes[source.0].text = format!("motion of {joint}");
+        self.bond(source, velocity);
+    }
+
     /// Adds the 1-junction of a link's flow with its store, its source and its transformers.
     fn add_flow(&mut self, graph: &BondGraph, junction: JunctionId) {
         let one = self.add_part(NodeKind::One, NodePart::Flow(junction));

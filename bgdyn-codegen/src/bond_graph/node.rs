@@ -85,8 +85,8 @@ pub enum PowerTerm {
 pub enum NodePart {
     /// The 1-junction of q̇_j.
     Velocity(CoordinateId),
-    /// The drive of a coordinate, which is an input or an unknown; with the coordinate's index if it
-    /// belongs to a joint.
+    /// The drive of a coordinate: its effort is an input or an unknown, or its flow is given; with the
+    /// coordinate's index if it belongs to a joint.
     Drive(Option<CoordinateId>),
     /// The 1-junction of a link's flow, by its index in
     /// [`BondGraph::junctions`](super::BondGraph::junctions).

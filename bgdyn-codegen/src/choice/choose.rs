@@ -18,7 +18,7 @@ use super::keep_digits::{CheckedCandidate, check, sort};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
 use crate::formulation::{
-    Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared,
+    Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared, create,
 };
 use crate::function::Function;
 use crate::method::Method;
@@ -168,7 +168,7 @@ impl<'a> Choice<'a> {
                 self.prepared.set_tree_function(other, function);
             }
         }
-        formulation.function(&self.prepared, method)
+        create(formulation, &self.prepared, method)
     }
 }
 

@@ -60,6 +60,9 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, No
     if mechanism.base().is_some() {
         return Err(NoClosedForm::MovingBase);
     }
+    if let Some(joint) = mechanism.prescribed_names().into_iter().next() {
+        return Err(NoClosedForm::Prescribed { joint });
+    }
     if let Some(joint) = mechanism.compound_joints().next() {
         let joint = joint.name.clone();
         return Err(NoClosedForm::Joint { joint });

@@ -24,6 +24,11 @@ pub enum NoClosedForm {
     NotTrigonometric,
     /// The motion of the base is given.
     MovingBase,
+    /// The motion of a joint is prescribed.
+    Prescribed {
+        /// Its name.
+        joint: String,
+    },
     /// A joint is neither a rotation nor a translation, or mimics another.
     Joint {
         /// Its name.
@@ -44,6 +49,9 @@ impl fmt::Display for NoClosedForm {
             ),
             NoClosedForm::MovingBase => {
                 write!(f, "the motion of its base is given (`base: given`)")
+            }
+            NoClosedForm::Prescribed { joint } => {
+                write!(f, "the motion of the joint `{joint}` is prescribed")
             }
             NoClosedForm::Joint { joint } => write!(
                 f,

@@ -173,6 +173,12 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     for (p, size) in base.zip([2.0 * fast; 3].into_iter().chain([10.0; 6])) {
         parameters[p.0] = random.signed() * size;
     }
+    for prescribed in graph.released.iter().flat_map(|r| &r.prescribed) {
+        let range = if prescribed.linear { 1.0 } else { PI };
+        for (p, size) in prescribed.motion.iter().zip([range, 2.0 * fast, 5.0]) {
+            parameters[p.0] = random.signed() * size;
+        }
+    }
     Inputs {
         q,
         v,

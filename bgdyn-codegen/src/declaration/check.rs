@@ -217,6 +217,9 @@ fn unknown(
     if context.locked.iter().any(|joint| joint == word) {
         return wording::joint_is_locked(location, word);
     }
+    if context.prescribed.iter().any(|joint| joint == word) {
+        return wording::effect_on_prescribed(location, word);
+    }
     let mut followers = context.followers.iter();
     let follower = followers.find(|(name, ..)| name == word);
     if let (Some((_, leaders, _)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {

@@ -22,6 +22,8 @@ pub struct NameScope {
     pub added: Vec<String>,
     /// Joints that a scene locks.
     pub locked: Vec<String>,
+    /// Joints whose motion is prescribed.
+    pub prescribed: Vec<String>,
     /// Links and frames.
     pub(crate) sites: SiteOrigins,
     /// Hydraulic nodes.
@@ -67,6 +69,7 @@ impl NameScope {
                 .collect(),
             added: Vec::new(),
             locked,
+            prescribed: mechanism.prescribed_names(),
             sites: SiteOrigins::new(mechanism),
             nodes: Vec::new(),
             refused: RejectedEffects::default(),

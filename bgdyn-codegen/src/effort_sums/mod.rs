@@ -15,11 +15,12 @@ use std::collections::BTreeMap;
 
 use crate::bond_graph::SiteId;
 use crate::choice::GraphMethods;
-use crate::expr::{Builder, Expr, Graph, Leaf, copy_into};
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
 use crate::formulation::Formulation;
+use crate::function::Function;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
-use crate::scene::Scene;
+use crate::scene::{Level, Scene};
 
 pub use attitude::Attitude;
 pub(crate) use attitude::angular_velocity;
@@ -117,18 +118,59 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     }
 }
 
-/// Copies the expressions of a method of the mechanism, by the selected formulation; `leaf` may replace
-/// leaves.
-pub(crate) fn copied<'g>(
-    b: &'g Builder,
-    (graph, asked): (&GraphMethods, Option<&'static dyn Formulation>),
-    method: Method,
-    leaf: impl FnMut(&mut Graph, Leaf) -> Option<crate::expr::Signed>,
-) -> Vec<Expr<'g>> {
-    let Some(function) = graph.function(asked, method) else {
-        return vec![];
-    };
-    let outputs = &function.blocks[0].outputs;
-    let copies = b.with_graph(|g| copy_into(g, &function.graph, outputs, leaf));
-    copies.into_iter().map(|e| b.expr(e)).collect()
+impl<'g> EffortSums<'g, '_> {
+    /// Copies the expressions of a method of the mechanism, by the selected formulation; `leaf` may replace
+    /// leaves.
+    pub(crate) fn copied(
+        &self,
+        (graph, asked): (&GraphMethods, Option<&'static dyn Formulation>),
+        method: Method,
+        leaf: impl FnMut(&mut Graph, Leaf) -> Option<Signed>,
+    ) -> Vec<Expr<'g>> {
+        match graph.function(asked, method) {
+            Some(function) => self.results(&function, leaf),
+            None => vec![],
+        }
+    }
+
+    /// Copies the results of a function of the mechanism; `leaf` may replace leaves.
+    pub(crate) fn results(
+        &self,
+        function: &Function,
+        mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Signed>,
+    ) -> Vec<Expr<'g>> {
+        let parameters = self.mechanism_parameters();
+        let placed = |g: &mut Graph, l: Leaf| match l {
+            Leaf::Parameter(p) if !parameters.is_empty() => Some(parameters[p]),
+            l => leaf(g, l),
+        };
+        let outputs = &function.blocks[0].outputs;
+        let copies = self
+            .b
+            .with_graph(|g| copy_into(g, &function.graph, outputs, placed));
+        copies.into_iter().map(|e| self.b.expr(e)).collect()
+    }
+
+    /// Returns the expressions of the mechanism's run-time parameters: the motions of prescribed joints are inputs,
+    /// the others are those of the scene. Empty without prescribed joints: both have the same numbers.
+    fn mechanism_parameters(&self) -> Vec<Signed> {
+        let Some(released) = &self.graph.released else {
+            return vec![];
+        };
+        let levels = [Level::Position, Level::Rate, Level::Acceleration];
+        let input = |p: usize| {
+            let mut all = released.prescribed.iter();
+            all.find_map(|own| {
+                let k = own.motion.iter().position(|parameter| parameter.0 == p)?;
+                Some(self.input(&levels[k].name(&own.name)))
+            })
+        };
+        let own = |name: &str| {
+            let found = self.scene.parameters.iter().position(|p| p.name == name);
+            self.b.leaf(Leaf::Parameter(found.unwrap_or_default()))
+        };
+        let all = self.graph.parameters.iter().enumerate();
+        all.map(|(p, parameter)| input(p).unwrap_or_else(|| own(&parameter.name)).signed())
+            .collect()
+    }
 }

@@ -3,16 +3,16 @@
 use bgdyn_runtime::Dd;
 
 use super::undeclared::undeclared;
-use super::{ActuatorEfforts, EffortSums, Port, copied};
+use super::{ActuatorEfforts, EffortSums, Port};
 use crate::bond_graph::SiteId;
 use crate::declaration::Chain;
 use crate::declaration::{Element, Quantity};
-use crate::expr::{Expr, Graph, Leaf, Tangent};
+use crate::expr::{Expr, Graph, Leaf, Signed, Tangent};
 use crate::format::{Dimension, Key};
 use crate::formulation;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
-use crate::scene::{Level, StatePosition};
+use crate::scene::{Level, Scene, StatePosition};
 
 impl<'g, 'a> EffortSums<'g, 'a> {
     /// Returns whether the limits of drives are active; they are not if the drives are unknowns.
@@ -261,7 +261,21 @@ impl<'g, 'a> EffortSums<'g, 'a> {
 
     /// Copies the expressions of a method of the mechanism into this graph.
     pub(crate) fn method(&self, method: Method) -> Vec<Expr<'g>> {
-        copied(self.b, (self.graph, self.asked), method, |_, _| None)
+        self.copied((self.graph, self.asked), method, |_, _| None)
+    }
+
+    /// Copies the expressions of a method of the mechanism with these accelerations into this graph.
+    pub(crate) fn method_at(&self, method: Method, accelerations: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let placed: Vec<Signed> = accelerations.iter().map(|a| a.signed()).collect();
+        self.copied((self.graph, self.asked), method, |_, leaf| match leaf {
+            Leaf::Acceleration(j) => Some(placed[j]),
+            _ => None,
+        })
+    }
+
+    /// Returns the scene.
+    pub(crate) fn scene(&self) -> &'a Scene {
+        self.scene
     }
 
     /// Returns a value that an earlier element shared.

@@ -239,7 +239,7 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
             }
         }
-        Shape::Spatial => vector(values),
+        Shape::Spatial | Shape::Drives(_) => vector(values),
         Shape::Jacobian => matrix(nv, values),
         Shape::TreeVector | Shape::RowVector => vector(values),
         Shape::TreeMatrix => matrix(nv, values),

@@ -3,6 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::prescribed::prescribed_constants;
 use super::tokens::{ident, number};
 use crate::expr::Operations;
 use crate::function::Function;
@@ -33,6 +34,7 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         false => ident("Rotation"),
         true => ident("Translation"),
     });
+    let prescribed = prescribed_constants(&mechanism.prescribed_names());
     let limits = (0..mechanism.nv()).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
         /// Number of positions.
@@ -51,6 +53,7 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         pub const JOINT_MOTIONS: [__rt::Motion; NV] = [#(__rt::Motion::#motions),*];
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
+        #prescribed
     }
 }
 

@@ -17,6 +17,7 @@ mod named_constants;
 mod names;
 mod order;
 mod output_options;
+mod prescribed;
 mod scene;
 mod sines;
 #[cfg(feature = "source")]

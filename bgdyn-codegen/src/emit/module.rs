@@ -7,6 +7,7 @@ use super::base_access::base_access;
 use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
+use super::prescribed::{joint_list, prescribed_docs, summary_of};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{body, closure, code, constants, entries, explain, joint_segments, traits};
 use crate::bond_graph::PositionVariable;
@@ -132,6 +133,7 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
     docs.extend(position_docs(model));
     let closed = model.bond_graph.closed.as_deref();
     docs.extend(closed.into_iter().flat_map(closure::loop_docs));
+    docs.extend(prescribed_docs(&model.mechanism));
     docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
     docs.push(" |---|---|---|".into());
@@ -176,9 +178,13 @@ fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenSt
 fn method_docs(function: &Function, model: &Model) -> Vec<String> {
     let method = function.method;
     let mut docs = vec![
-        format!(" {}", method.summary(&model.bond_graph.sites)),
+        format!(" {}", summary_of(method, model)),
         String::new(),
-        format!(" Units: {}. Joints as in [`JOINT_NAMES`].", method.units()),
+        format!(
+            " Units: {}. Joints as in [`{}`].",
+            method.units(),
+            joint_list(method)
+        ),
         String::new(),
         format!(
             " Operations: {} ({}).",

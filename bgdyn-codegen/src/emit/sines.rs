@@ -129,6 +129,7 @@ impl Writer<'_> {
     fn angle_name(&self, angle: NodeId) -> String {
         let joint = |id: NodeId| match self.graph.node(id) {
             Node::Leaf(Leaf::Position(j)) => self.naming.positions[*j].to_string(),
+            Node::Leaf(Leaf::Parameter(p)) => self.naming.parameters[*p].to_string(),
             _ => "angle".to_string(),
         };
         match self.graph.node(angle) {

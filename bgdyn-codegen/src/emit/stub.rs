@@ -11,6 +11,7 @@ use super::base_access::base_access;
 use super::constants::{operations, size};
 use super::joint_segments::JointSegment;
 use super::output_options::{OutputOptions, rebuild};
+use super::prescribed::prescribed_constants;
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
 use super::traits::Traits;
 use crate::bond_graph::Site;
@@ -34,7 +35,9 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
         parameters.map(|_| doc.clone()),
     );
     let sites = sites(interface);
-    let possible = Method::possible(&sites);
+    let prescribed = interface.prescribed.len();
+    let mut possible = Method::possible(&sites);
+    possible.extend((prescribed > 0).then_some(Method::DriveEfforts(prescribed)));
     let methods = possible.iter();
     let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();
@@ -92,6 +95,7 @@ fn sites(interface: &Interface) -> Vec<Site> {
 
 fn constants(interface: &Interface) -> TokenStream {
     let (joints, links) = (&interface.joints, &interface.links);
+    let prescribed = prescribed_constants(&interface.prescribed);
     let (nv, count) = (size(joints.len()), size(links.len()));
     quote! {
         /// Number of positions.
@@ -111,6 +115,7 @@ fn constants(interface: &Interface) -> TokenStream {
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] =
             [__rt::Limits { lower: 0.0, upper: 0.0, velocity: 0.0, effort: 0.0 }; NV];
+        #prescribed
     }
 }
 

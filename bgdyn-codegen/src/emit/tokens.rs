@@ -109,6 +109,7 @@ pub(super) fn return_type(shape: Shape) -> TokenStream {
         }
         Shape::Pose => quote! { __rt::Pose<T> },
         Shape::Spatial => quote! { __na::SVector<T, 6> },
+        Shape::Drives(_) => quote! { __na::SVector<T, NP> },
         Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
         Shape::TreeVector => quote! { __na::SVector<T, NT> },
         Shape::TreeMatrix => quote! { __na::SMatrix<T, NT, NV> },

@@ -49,7 +49,8 @@ pub trait Formulation: Sync {
         Vec::new()
     }
 
-    /// Returns the method's function; `None` if this formulation cannot create it for this mechanism.
+    /// Returns the method's function; `None` if this formulation cannot create it for this mechanism, which has no
+    /// prescribed joints unless [`Formulation::reads`] names other methods.
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function>;
 }
 

@@ -16,21 +16,24 @@ mod loops;
 mod placed_sites;
 mod placement;
 mod prepared;
+mod prescribed;
 mod recursion;
 mod site;
 mod solve;
 mod subspaces;
 mod velocity_map;
 
+use crate::bond_graph::BondGraph;
+use crate::expr::{Graph, Signed};
 pub use definition::{Formulation, Offer};
 pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};
 pub(crate) use loops::mass_and_bias as mass_and_bias_of_loops;
 pub use prepared::Prepared;
 pub(crate) use prepared::{Candidate, Candidates};
+pub(crate) use prescribed::create;
 pub(crate) use recursion::expressions::mass_and_bias;
 pub(crate) use recursion::geometry;
 pub(crate) use solve::ltdl as solve_symmetric;
-pub(crate) use subspaces::mass_and_bias as mass_and_bias_of_any_joint;
 
 /// The name of the literal sum.
 pub(crate) const LITERAL: &str = literal::NAME;
@@ -53,6 +56,13 @@ pub(crate) static DERIVED: [&dyn Formulation; 3] = [
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
 ];
+
+/// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, for joints of any type.
+pub(crate) fn mass_and_bias_of_any_joint(graph: &BondGraph) -> (Graph, Vec<Signed>) {
+    let released = graph.released.as_deref();
+    let made = released.and_then(|r| prescribed::mass_and_bias(&subspaces::Subspaces, r));
+    made.unwrap_or_else(|| subspaces::mass_and_bias(graph))
+}
 
 /// Returns the literal sum of equation (6), which every other formulation must equal.
 pub fn specification() -> &'static dyn Formulation {

@@ -46,6 +46,8 @@ pub struct Prepared<'a> {
     chosen: RefCell<BTreeMap<Method, Chosen>>,
     /// Functions of the open tree, for a mechanism with loops.
     of_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
+    /// The mechanism in which the prescribed joints are free.
+    released: OnceCell<Option<Box<Prepared<'a>>>>,
 }
 
 impl<'a> Prepared<'a> {
@@ -57,7 +59,18 @@ impl<'a> Prepared<'a> {
             plans: RefCell::default(),
             chosen: RefCell::default(),
             of_tree: RefCell::default(),
+            released: OnceCell::new(),
         }
+    }
+
+    /// Returns the preparation of the mechanism in which the prescribed joints are free, if there are such joints.
+    pub(super) fn released(&self) -> Option<&Prepared<'a>> {
+        let graph: &'a BondGraph = self.graph;
+        let new = || {
+            let released = graph.released.as_deref()?;
+            Some(Box::new(Prepared::new(released)))
+        };
+        self.released.get_or_init(new).as_deref()
     }
 
     /// Returns the chosen function of another method; `None` unless [`super::Formulation::reads`] names

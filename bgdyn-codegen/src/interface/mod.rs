@@ -3,8 +3,8 @@
 mod scene;
 
 use crate::format::{Field, LinkSpec, Spec};
-use crate::mechanism::base_parameter_names;
 use crate::mechanism::joint::{JOINT_TYPES, JointType, Motion};
+use crate::mechanism::{base_parameter_names, prescribed_parameter_names};
 use crate::name::is_identifier;
 pub use scene::SceneInterface;
 
@@ -23,6 +23,8 @@ pub struct Interface {
     pub parameters: Vec<String>,
     /// Whether the motion of the base is given at run time.
     pub base: bool,
+    /// Names of the joints whose motion is prescribed.
+    pub prescribed: Vec<String>,
     /// Whether the corrected spec will certainly have this number of joints.
     pub certain: bool,
 }
@@ -45,6 +47,7 @@ impl Interface {
                 frames: vec![],
                 parameters: parameter_words(text),
                 base: false,
+                prescribed: vec![],
                 certain: false,
             });
         };
@@ -52,9 +55,13 @@ impl Interface {
         let base = word.is_some_and(|word| word == "given");
         let mut parameters = parameter_words(text);
         parameters.extend(base.then(base_parameter_names).into_iter().flatten());
+        let prescribed = spec.as_ref().map(prescribed).unwrap_or_default();
+        let motions = prescribed.iter();
+        parameters.extend(motions.flat_map(|joint| prescribed_parameter_names(joint)));
+        let own = |joint: &String| !prescribed.contains(joint);
         Some(Interface {
             name: stem.into(),
-            joints: links.iter().filter_map(moving_joint).collect(),
+            joints: links.iter().filter_map(moving_joint).filter(own).collect(),
             links: links
                 .iter()
                 .map(|l| l.name.value().cloned().unwrap_or_default())
@@ -62,6 +69,7 @@ impl Interface {
             frames: spec.as_ref().map(frames).unwrap_or_default(),
             parameters,
             base,
+            prescribed,
             certain: links.iter().all(is_plain)
                 && spec
                     .as_ref()
@@ -81,6 +89,22 @@ fn frames(spec: &Spec) -> Vec<String> {
         .iter()
         .filter_map(|f| f.name.value().cloned())
         .collect()
+}
+
+/// Returns the joints that constraints prescribe, each once.
+fn prescribed(spec: &Spec) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for raw in spec.constraints.value().into_iter().flatten() {
+        let given = raw
+            .peek("type")
+            .is_some_and(|word| word.value == "prescribed");
+        let joint = raw.peek("joint").filter(|_| given);
+        if let Some(joint) = joint.filter(|j| is_identifier(&j.value) && !names.contains(&j.value))
+        {
+            names.push(joint.value);
+        }
+    }
+    names
 }
 
 /// Returns the name of the link's joint, if it seems to be a moving one.

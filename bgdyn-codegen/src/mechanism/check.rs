@@ -11,6 +11,7 @@ mod mimic;
 mod names;
 mod order;
 mod parameters;
+mod prescribed;
 mod solid;
 
 use bgdyn_runtime::Dd;
@@ -64,7 +65,7 @@ pub(crate) fn check(
     let given = base_is_given(spec, &parameters, faults);
     let whole = || {
         let (mut links, places) = assemble(bodies, &tree, given, faults)?;
-        constraint::apply(spec, &mut links, faults)?;
+        let prescribed = constraint::apply(spec, &mut links, &parameters, faults)?;
         let mut frames = all(frames)?;
         for frame in &mut frames {
             frame.link = frame.link.and_then(|LinkId(i)| places.get(i).copied());
@@ -76,6 +77,7 @@ pub(crate) fn check(
             parameters.extend(at_rest(gravity));
             motion
         });
+        let prescribed = prescribed::numbered(&prescribed, &links, &mut parameters);
         let mut mechanism = Mechanism {
             name: name?,
             label: text(&spec.label),
@@ -85,6 +87,7 @@ pub(crate) fn check(
             frames,
             parameters,
             base,
+            prescribed,
             coordinates: Vec::new(),
             positions: Vec::new(),
             snapped: None,

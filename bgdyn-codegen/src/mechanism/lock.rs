@@ -4,7 +4,7 @@
 use bgdyn_runtime::Dd;
 
 use super::joint::{self, PoseNumbers};
-use super::{Coupling, Degrees, Joint, Leader, LinkId, Mechanism, Motion, Pose};
+use super::{Coupling, Degrees, Joint, Leader, LinkId, Mechanism, Motion, Pose, PrescribedJoint};
 use crate::math::rodrigues;
 
 impl Mechanism {
@@ -24,8 +24,26 @@ impl Mechanism {
         for &(link, at) in locks {
             weld(&mut locked.links[link.0].joint, at);
         }
+        locked.forget_prescribed(locks);
         locked.number();
         locked
+    }
+}
+
+impl Mechanism {
+    /// Removes locked joints from the prescribed ones, with their parameters, which are the last ones.
+    fn forget_prescribed(&mut self, locks: &[(LinkId, Dd)]) {
+        let is_locked = |p: &PrescribedJoint| locks.iter().any(|(link, _)| *link == p.link);
+        let (gone, mut kept): (Vec<_>, Vec<_>) = self.prescribed.drain(..).partition(is_locked);
+        let mut gone = gone.iter().flat_map(|p| p.motion).collect::<Vec<_>>();
+        gone.sort();
+        for p in gone.iter().rev() {
+            self.parameters.remove(p.0);
+        }
+        for parameter in kept.iter_mut().flat_map(|p| &mut p.motion) {
+            parameter.0 -= gone.iter().filter(|g| **g < *parameter).count();
+        }
+        self.prescribed = kept;
     }
 }
 

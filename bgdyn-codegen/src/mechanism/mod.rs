@@ -12,6 +12,8 @@ pub mod joint;
 mod lock;
 mod numbering;
 mod places;
+mod prescribed;
+mod released;
 mod symbolic;
 
 use std::fmt;
@@ -29,6 +31,7 @@ pub use degrees::{Coupling, Degrees, Leader};
 pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
 pub use joint::{JointType, Motion};
 pub(crate) use places::SiteOrigins;
+pub use prescribed::{PRESCRIBED_PARAMETERS, PrescribedJoint, prescribed_parameter_names};
 pub use symbolic::{NumberSymbol, SymbolicMechanism};
 
 /// A number of the spec: folded into the code, or a public field of the generated struct.
@@ -205,6 +208,7 @@ pub struct Mechanism {
     frames: Vec<Frame>,
     parameters: Vec<Parameter>,
     base: Option<BaseMotion>,
+    prescribed: Vec<PrescribedJoint>,
     coordinates: Vec<LinkId>,
     positions: Vec<LinkId>,
     snapped: Option<Snapped>,

@@ -7,7 +7,7 @@ use super::{CoordinateId, Coupling, Joint, Leader, LinkId, Mechanism, Motion, Po
 
 impl Mechanism {
     /// Numbers the positions and velocities, in the order of the links; a coupled joint gets those of the
-    /// joints that it follows.
+    /// joints that it follows, and a prescribed one has none.
     pub(super) fn number(&mut self) {
         let (mut positions, mut coordinates) = (Vec::new(), Vec::new());
         for (i, link) in self.links.iter_mut().enumerate() {
@@ -15,6 +15,9 @@ impl Mechanism {
             let motion = joint.kind.motion;
             joint.coordinate = None;
             (joint.degrees.positions, joint.degrees.velocities) = (vec![], vec![]);
+            if self.prescribed.iter().any(|p| p.link == LinkId(i)) {
+                continue;
+            }
             let own_positions = match joint.degrees.own_positions() {
                 true => motion.nq(),
                 false => 0,
@@ -135,8 +138,8 @@ impl Mechanism {
         kept.map(|j| names[j].clone()).collect()
     }
 
-    /// Returns the joints that are not plain: more than one degree, a screw, or coupled; that of a base whose
-    /// motion is given, too.
+    /// Returns the joints that are not plain: more than one degree, a screw, coupled, or prescribed; that of a
+    /// base whose motion is given, too.
     pub fn compound_joints(&self) -> impl Iterator<Item = &Joint> {
         let joints = self.links.iter().map(|link| &link.joint);
         joints.filter(|joint| joint.coordinate.is_none() && joint.kind.motion != Motion::None)

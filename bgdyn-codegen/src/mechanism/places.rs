@@ -22,7 +22,8 @@ pub(crate) struct SiteOrigins {
 impl SiteOrigins {
     /// Returns those of a mechanism: links first, then frames.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
-        let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(mechanism, k));
+        let free = mechanism.released();
+        let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(&free, k));
         let links = mechanism.links().iter().enumerate();
         let links = links.map(|(i, link)| {
             let origins = std::array::from_fn(|k| poses[k][i].translation);

@@ -4,7 +4,7 @@
 
 mod scene_function;
 
-use crate::bond_graph::{Multibody, Site, SiteId};
+use crate::bond_graph::{BondGraph, Site, SiteId};
 use crate::fault::unknown_name;
 pub use scene_function::SceneFunction;
 
@@ -83,6 +83,8 @@ pub enum Shape {
     RowVector,
     /// An NC × NT matrix, row by row.
     RowMatrix,
+    /// As many numbers as the mechanism has prescribed joints.
+    Drives(usize),
     /// The named parts of a scene's result.
     Parts,
     /// The same, or an error with a coordinate.
@@ -103,6 +105,7 @@ impl Shape {
             Shape::Spatial => 6,
             Shape::Jacobian => 6 * nv,
             Shape::TreeVector | Shape::TreeMatrix | Shape::RowVector | Shape::RowMatrix => 0,
+            Shape::Drives(np) => np,
             Shape::Parts | Shape::CheckedParts => 0,
         }
     }
@@ -139,6 +142,8 @@ pub enum Method {
     InverseDynamicsDerivatives,
     /// ∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ.
     ForwardDynamicsDerivatives,
+    /// P_j of equation (6) at the prescribed joints; their number.
+    DriveEfforts(usize),
     /// Pose of a site.
     Pose(SiteId),
     /// Velocity of a site.
@@ -169,6 +174,7 @@ pub enum Method {
 pub fn names() -> Vec<String> {
     let all = Method::possible(&[]).into_iter();
     all.chain(Method::OF_LOOPS)
+        .chain([Method::DriveEfforts(0)])
         .map(|method| method.name(&[]))
         .collect()
 }
@@ -207,15 +213,20 @@ impl Method {
     }
 
     /// Returns every method that this mechanism can have.
-    pub fn possible_of(graph: &Multibody) -> Vec<Method> {
-        let mut all = Method::possible(&graph.sites);
+    pub fn possible_of(graph: &BondGraph) -> Vec<Method> {
+        let drives = graph.released.iter().map(|r| r.prescribed.len());
+        let drives = drives.map(Method::DriveEfforts);
+        let (own, of_sites): (Vec<_>, Vec<_>) = Method::possible(&graph.sites)
+            .into_iter()
+            .partition(|method| method.site().is_none());
+        let mut all: Vec<Method> = own.into_iter().chain(drives).chain(of_sites).collect();
         if graph.closed.is_some() {
             all.extend(Method::OF_LOOPS);
         }
         all
     }
 
-    /// Returns every method that a mechanism without loops can have.
+    /// Returns every method that a mechanism without loops and prescribed joints can have.
     pub fn possible(sites: &[Site]) -> Vec<Method> {
         let own = [
             Method::CoriolisMatrix,
@@ -234,7 +245,7 @@ impl Method {
     ///
     /// # Errors
     /// A sentence with the nearest name, or with all names.
-    pub fn named(graph: &Multibody, name: &str) -> Result<Method, String> {
+    pub fn named(graph: &BondGraph, name: &str) -> Result<Method, String> {
         let (possible, sites) = (Method::possible_of(graph), &graph.sites);
         let found = possible.iter().find(|m| m.name(sites) == name);
         found.copied().ok_or_else(|| {
@@ -281,6 +292,7 @@ impl Method {
             Method::CoriolisMatrix => "coriolis_matrix".into(),
             Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives".into(),
             Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives".into(),
+            Method::DriveEfforts(_) => "drive_efforts".into(),
             Method::Pose(s) => site("pose", s),
             Method::Velocity(s) => site("velocity", s),
             Method::Jacobian(s) => site("jacobian_world", s),
@@ -300,7 +312,9 @@ impl Method {
     pub fn arguments(self) -> &'static [Argument] {
         use Argument::{A, Q, Tau, V};
         match self {
-            Method::InverseDynamics | Method::InverseDynamicsDerivatives => &[Q, V, A],
+            Method::InverseDynamics
+            | Method::InverseDynamicsDerivatives
+            | Method::DriveEfforts(_) => &[Q, V, A],
             Method::MassMatrix | Method::Gravity | Method::PotentialEnergy => &[Q],
             Method::Pose(_) | Method::Jacobian(_) => &[Q],
             Method::Bias | Method::KineticEnergy | Method::CoriolisMatrix => &[Q, V],
@@ -338,6 +352,7 @@ impl Method {
             Method::CoriolisMatrix => Shape::Square,
             Method::InverseDynamicsDerivatives => Shape::SquarePair,
             Method::ForwardDynamicsDerivatives => Shape::CheckedSquares,
+            Method::DriveEfforts(np) => Shape::Drives(np),
             Method::Pose(_) => Shape::Pose,
             Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,
             Method::Jacobian(_) => Shape::Jacobian,
@@ -385,6 +400,9 @@ impl Method {
             Method::ForwardDynamicsDerivatives => {
                 "Derivatives of the accelerations: (∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ); the last is M⁻¹.".into()
             }
+            Method::DriveEfforts(_) => {
+                "Efforts of the drives that give the prescribed joints their motion, at the accelerations `a`.".into()
+            }
             Method::Pose(s) => format!("Pose of {} in the world.", of(s)),
             Method::Velocity(s) => format!(
                 "Velocity of {}, angular part first: ω, and the velocity of its origin; world axes.",
@@ -424,7 +442,7 @@ impl Method {
     /// Returns the units of the result.
     pub fn units(self) -> &'static str {
         match self {
-            Method::InverseDynamics | Method::Bias | Method::Gravity => {
+            Method::InverseDynamics | Method::Bias | Method::Gravity | Method::DriveEfforts(_) => {
                 "N·m for a rotation, N for a translation"
             }
             Method::MassMatrix => "kg·m² between rotations, kg·m mixed, kg between translations",

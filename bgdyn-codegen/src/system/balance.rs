@@ -10,11 +10,14 @@ use crate::bond_graph::PowerTerm;
 use crate::declaration::Element;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent};
 use crate::method::Method;
+use crate::scene::Level;
 
 /// The entry of links and rotors: kinetic energy.
 const LINKS: &str = "links";
 /// The entry of the drives.
 const DRIVES: &str = "drives";
+/// The entry of the drives of prescribed joints.
+const PRESCRIBED: &str = "prescribed_drives";
 /// The entry of the power that is missing without velocity products: ½ q̇ᵀ Ṁ q̇.
 const DROPPED: &str = "dropped_velocity_products";
 
@@ -69,9 +72,14 @@ fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntryS
             EntrySource::Drives,
         );
     }
+    if !scene.layout.prescribed.is_empty() {
+        let about = "drives of the prescribed joints";
+        own(PRESCRIBED, about, EntrySource::Prescribed);
+    }
     // If the kinetic energy depends on no position, M is constant and no power is missing.
     let kinetic = sums.method(Method::KineticEnergy)[0];
-    if !graph.velocity_products && sums.reads_positions(kinetic) {
+    let varies = sums.reads_positions(kinetic) || !scene.layout.prescribed.is_empty();
+    if !graph.velocity_products && varies {
         let about = "½ q̇ᵀ Ṁ q̇, which the velocity products would have supplied";
         own(DROPPED, about, EntrySource::Dropped);
     }
@@ -102,6 +110,7 @@ enum EntrySource {
     Element(usize),
     Links,
     Drives,
+    Prescribed,
     Dropped,
 }
 
@@ -154,6 +163,13 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
                 let power = (0..n).fold(zero, |sum, j| sum + sums.own_effort(j) * sums.v[j]);
                 [power, zero, zero]
             }
+            EntrySource::Prescribed => [supplied_by_prescribed(&sums, &rates), zero, zero],
+            EntrySource::Dropped if !system.scene.layout.prescribed.is_empty() => {
+                let inertial = inertial_power(&sums, &rates);
+                let weights = sums.potential_energy();
+                let lifted = weights.iter().fold(zero, |sum, &v| sum + along.rate(b, v));
+                [kinetic_rate + lifted - inertial, zero, zero]
+            }
             EntrySource::Dropped => {
                 let n = system.graph.coordinates.len();
                 let inertial = sums.method(Method::MassMatrix);
@@ -168,6 +184,25 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
         });
     }
     out
+}
+
+/// Returns Σ P_k σ_k over the prescribed joints, with their efforts P_k at these accelerations.
+fn supplied_by_prescribed<'g>(sums: &EffortSums<'g, '_>, accelerations: &[Expr<'g>]) -> Expr<'g> {
+    let joints = &sums.scene().layout.prescribed;
+    let efforts = sums.method_at(Method::DriveEfforts(joints.len()), accelerations);
+    let rates = joints
+        .iter()
+        .map(|joint| sums.reference(Some(joint), Level::Rate));
+    let products = efforts.into_iter().zip(rates).map(|(p, rate)| p * rate);
+    products.fold(sums.b.zero(), |sum, power| sum + power)
+}
+
+/// Returns the power of all P at these accelerations, those of the prescribed joints included.
+fn inertial_power<'g>(sums: &EffortSums<'g, '_>, accelerations: &[Expr<'g>]) -> Expr<'g> {
+    let efforts = sums.method_at(Method::InverseDynamics, accelerations);
+    let products = efforts.into_iter().zip(&sums.v).map(|(p, &v)| p * v);
+    let own = products.fold(sums.b.zero(), |sum, power| sum + power);
+    own + supplied_by_prescribed(sums, accelerations)
 }
 
 /// The rates of change along the motion.
@@ -189,6 +224,14 @@ impl TimeDerivative {
             let rate = crate::scene::Level::Rate.name(&part.name);
             if let Some(k) = layout.inputs.iter().position(|p| p.name == rate) {
                 tangents.push((Leaf::Input(i), sums.inputs()[k].signed()));
+            }
+        }
+        // The rate of a prescribed joint changes with its acceleration.
+        for joint in &layout.prescribed {
+            let rate = Level::Rate.name(joint);
+            if let Some(i) = layout.inputs.iter().position(|p| p.name == rate) {
+                let acceleration = sums.reference(Some(joint), Level::Acceleration);
+                tangents.push((Leaf::Input(i), acceleration.signed()));
             }
         }
         TimeDerivative { tangents }

@@ -13,7 +13,6 @@ use super::jacobian::{Response, expressions};
 use super::{EffortSums, SceneEquations};
 use crate::bond_graph::BondGraph;
 use crate::choice::GraphMethods;
-use crate::effort_sums::copied;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
 use crate::math::Vec3;
@@ -68,7 +67,7 @@ impl MomentumFunction {
                     Leaf::Acceleration(j) => Some(velocities[j]),
                     _ => None,
                 };
-                copied(sums.b, (&still, None), Method::InverseDynamics, placed)
+                sums.copied((&still, None), Method::InverseDynamics, placed)
             }
         }
     }

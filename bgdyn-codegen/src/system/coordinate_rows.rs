@@ -2,12 +2,11 @@
 
 use super::SceneEquations;
 use crate::effort_sums::EffortSums;
-use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
+use crate::expr::{Expr, Graph, Leaf, Signed};
 use crate::function::Function;
 
 /// Returns the accelerations by forward dynamics under the efforts of the laws.
 pub(super) fn link_accelerations<'g>(
-    b: &'g Builder,
     forward: &Function,
     sums: &EffortSums<'g, '_>,
     system: &SceneEquations,
@@ -19,9 +18,7 @@ pub(super) fn link_accelerations<'g>(
         Leaf::Input(j) => Some(efforts[j]),
         _ => None,
     };
-    let outputs = &forward.blocks[0].outputs;
-    let copies = b.with_graph(|g| copy_into(g, &forward.graph, outputs, placed));
-    copies.into_iter().map(|e| b.expr(e)).collect()
+    sums.results(forward, placed)
 }
 
 /// Returns the inertia of a coordinate with a store of its own.

@@ -5,7 +5,6 @@ use super::holds::{Holding, held, own_accelerations};
 use super::summed::summed;
 use super::{ActuatorEfforts, EffortSums, SceneEquations};
 use crate::choice::Choice;
-use crate::effort_sums::copied;
 use crate::expr::{Builder, Expr, Leaf, Signed};
 use crate::formulation::Formulation;
 use crate::function::Function;
@@ -56,7 +55,7 @@ fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
             &system.graph,
             ActuatorEfforts::FromInputs,
         );
-        let joints = link_accelerations(&b, forward, &sums, system);
+        let joints = link_accelerations(forward, &sums, system);
         let all = joined(system, &sums, joints).into_iter();
         let all = all.chain(sums.coupled_rates());
         all.map(Expr::signed).collect()
@@ -107,8 +106,7 @@ pub(super) fn efforts<'g>(
     at: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
     let placed: Vec<Signed> = at.iter().map(|a| a.signed()).collect();
-    let links = copied(
-        sums.b,
+    let links = sums.copied(
         (&system.graph, sums.asked),
         Method::InverseDynamics,
         |_, leaf| match leaf {

@@ -36,7 +36,7 @@ pub(super) fn held<'g>(
     if sums.contacts().iter().all(|c| c.coordinate >= n) {
         let ways = system.graph.forward_dynamics();
         let forward = ways.first().expect("there is a way");
-        let mut accelerations = link_accelerations(b, forward, sums, system);
+        let mut accelerations = link_accelerations(forward, sums, system);
         accelerations.extend(own_accelerations(system, sums, &Holding::new(sums)));
         let contacts = sums.contacts().iter().map(|c| c.coordinate);
         return StuckSolution {

@@ -11,7 +11,6 @@ use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::dynamics::{joined, rates};
 use super::holds::StuckJoints;
 use super::{ActuatorEfforts, EffortSums, SceneEquations, signals};
-use crate::effort_sums::copied;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
@@ -23,8 +22,10 @@ const MAX_DIFFERENTIATED_COORDINATES: usize = 4;
 /// Returns the alternatives for the Jacobian: column by column, first y's parts and then t, the rates v̇
 /// and ẋ of each, and those of coupled positions.
 pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
-    // The recursion's derivatives are along the tangent, the Jacobian's columns components of positions.
-    if !system.scene.layout.quasi_joints.is_empty() {
+    // The recursion's derivatives are along the tangent, the Jacobian's columns components of positions. The
+    // derivatives at fixed course lack the motion of prescribed joints in time.
+    let layout = &system.scene.layout;
+    if !layout.quasi_joints.is_empty() || !layout.prescribed.is_empty() {
         return vec![differentiated(system)];
     }
     let mut ways = implicit(system);
@@ -100,7 +101,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
         let columns = {
             let sums = system.laws_under_driven_inputs(&b);
             let holds = StuckJoints::new(&sums);
-            let joints = link_accelerations(&b, forward, &sums, system);
+            let joints = link_accelerations(forward, &sums, system);
             let rates = joined(system, &sums, joints);
             let response = Response::new(forward);
             columns(system, &sums, &rates, &holds, Some(&response))
@@ -126,7 +127,7 @@ fn columns<'g>(
     let (n, nv) = (system.graph.coordinates.len(), system.scene.layout.nv());
     let at = expressions(&rates[..n]);
     let links = Method::InverseDynamicsDerivatives;
-    let links = copied(b, (&system.graph, None), links, |_, leaf| match leaf {
+    let links = sums.copied((&system.graph, None), links, |_, leaf| match leaf {
         Leaf::Acceleration(j) => Some(at[j]),
         _ => None,
     });

@@ -37,7 +37,7 @@ use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 use crate::passes::{cheapest, factor, finish};
-use crate::scene::{Override, Scene};
+use crate::scene::{Level, Override, Scene};
 pub use equations::{Named, SceneEquations};
 
 impl SceneEquations {
@@ -51,6 +51,7 @@ impl SceneEquations {
         for element in &scene.elements {
             effect::of(element).modify_graph(element, &scene.mechanism, &mut graph);
         }
+        graph.update_released();
         let mut system = SceneEquations {
             initial: scene.initial.clone(),
             outputs: Vec::new(),
@@ -147,7 +148,7 @@ impl SceneEquations {
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
             | SceneFunction::CanonicalRates => {
-                let natural = layout.quasi_joints.is_empty();
+                let natural = layout.quasi_joints.is_empty() && self.graph.released.is_none();
                 natural && (canonical || method.needs_canonical())
             }
         };
@@ -216,7 +217,12 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     let layout = &scene.layout;
     let driven = layout.inputs.iter().filter_map(|input| input.drives);
     let driven = driven.map(|j| layout.coordinates[j].name.clone()).collect();
-    let mut network = BondNetwork::of_mechanism(graph, driven);
+    // Prescribed joints are part of the drawing.
+    let drawn = graph.released.as_deref().map_or(graph, |released| released);
+    let mut network = BondNetwork::of_mechanism(drawn, driven);
+    for prescribed in graph.released.iter().flat_map(|r| &r.prescribed) {
+        network.prescribe(&prescribed.name);
+    }
     for follower in &layout.followers {
         let leader = |&(j, ratio): &(usize, Dd)| {
             let name = layout.coordinates[j].name.clone();
@@ -249,6 +255,14 @@ fn outputs<'g>(
     for (position, &q) in layout.positions.iter().zip(&sums.q) {
         let unit = position.dimension.si();
         add(&position.name, unit, &position.about(), q);
+    }
+    for joint in &layout.prescribed {
+        let levels = [Level::Position, Level::Rate, Level::Acceleration];
+        let names = levels.map(|level| level.name(joint));
+        let own = layout.inputs.iter().zip(sums.inputs());
+        for (part, &value) in own.filter(|(part, _)| names.contains(&part.name)) {
+            add(&part.name, part.dimension.si(), &part.about, value);
+        }
     }
     for (j, c) in layout.coordinates.iter().enumerate() {
         add(

@@ -4,7 +4,6 @@ use super::coordinate_rows::own_inertia;
 use super::dynamics::efforts;
 use super::summed::summed_by;
 use super::{ActuatorEfforts, EffortSums, SceneEquations};
-use crate::effort_sums::copied;
 use crate::expr::{Builder, Expr, Leaf};
 use crate::formulation;
 use crate::function::Function;
@@ -18,7 +17,7 @@ impl SceneEquations {
         self.one(SceneFunction::Inverse, |system, b| {
             let sums = literal_laws(system, b, ActuatorEfforts::FromInputs);
             let asked = (&system.graph, sums.asked);
-            let links = copied(b, asked, Method::InverseDynamics, |_, _| None);
+            let links = sums.copied(asked, Method::InverseDynamics, |_, _| None);
             let nv = system.scene.layout.nv();
             let mut sides = links;
             for j in sides.len()..nv {

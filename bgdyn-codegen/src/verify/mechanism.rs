@@ -10,7 +10,7 @@ use super::dual::{Direction, along, rates, with_rates};
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::formulation::{Prepared, specification};
+use crate::formulation::{Prepared, create, specification};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
 use crate::random::Random;
@@ -46,7 +46,7 @@ struct LiteralValues<'a> {
 impl<'a> LiteralValues<'a> {
     fn new(graph: &'a BondGraph) -> Self {
         let prepared = Prepared::new(graph);
-        let inverse = specification().function(&prepared, Method::InverseDynamics);
+        let inverse = create(specification(), &prepared, Method::InverseDynamics);
         LiteralValues {
             inverse: inverse.expect("the literal sum knows inverse dynamics"),
             prepared,
@@ -55,7 +55,7 @@ impl<'a> LiteralValues<'a> {
 
     /// Returns the method by the literal sum.
     fn form(&self, method: Method) -> Option<Function> {
-        specification().function(&self.prepared, method)
+        create(specification(), &self.prepared, method)
     }
 
     /// Returns P(q, v, a), with all other arguments as in `at`.
@@ -78,6 +78,26 @@ impl<'a> LiteralValues<'a> {
         };
         let mut inputs = along(at, &direction);
         inputs.a = with_rates(a.0, a.1);
+        rates(&self.inverse.evaluate(inputs).0)
+    }
+
+    /// Returns dP(q, v, a)/dt for constant q and v, along the motion of the prescribed joints with constant rates.
+    fn prescribed_rates(&self, at: &Inputs<Dd>, a: &[Dd]) -> Vec<Dd> {
+        let none = Direction {
+            q: vec![Dd::ZERO; at.q.len()],
+            v: vec![Dd::ZERO; at.v.len()],
+            x: vec![],
+            t: Dd::ZERO,
+        };
+        let mut inputs = along(at, &none);
+        inputs.a = with_rates(a, &vec![Dd::ZERO; a.len()]);
+        let mut moved = vec![Dd::ZERO; at.parameters.len()];
+        let released = self.prepared.graph.released.iter();
+        for prescribed in released.flat_map(|r| &r.prescribed) {
+            let [position, velocity, _] = prescribed.motion;
+            moved[position.0] = at.parameters[velocity.0];
+        }
+        inputs.parameters = with_rates(&at.parameters, &moved);
         rates(&self.inverse.evaluate(inputs).0)
     }
 }
@@ -226,7 +246,8 @@ impl Subject<'_> {
                 vec![sides.sized(largest(&state.at_rest))]
             }
             Method::ForwardDynamics => vec![self.solved(state, &found)],
-            Method::KineticEnergy => {
+            // With prescribed joints it has terms that are linear in v, and terms without v.
+            Method::KineticEnergy if lit.prepared.graph.released.is_none() => {
                 let twice = dot(&at.v, &state.inertial(lit, &at.v));
                 let energy = Dd::from_f64(0.5) * twice;
                 exact("T = ½ vᵀ M v", found, vec![energy])
@@ -280,18 +301,26 @@ impl Subject<'_> {
         let bias = lit.efforts(at, &at.v, &zero);
         let size = largest(&bias);
         let moved = plus(&times(matrix, &at.v), &state.at_rest);
-        let first = Sides::new("bias = C v + gravity", EXACT, moved, bias);
+        let first = Sides::new("bias = C v + gravity", EXACT, moved, bias).sized(size);
         // Ṁ x: the rate of P(q, 0, x) − P(q, 0, 0) along v.
         let at_rest = Inputs {
             v: zero.clone(),
             ..at.clone()
         };
         let rate = |x: &[Dd]| lit.effort_rates(&at_rest, &at.v, &zero, (x, &zero));
-        let expected = minus(&rate(&at.a), &rate(&zero));
+        let along_v = minus(&rate(&at.a), &rate(&zero));
+        // The motion of prescribed joints changes M as well.
+        let rate = |x: &[Dd]| lit.prescribed_rates(&at_rest, x);
+        let along_time = minus(&rate(&at.a), &rate(&zero));
+        let expected = plus(&along_v, &plus(&along_time, &along_time));
         let transposed: Vec<Dd> = (0..n * n).map(|k| matrix[k % n * n + k / n]).collect();
         let both = plus(&times(matrix, &at.a), &times(&transposed, &at.a));
-        let second = Sides::new("Ṁ x = (C + Cᵀ) x", EXACT, both, expected);
-        vec![first.sized(size), second.sized(size)]
+        let text = match lit.prepared.graph.released {
+            None => "Ṁ x = (C + Cᵀ) x",
+            Some(_) => "(Ṁ + ∂M/∂t) x = (C + Cᵀ) x",
+        };
+        let second = Sides::new(text, EXACT, both, expected);
+        vec![first, second.sized(size)]
     }
 
     /// Returns ∂τ/∂q d + ∂τ/∂v e along random directions.

@@ -33,6 +33,7 @@ pub(super) fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<
     let at = |row: &&Row| {
         let inputs = bgdyn_codegen::expr::Inputs {
             q: row.y.as_slice()[..mechanism.nq()].to_vec(),
+            parameters: parameters(system, row),
             ..Default::default()
         };
         let (values, _) = pose.evaluate::<f64>(inputs);
@@ -44,6 +45,21 @@ pub(super) fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<
     rows.iter().map(at).collect()
 }
 
+/// Returns the mechanism's run-time parameters at a row: the motions of prescribed joints are inputs.
+fn parameters(system: &SceneEquations, row: &Row) -> Vec<f64> {
+    let mechanism = &system.scene.mechanism;
+    let all = mechanism.parameters().iter();
+    let mut values: Vec<f64> = all.map(|p| p.default.to_f64()).collect();
+    let inputs = &system.scene.layout.inputs;
+    for prescribed in mechanism.prescribed() {
+        let name = &mechanism.prescribed_joint(prescribed).name;
+        if let Some(i) = inputs.iter().position(|part| part.name == *name) {
+            values[prescribed.motion[0].0] = row.inputs[i];
+        }
+    }
+    values
+}
+
 /// Returns the poses of the link between two joints that the file has as one, from its parent's.
 fn hidden_poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64; 12]> {
     let joint = &system.scene.mechanism.links()[link].joint;
@@ -53,8 +69,13 @@ fn hidden_poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<[f64
     let position = joint.degrees.positions.first().map(|p| p.0);
     let axis = joint.axis.map(|x| x.to_f64());
     let slides = joint.kind.motion == Motion::Translation;
+    let mut prescribed = system.scene.mechanism.prescribed().iter();
+    let motion = prescribed.find(|p| p.link.0 == link).map(|p| p.motion);
     let at = |(k, row): (usize, &&Row)| {
-        let q = position.map_or(0.0, |p| row.y[p]);
+        let q = match motion {
+            Some([p, ..]) => parameters(system, row)[p.0],
+            None => position.map_or(0.0, |p| row.y[p]),
+        };
         let moved = match slides {
             true => Placed {
                 o: axis.scale(q).0,

@@ -47,7 +47,7 @@ pub(crate) fn unknown_constrained_joint(location: &Location, name: &str, known: 
 
 pub(crate) fn constraint_on_joint(location: &Location, name: &str, keyword: &str) -> Fault {
     let message = format!(
-        "{} is a {keyword} joint, and such constraints couple joints of one degree of freedom",
+        "{} is a {keyword} joint, and such constraints are for joints of one degree of freedom",
         quote(name)
     );
     Fault::new(location, "constraint-on-joint", message)
@@ -184,4 +184,57 @@ pub(crate) fn no_motion_left(
     let message = format!("{rows} the joint `{joint}` no motion: {rest}");
     Fault::new(location, "no-motion-left", message)
         .with_help("make the joint `fixed`, or take one constraint away")
+}
+
+pub(crate) fn prescribed_twice(location: &Location, joint: &str, other: &str) -> Fault {
+    let message = format!("the constraint `{other}` prescribes `{joint}` already");
+    Fault::new(location, "prescribed-twice", message).with_help("leave one of them out")
+}
+
+pub(crate) fn prescribed_in_row(location: &Location, joint: &str, row: &str) -> Fault {
+    let message = format!(
+        "`{joint}` is prescribed, and the constraint {} relates it to other joints",
+        quote(row)
+    );
+    Fault::new(location, "prescribed-row", message)
+        .with_help("prescribe each of these joints in place of the relation, or none of them")
+}
+
+pub(crate) fn prescribed_follower(location: &Location, joint: &str, leaders: &[&str]) -> Fault {
+    let message = format!(
+        "`{joint}` is prescribed, and it has `mimic`: it follows {}",
+        quoted_list(leaders.iter().copied())
+    );
+    Fault::new(location, "prescribed-follower", message)
+        .with_help("leave `mimic` out, and give the joint the motion that it would have")
+}
+
+pub(crate) fn prescribed_leader(location: &Location, joint: &str, follower: &str) -> Fault {
+    let message = format!("`{joint}` is prescribed, and `{follower}` follows it");
+    Fault::new(location, "prescribed-leader", message).with_help(format!(
+        "prescribe `{follower}` as well, in place of its `mimic`"
+    ))
+}
+
+pub(crate) fn prescribed_independent(location: &Location, joint: &str) -> Fault {
+    let message = format!("`{joint}` is prescribed, and it is listed as `independent`");
+    Fault::new(location, "prescribed-independent", message)
+        .with_help("take it out of `independent`: a prescribed joint has no velocity in v")
+}
+
+pub(crate) fn parameter_of_prescribed(location: &Location, name: &str, joint: &str) -> Fault {
+    let message = format!(
+        "the parameter {} has a name that the prescribed joint `{joint}` uses for its motion",
+        quote(name)
+    );
+    Fault::new(location, "parameter-of-prescribed", message).with_help("choose another name")
+}
+
+pub(crate) fn prescribed_with_loops(location: &Location, joint: &str) -> Fault {
+    let message = format!(
+        "`{joint}` is prescribed, and the mechanism has `loops`: prescribed joints beside loops are not supported yet"
+    );
+    Fault::new(location, "prescribed-with-loops", message).with_help(
+        "leave the constraint out: the effort of the joint's drive is that of inverse dynamics, if the joint is `independent`",
+    )
 }

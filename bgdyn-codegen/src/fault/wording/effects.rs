@@ -75,6 +75,15 @@ pub(crate) fn joint_is_locked(location: &Location, joint: &str) -> Fault {
         .with_help("leave this effect out of the scene, or do not lock the joint")
 }
 
+pub(crate) fn effect_on_prescribed(location: &Location, joint: &str) -> Fault {
+    let message = format!(
+        "the motion of `{joint}` is prescribed: an effect there changes no motion, only the effort of its drive"
+    );
+    Fault::new(location, "effect-on-prescribed", message).with_help(format!(
+        "leave the effect out and add its effort to that of `drive_efforts`, or do not prescribe `{joint}`"
+    ))
+}
+
 /// `kind` is the type of the joint.
 pub(crate) fn no_position(
     location: &Location,

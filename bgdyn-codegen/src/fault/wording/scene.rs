@@ -69,6 +69,49 @@ pub(crate) fn loops_in_scene(location: &Location, names: &[&str]) -> Fault {
         .with_help("the mechanism's own methods support loops: integrate its trait `Dynamics`")
 }
 
+pub(crate) fn effect_beyond_prescribed(
+    location: &Location,
+    (effect, keyword): (&str, &str),
+    site: &str,
+    joint: &str,
+) -> Fault {
+    let message = format!(
+        "`{effect}` is a `{keyword}` at `{site}`, which the prescribed joint `{joint}` moves: scenes do not compute the effort of its drive against such effects yet"
+    );
+    Fault::new(location, "effect-beyond-prescribed", message).with_help(format!(
+        "leave the effect out, lock `{joint}`, or take a mechanism in which it is free, with a controller as its input"
+    ))
+}
+
+/// `names` are the method of the scene and the same on velocities.
+pub(crate) fn canonical_of_prescribed(
+    location: &Location,
+    joint: &str,
+    (name, natural): (&str, &str),
+) -> Fault {
+    let message = format!(
+        "`{name}` integrates momenta, and the motion of `{joint}` is prescribed: the canonical form has no such joints"
+    );
+    Fault::new(location, "canonical-prescribed", message)
+        .with_help(format!("write `method: {natural}`"))
+}
+
+pub(crate) fn rate_of_prescribed(location: &Location, name: &str, joint: &str) -> Fault {
+    let message = format!("`{name}` follows from the motion of the prescribed joint `{joint}`");
+    Fault::new(location, "rate-of-prescribed", message).with_help(format!(
+        "give the course of `{joint}` only; with `{joint}: given` the caller gives its rate and acceleration too"
+    ))
+}
+
+pub(crate) fn prescribed_with_corners(location: &Location, joint: &str) -> Fault {
+    let message = format!(
+        "the course of the prescribed joint `{joint}` is a table: its velocity jumps at every point, which takes an infinite effort"
+    );
+    Fault::new(location, "prescribed-with-corners", message).with_help(
+        "write `constant`, `ramp` or `harmonic`, or `given` with position, rate and acceleration from Rust code",
+    )
+}
+
 pub(crate) fn lock_of_several(location: &Location, joint: &str, kind: &str) -> Fault {
     let message = format!(
         "`{joint}` is a {kind} joint: `lock` takes joints of one degree of freedom, with their position"

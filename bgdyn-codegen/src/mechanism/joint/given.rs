@@ -1,4 +1,5 @@
-//! The joint between the world and a base whose motion is given: no coordinates, and not at rest.
+//! A joint whose motion is given: no coordinates, and not at rest. It is that between the world and a base whose
+//! motion is given, and in graphs that of a prescribed joint.
 
 use super::compound::CompoundMotion;
 use super::{JointType, Motion};
@@ -11,7 +12,7 @@ static MOTION: CompoundMotion = CompoundMotion {
     axial: false,
 };
 
-/// The motion of the base, by `base: given`. No link of a file has this joint.
+/// A joint whose motion is given. No link of a file has this joint.
 pub(super) static GIVEN: JointType = JointType {
     keyword: "given",
     motion: Motion::Compound(&MOTION),

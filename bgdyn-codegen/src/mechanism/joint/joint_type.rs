@@ -58,7 +58,7 @@ impl Motion {
         }
     }
 
-    /// Returns whether it is the motion of a base that is given at run time.
+    /// Returns whether it is a motion that is given at run time: that of a base, or of a prescribed joint.
     pub fn is_given(self) -> bool {
         matches!(self, Motion::Compound(motion) if motion.velocities.is_empty())
     }

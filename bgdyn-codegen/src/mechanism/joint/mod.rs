@@ -25,7 +25,7 @@ pub(crate) fn fixed() -> &'static JointType {
     &fixed::FIXED
 }
 
-/// Returns the joint of a base whose motion is given.
+/// Returns a joint whose motion is given: that of a base, or a prescribed one.
 pub(crate) fn given() -> &'static JointType {
     &given::GIVEN
 }

@@ -1,11 +1,11 @@
 //! Checks the inputs of a scene and their sources.
 
-use super::super::signal::{self, InputSource};
+use super::super::signal::{self, InputSource, Waveform};
 use super::hold;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
 use crate::format::Raw;
-use crate::layout::{QuasiJoint, StateCoordinate, StateLayout};
+use crate::layout::{Level, QuasiJoint, StateCoordinate, StateLayout};
 
 /// Adds as inputs the drives of coordinates that the scene names, or whose pose it holds.
 pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
@@ -26,6 +26,15 @@ pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
             }
         }
     }
+}
+
+/// Returns the prescribed joint of which an input is the rate or the acceleration.
+fn derivative_of<'a>(layout: &'a StateLayout, input: &str) -> Option<&'a str> {
+    let is = |joint: &&String| {
+        let levels = [Level::Rate, Level::Acceleration];
+        levels.iter().any(|level| level.name(joint) == input)
+    };
+    layout.prescribed.iter().find(is).map(String::as_str)
 }
 
 /// Returns the joint with quasi-velocities that an entry drives as a whole.
@@ -90,6 +99,10 @@ pub(super) fn drives(
             faults.push(wording::input_held_too(&raw.name.location, name, joint));
             continue;
         }
+        if let Some(joint) = derivative_of(layout, name) {
+            faults.push(wording::rate_of_prescribed(&raw.name.location, name, joint));
+            continue;
+        }
         let part = &layout.inputs[i];
         let follows = part.follows.as_ref().map(|name| layout.position_of(name));
         let effort = part.drives.is_some_and(|j| layout.coordinates[j].moves());
@@ -108,6 +121,11 @@ pub(super) fn drives(
                 faults.push(wording::controller_of_quasi_velocity(
                     location, velocity, joint,
                 ));
+                continue;
+            }
+            let bends = matches!(&drive, InputSource::Waveform(Waveform::Table(_)));
+            if bends && layout.prescribed.contains(name) {
+                faults.push(wording::prescribed_with_corners(&raw.location, name));
                 continue;
             }
             drives[i] = drive;

@@ -53,6 +53,11 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         layout.quasi_joints.extend(quasi_joint(joint));
     }
     layout.followers = mechanism.followers().map(follower).collect();
+    for prescribed in mechanism.prescribed() {
+        let joint = mechanism.prescribed_joint(prescribed);
+        let [position, ..] = dimensions(joint.kind.motion == Motion::Translation);
+        layout.prescribe(&joint.name, position);
+    }
     layout
 }
 

@@ -4,8 +4,8 @@ use bgdyn_runtime::Dd;
 
 use super::{effects, joints};
 use crate::fault::{Fault, Faults, Location, wording};
-use crate::format::SceneSpec;
-use crate::mechanism::{LinkId, Mechanism};
+use crate::format::{Dimension, SceneSpec};
+use crate::mechanism::{LinkId, Mechanism, Motion};
 
 /// Returns the links whose joints are locked, with the positions of the joints.
 pub(super) fn locks(
@@ -21,7 +21,14 @@ pub(super) fn locks(
             .enumerate()
             .find(|(_, l)| mechanism.links()[l.0].joint.name == *name);
         let Some((j, link)) = found else {
-            faults.push(not_lockable(mechanism, &raw.name.location, name));
+            // `lock` is the constant case of a prescribed motion.
+            match prescribed(mechanism, name) {
+                Some((link, position)) => {
+                    let at = raw.number(&[position], faults);
+                    locked.extend(at.map(|at| (link, at.value.value)));
+                }
+                None => faults.push(not_lockable(mechanism, &raw.name.location, name)),
+            }
             continue;
         };
         let joint = &mechanism.links()[link.0].joint;
@@ -37,6 +44,15 @@ pub(super) fn locks(
         }
     }
     locked
+}
+
+/// Returns the link of a prescribed joint, and the dimension of its position.
+fn prescribed(mechanism: &Mechanism, name: &str) -> Option<(LinkId, Dimension)> {
+    let mut all = mechanism.prescribed().iter();
+    let found = all.find(|p| mechanism.prescribed_joint(p).name == name)?;
+    let joint = mechanism.prescribed_joint(found);
+    let [position, ..] = joints::dimensions(joint.kind.motion == Motion::Translation);
+    Some((found.link, position))
 }
 
 /// Returns the fault of a name that is not that of a joint with coordinates: a velocity of a joint with

@@ -8,6 +8,7 @@ mod joints;
 mod locks;
 mod outputs;
 mod pose;
+mod prescribed;
 mod run;
 mod state;
 
@@ -124,7 +125,9 @@ fn scene(
     canonical(spec, &scene, faults);
     let moving = moving_base(spec, &scene, faults);
     let free = velocity_constraint(spec, &whole.mechanism, faults);
-    let drawn = sound && !moving && !free && scene.layout.repeated().is_none();
+    let carried = prescribed::places(&scene, faults);
+    prescribed::canonical(spec, &scene, faults);
+    let drawn = sound && !moving && !free && !carried && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
     }

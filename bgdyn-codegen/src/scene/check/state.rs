@@ -18,13 +18,19 @@ pub(super) fn layout(mechanism: &Mechanism, elements: &[Element]) -> StateLayout
     layout
 }
 
-/// Returns the mechanism's run-time parameters, followed by those of the effects.
+/// Returns the mechanism's run-time parameters, followed by those of the effects. The motions of prescribed
+/// joints are inputs.
 pub(super) fn parameters(
     mechanism: &Mechanism,
     elements: &[Element],
     faults: &mut Faults,
 ) -> Vec<Parameter> {
-    let mut all = mechanism.parameters().to_vec();
+    let given = |p: &usize| {
+        let mut motions = mechanism.prescribed().iter().flat_map(|own| own.motion);
+        motions.any(|parameter| parameter.0 == *p)
+    };
+    let own = (0..mechanism.parameters().len()).filter(|p| !given(p));
+    let mut all: Vec<Parameter> = own.map(|p| mechanism.parameters()[p].clone()).collect();
     for element in elements {
         for (key, quantity) in element.quantities() {
             let Some(name) = &quantity.parameter else {

@@ -60,7 +60,7 @@ impl Formulation for Articulated {
     }
 
     fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
-        first_follower(graph)
+        first_follower(graph).or(graph.first_prescribed())
     }
 
     fn knows(&self, method: Method) -> bool {

@@ -1,6 +1,6 @@
 //! The trait of the types of constraints.
 
-use super::row::{Row, RowReader};
+use super::row::{PrescribedEntry, Row, RowReader};
 use crate::format::{Fields, Key};
 
 /// A type of constraint.
@@ -11,6 +11,15 @@ pub(super) trait ConstraintType: Sync {
     /// Returns its keys.
     fn keys(&self) -> &'static [Key];
 
-    /// Returns its row; `None` if a rule is broken.
-    fn row(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<Row>;
+    /// Returns what it says of joints; `None` if a rule is broken.
+    fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint>;
+}
+
+/// What a constraint says of joints.
+#[derive(Clone, Debug)]
+pub(super) enum ReadConstraint {
+    /// Joints follow each other.
+    Row(Row),
+    /// The motion of a joint is given.
+    Prescribed(PrescribedEntry),
 }

@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::constraint_type::ConstraintType;
-use super::row::{COEFFICIENTS, Row, RowReader};
+use super::constraint_type::{ConstraintType, ReadConstraint};
+use super::row::{COEFFICIENTS, RowReader};
 use crate::format::{Dimension, Fields, Key, Reads};
 
 /// The type `gear`.
@@ -32,12 +32,12 @@ impl ConstraintType for Gear {
         &[JOINTS, OFFSET]
     }
 
-    fn row(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<Row> {
+    fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
         let (terms, dimension) = reader.terms(fields, JOINTS.name)?;
         let offset = match fields.get(OFFSET.name) {
             None => Dd::ZERO,
             Some(entry) => reader.number(entry, dimension)?,
         };
-        Some(reader.row(terms, Some(offset)))
+        Some(ReadConstraint::Row(reader.row(terms, Some(offset))))
     }
 }

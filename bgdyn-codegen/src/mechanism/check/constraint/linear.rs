@@ -1,7 +1,7 @@
 //! `linear`: Σ k v = 0, on velocities only; each joint has a position of its own.
 
-use super::constraint_type::ConstraintType;
-use super::row::{COEFFICIENTS, Row, RowReader};
+use super::constraint_type::{ConstraintType, ReadConstraint};
+use super::row::{COEFFICIENTS, RowReader};
 use crate::format::{Fields, Key, Reads};
 
 /// The type `linear`.
@@ -23,8 +23,8 @@ impl ConstraintType for Linear {
         &[ROW]
     }
 
-    fn row(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<Row> {
+    fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
         let (terms, _) = reader.terms(fields, ROW.name)?;
-        Some(reader.row(terms, None))
+        Some(ReadConstraint::Row(reader.row(terms, None)))
     }
 }

@@ -1,4 +1,5 @@
-//! Constraints with constant coefficients: which joints follow which, before any formulation sees them.
+//! Constraints with constant coefficients: which joints follow which, and whose motion is given, before any
+//! formulation sees them.
 //!
 //! A row is Σ k q = offset (`gear`) or Σ k v = 0 (`linear`). Each row makes one joint dependent: the last one
 //! in the order of the links that is not among the `independent` ones. The rows on positions are solved first
@@ -8,7 +9,8 @@
 //! | file | does |
 //! |---|---|
 //! | `constraint_type.rs` | the trait of the types |
-//! | `gear.rs`, `linear.rs` | the types: keys, and their row |
+//! | `gear.rs`, `linear.rs` | types that relate joints: keys, and their row |
+//! | `prescribed.rs` | the type that gives the motion of a joint: its keys and rules |
 //! | `row.rs` | a row from the coefficients in the file: names, units |
 //! | `elimination.rs` | solves rows for dependent joints |
 //! | `couple.rs` | sets the couplings of the joints, those with `mimic` included |
@@ -18,17 +20,20 @@ mod couple;
 mod elimination;
 mod gear;
 mod linear;
+mod prescribed;
 mod row;
 
 use crate::fault::{Faults, wording};
 use crate::format::{Key, Raw, Reads, Spec};
+use crate::mechanism::check::parameters::Parameters;
 use crate::mechanism::{Leader, Link, LinkId};
 use crate::name::is_identifier;
-use constraint_type::ConstraintType;
-use row::{Row, RowReader, one_degree, unknown};
+use constraint_type::{ConstraintType, ReadConstraint};
+use row::{RowReader, one_degree, unknown};
 
 /// All types of constraints.
-static CONSTRAINT_TYPES: [&dyn ConstraintType; 2] = [&gear::Gear, &linear::Linear];
+static CONSTRAINT_TYPES: [&dyn ConstraintType; 3] =
+    [&gear::Gear, &linear::Linear, &prescribed::Prescribed];
 
 /// Returns the words for the types of constraints, with their keys.
 pub fn constraint_types() -> impl Iterator<Item = (&'static str, &'static [Key])> {
@@ -45,22 +50,41 @@ const TYPE: Key = Key {
     about: "what it is",
 };
 
-/// Reads the constraints and couples the joints that they make dependent. `None` if a rule is broken.
-pub(super) fn apply(spec: &Spec, links: &mut [Link], faults: &mut Faults) -> Option<()> {
+/// Reads the constraints, couples the joints that they make dependent, and returns the links of those whose
+/// motion is given. `None` if a rule is broken.
+pub(super) fn apply(
+    spec: &Spec,
+    links: &mut [Link],
+    parameters: &Parameters<'_>,
+    faults: &mut Faults,
+) -> Option<Vec<LinkId>> {
     let before = faults.count();
     let raws = spec.constraints.value().map_or(&[][..], Vec::as_slice);
-    let rows: Vec<Row> = (raws.iter())
-        .filter_map(|raw| row(raw, (spec, links), faults))
-        .collect();
+    let (mut rows, mut prescribed) = (Vec::new(), Vec::new());
+    for raw in raws {
+        match read(raw, (spec, links), faults) {
+            Some(ReadConstraint::Row(row)) => rows.push(row),
+            Some(ReadConstraint::Prescribed(entry)) => prescribed.push(entry),
+            None => {}
+        }
+    }
     let kept = independent(spec, links, faults);
+    let others = (&*links, &rows[..], &kept[..]);
+    prescribed::check(&prescribed, others, parameters, faults);
+    prescribed::check_loops(&prescribed, spec, (links, faults));
     if faults.count() > before {
         return None;
     }
     couple::couple(links, &rows, &kept, faults);
-    (faults.count() == before).then_some(())
+    let given = prescribed.iter().map(|entry| entry.link).collect();
+    (faults.count() == before).then_some(given)
 }
 
-fn row(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Option<Row> {
+fn read(
+    raw: &Raw,
+    (spec, links): (&Spec, &[Link]),
+    faults: &mut Faults,
+) -> Option<ReadConstraint> {
     let name = &raw.name;
     if !is_identifier(&name.value) {
         faults.push(wording::not_identifier(&name.location, &name.value));
@@ -103,7 +127,7 @@ fn row(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Optio
         location: &raw.location,
         faults,
     };
-    kind.row(&fields, &mut reader)
+    kind.read(&fields, &mut reader)
 }
 
 /// Returns whether a link, a joint, a frame or an effect has this name.

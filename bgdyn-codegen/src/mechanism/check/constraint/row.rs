@@ -23,6 +23,17 @@ pub(super) struct Row {
     pub(super) offset: Option<Dd>,
 }
 
+/// A joint as a constraint prescribes it.
+#[derive(Clone, Debug)]
+pub(super) struct PrescribedEntry {
+    /// The name of its constraint.
+    pub(super) name: String,
+    /// The location of the joint's name.
+    pub(super) location: Location,
+    /// The link of the joint.
+    pub(super) link: LinkId,
+}
+
 /// Reads the row of one constraint.
 pub(super) struct RowReader<'a> {
     pub(super) links: &'a [Link],
@@ -71,6 +82,25 @@ impl RowReader<'_> {
         }
         let term = |(link, ratio, _)| Leader { link, ratio };
         Some((read.into_iter().map(term).collect(), dimension))
+    }
+
+    /// Returns the link of the joint that a key names, and the location of the name.
+    pub(super) fn joint(&mut self, fields: &Fields, key: &str) -> Option<(LinkId, Location)> {
+        let entry = fields.get(key)?;
+        let ParsedValue::Text(name) = &entry.value else {
+            return None;
+        };
+        let found = one_degree(self.links).find(|(_, link)| link.joint.name == *name);
+        let Some((link, _)) = found else {
+            let name = Located {
+                value: name.clone(),
+                location: entry.location.clone(),
+            };
+            let fault = unknown(&name, self.links);
+            self.faults.push(fault);
+            return None;
+        };
+        Some((link, entry.location.clone()))
     }
 
     /// Returns the link of a joint, its coefficient, and the dimension of their product.
