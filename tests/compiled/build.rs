@@ -78,7 +78,7 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
     for (number, function) in functions.iter().enumerate() {
         let flat = match function.shape() {
             Shape::Scalar => "number",
-            Shape::Vector | Shape::Spatial => "matrix",
+            Shape::Vector | Shape::Spatial | Shape::Drives(_) => "matrix",
             Shape::Symmetric | Shape::Square | Shape::Jacobian => "matrix",
             Shape::SquarePair => "matrices",
             Shape::CheckedVector => "checked",

@@ -104,7 +104,7 @@ fn wrong_axes_are_found_in_every_method() {
             false => axes.iter_mut().for_each(|row| row[2] = -row[2]),
         }
         let choice = Choice::new(&wrong, None);
-        let methods = Options::select(&all(), &wrong.sites, 3).expect("methods");
+        let methods = Options::select(&all(), &wrong).expect("methods");
         let made = methods.into_iter().filter_map(|m| choice.function(m));
         let made: Vec<Function> = made.map(|f| (*f).clone()).collect();
         let differing = check_functions("arm", &graph, &made);
