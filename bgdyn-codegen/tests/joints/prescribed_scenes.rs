@@ -362,7 +362,7 @@ fn what_scenes_with_prescribed_joints_refuse() {
             "rope: { type: spring, between: [door, hand], stiffness: 20 }",
             "hand",
         ),
-        ("air: { type: drag, at: table, coefficient: 1 }", "table"),
+        ("air: { type: drag, at: table, linear: 1 }", "table"),
     ] {
         refused(
             &format!("inertia, {effect}"),
@@ -373,7 +373,7 @@ fn what_scenes_with_prescribed_joints_refuse() {
     }
     refused(
         "inertia, velocity_products",
-        "integration: { method: symplectic_euler }",
+        "integration: { method: canonical_midpoint, step: 1 ms, end: 1 s }",
         "canonical-prescribed",
         &["`turn` is prescribed", "method:"],
     );

@@ -80,11 +80,7 @@ pub(super) fn apply(
     (faults.count() == before).then_some(given)
 }
 
-fn read(
-    raw: &Raw,
-    (spec, links): (&Spec, &[Link]),
-    faults: &mut Faults,
-) -> Option<ReadConstraint> {
+fn read(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Option<ReadConstraint> {
     let name = &raw.name;
     if !is_identifier(&name.value) {
         faults.push(wording::not_identifier(&name.location, &name.value));
