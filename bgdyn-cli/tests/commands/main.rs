@@ -13,6 +13,7 @@ mod import;
 mod messages;
 mod ops;
 mod pictures;
+mod prescribed;
 mod schema;
 mod schema_scene;
 mod simulate;
