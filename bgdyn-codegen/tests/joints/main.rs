@@ -23,6 +23,7 @@ mod order;
 mod orientation_springs;
 mod prescribed;
 mod prescribed_closed_forms;
+mod prescribed_pair;
 mod prescribed_scenes;
 mod robot;
 mod same_motion;
