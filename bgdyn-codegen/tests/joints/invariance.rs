@@ -1,6 +1,6 @@
 //! What results do not depend on: signs and lengths of quaternions, the place of a floating root.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::function::Function;
@@ -17,7 +17,7 @@ fn bits(x: &[f64]) -> Vec<u64> {
 }
 
 /// The functions of this robot, with all its places.
-fn functions(robot: &Robot) -> Vec<Rc<Function>> {
+fn functions(robot: &Robot) -> Vec<Arc<Function>> {
     let methods = Method::possible(&robot.graph.sites).into_iter();
     let small = robot.nv() <= 12;
     let kept = methods.filter(|m| small || m.of_trait());

@@ -16,6 +16,7 @@ mod golden;
 mod holds;
 mod invariance;
 mod laws;
+mod maker;
 mod mimic;
 mod moving_base;
 mod noisy;

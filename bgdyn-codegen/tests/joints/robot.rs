@@ -1,20 +1,18 @@
 //! A mechanism under test: its functions, states, and q̇ = N(q) v written by hand.
 
-use std::cell::RefCell;
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
-use std::rc::Rc;
+use std::sync::Arc;
 
 use bgdyn_codegen::bond_graph::{self, BondGraph, SiteId};
-use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::formulation;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::{Dd, Scalar};
+
+use super::maker::{Maker, maker, order};
 
 /// A choice of formulation: the generator's own, or one by name.
 pub type Way = Option<&'static str>;
@@ -33,11 +31,8 @@ pub fn golden_text(file: &str) -> String {
 /// A mechanism with its bond graph.
 pub struct Robot {
     pub mechanism: Mechanism,
-    /// Not freed: the choices refer to it.
-    pub graph: &'static BondGraph,
-    made: RefCell<BTreeMap<(Way, Method), Rc<Function>>>,
-    /// What was found so far: the search for plans takes most of the time of a function.
-    choices: RefCell<BTreeMap<Way, Rc<Choice<'static>>>>,
+    pub graph: Arc<BondGraph>,
+    maker: Maker,
 }
 
 /// Arguments of all methods.
@@ -56,11 +51,11 @@ impl Robot {
         let Some(mechanism) = mechanism else {
             panic!("{}", faults.render("spec.yaml", text));
         };
+        let graph = Arc::new(bond_graph::build(&mechanism));
         Robot {
-            graph: Box::leak(Box::new(bond_graph::build(&mechanism))),
             mechanism,
-            made: RefCell::default(),
-            choices: RefCell::default(),
+            maker: maker(text, &graph),
+            graph,
         }
     }
 
@@ -73,37 +68,9 @@ impl Robot {
         self.mechanism.nv()
     }
 
-    /// Returns the function of a method, as it is emitted; made once.
-    pub fn function(&self, way: Way, method: Method) -> Rc<Function> {
-        if let Some(made) = self.made.borrow().get(&(way, method)) {
-            return made.clone();
-        }
-        let made = Rc::new(self.make(way, method));
-        self.made.borrow_mut().insert((way, method), made.clone());
-        made
-    }
-
-    fn make(&self, way: Way, method: Method) -> Function {
-        let named = |name| formulation::by_name(name).expect("a formulation");
-        let new = || Rc::new(Choice::new(self.graph, way.map(named)));
-        let choice = self
-            .choices
-            .borrow_mut()
-            .entry(way)
-            .or_insert_with(new)
-            .clone();
-        let made = prefer(&choice, method, Preference::default());
-        let made = made.unwrap_or_else(|| panic!("{way:?} does not know {method:?}"));
-        if let Some(name) = way {
-            let derived = [
-                Method::InverseDynamicsDerivatives,
-                Method::ForwardDynamicsDerivatives,
-            ];
-            let derived = derived.contains(&method) || Method::OF_LOOPS.contains(&method);
-            let own = made.formulation.contains(name) || derived;
-            assert!(own, "{method:?} by {name} is by {}", made.formulation);
-        }
-        made
+    /// Returns the function of a method, as it is emitted; made once for all tests.
+    pub fn function(&self, way: Way, method: Method) -> Arc<Function> {
+        order(&self.maker, way, method)
     }
 
     pub fn site(&self, name: &str) -> SiteId {

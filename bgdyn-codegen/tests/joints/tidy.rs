@@ -105,7 +105,7 @@ fn accepted(seed: u64) {
             derivatives: seed.is_multiple_of(8),
             ..Options::default()
         };
-        if chosen.is_some_and(|f| !f.serves(robot.graph)) {
+        if chosen.is_some_and(|f| !f.serves(&robot.graph)) {
             continue;
         }
         let model = model(robot.mechanism.clone(), &options).expect("a model");

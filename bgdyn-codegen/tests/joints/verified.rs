@@ -20,8 +20,19 @@ fn options(way: Way) -> Options {
     }
 }
 
+/// What `pipeline::model` returns, of functions that are made once for all tests.
 fn whole(text: &str, way: Way) -> Model {
-    model(Robot::read(text).mechanism, &options(way)).expect("a model")
+    let robot = Robot::read(text);
+    let (sites, velocities) = (&robot.graph.sites, robot.graph.coordinates.len());
+    let methods = options(way).select(sites, velocities).expect("methods");
+    let functions = methods
+        .into_iter()
+        .map(|m| (*robot.function(way, m)).clone());
+    Model {
+        functions: functions.collect(),
+        bond_graph: (*robot.graph).clone(),
+        mechanism: robot.mechanism,
+    }
 }
 
 #[test]
@@ -166,13 +177,13 @@ fn functions_of_another_mechanism_are_refused() {
         assert_ne!(other, text);
         let right = Robot::read(text);
         let functions: Vec<Function> = whole(&other, None).functions;
-        let found = check_functions("other", right.graph, &functions);
+        let found = check_functions("other", &right.graph, &functions);
         let names: Vec<&str> = found.iter().map(|d| d.function.as_str()).collect();
         for function in ["inverse_dynamics", "bias", "forward_dynamics"] {
             assert!(names.contains(&function), "{by}: only {names:?}");
         }
         assert_eq!(
-            check_functions("same", right.graph, &whole(text, None).functions),
+            check_functions("same", &right.graph, &whole(text, None).functions),
             []
         );
     }
