@@ -304,6 +304,3 @@ impl<'a> Pass<'a> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -75,17 +75,3 @@ fn fixed<const N: usize>(values: &[Value; N]) -> Option<[Dd; N]> {
     }
     Some(numbers)
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::mechanism::LinkId;
-
-    #[test]
-    fn links_fixed_beyond_a_joint_are_links_of_their_own() {
-        let text = "format: 1\nlinks:\n  - { name: a, joint: { name: turn, type: revolute, axis: z } }\n  - { name: b, parent: a, joint: { type: fixed, origin: { xyz: [1, 0, 0] } }, mass: 1 }\n";
-        let (mechanism, _) = crate::read(text, Some("arm"));
-        let graph = super::super::build(&mechanism.expect("a sound spec"));
-        assert_eq!(graph.without_inertia(), []);
-        assert_eq!(graph.frames[LinkId(1).0].coordinate, None);
-    }
-}

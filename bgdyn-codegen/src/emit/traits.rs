@@ -215,20 +215,3 @@ fn frame_type(name: &str) -> Ident {
     };
     ident(&name.split('_').map(word).collect::<String>())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn frames_of_different_names_are_different_types() {
-        let names = [
-            "tool", "tool1", "tool_1", "tool_1_2", "tool_12", "too_l", "t_ool",
-        ];
-        let types = names.map(|name| frame_type(name).to_string());
-        let wanted = [
-            "Tool", "Tool1", "Tool_1", "Tool_1_2", "Tool_12", "TooL", "TOol",
-        ];
-        assert_eq!(types, wanted);
-    }
-}

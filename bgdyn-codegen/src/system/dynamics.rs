@@ -37,7 +37,7 @@ pub(super) fn derivative_by(
 /// Returns them if joints may be held.
 fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) -> Function {
     system.one(SceneFunction::Derivative, |system, b| {
-        let mut sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
+        let mut sums = system.effort_sums(b);
         sums.asked = asked;
         let mut all = rates(system, &sums, b);
         all.extend(sums.coupled_rates());
@@ -49,13 +49,8 @@ fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) 
 fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
     let b = Builder::new();
     let outputs: Vec<Signed> = {
-        let sums = summed(
-            &b,
-            &system.scene,
-            &system.graph,
-            ActuatorEfforts::FromInputs,
-        );
-        let joints = link_accelerations(forward, &sums, system);
+            let sums = system.effort_sums(&b);
+            let joints = link_accelerations(forward, &sums, system);
         let all = joined(system, &sums, joints).into_iter();
         let all = all.chain(sums.coupled_rates());
         all.map(Expr::signed).collect()

@@ -1,9 +1,7 @@
 //! The equations of a scene as data: the scene, its bond graph, its start and its named results.
 
-use super::summed::summed;
 use crate::bond_graph::BondNetwork;
 use crate::choice::GraphMethods;
-use crate::effort_sums::ActuatorEfforts;
 use crate::expr::{Builder, Expr, Signed};
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
@@ -41,7 +39,7 @@ impl SceneEquations {
     /// Returns the coordinate that each mode can hold.
     pub fn mode_coordinates(&self) -> Vec<usize> {
         let b = Builder::silent();
-        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let sums = self.effort_sums(&b);
         let mut found = vec![0; self.scene.layout.modes.len()];
         for contact in sums.contacts() {
             found[contact.mode] = contact.coordinate;

@@ -1,10 +1,8 @@
 //! Finds elements without influence: no joint moves their site in a direction in which they act.
 
 use super::SceneEquations;
-use super::summed::summed;
 use crate::bond_graph::PortSite;
 use crate::declaration::Element;
-use crate::effort_sums::ActuatorEfforts;
 use crate::expr::Builder;
 
 impl SceneEquations {
@@ -13,7 +11,7 @@ impl SceneEquations {
     /// omitted.
     pub fn idle(&self) -> Vec<&Element> {
         let b = Builder::silent();
-        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let sums = self.effort_sums(&b);
         let elements = self.scene.elements.iter().zip(sums.balances()).enumerate();
         let idle = elements.filter(|(at, (element, balance))| {
             let powers = [balance.supplied, balance.stored, balance.dissipated];

@@ -62,12 +62,7 @@ impl SceneEquations {
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
-        let sums = summed(
-            &b,
-            &system.scene,
-            &system.graph,
-            ActuatorEfforts::FromInputs,
-        );
+        let sums = system.effort_sums(&b);
         let entries = balance::entries(&system, &sums);
         let outputs = outputs(&system, &sums, &mut faults);
         let outputs = outputs.into_iter().map(|(named, _)| named).collect();
@@ -91,12 +86,7 @@ impl SceneEquations {
         };
         let mut faults = Faults::default();
         let b = Builder::silent();
-        let sums = summed(
-            &b,
-            &system.scene,
-            &system.graph,
-            ActuatorEfforts::FromInputs,
-        );
+        let sums = system.effort_sums(&b);
         range::check(&system.scene, &sums, &mut faults);
         drop(sums);
         system.initial = system.scene.initial.clone();
@@ -106,7 +96,7 @@ impl SceneEquations {
     /// Returns the joints to which nothing in the scene gives inertia, in any position.
     pub fn without_inertia(&self) -> Vec<&str> {
         let b = Builder::silent();
-        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let sums = self.effort_sums(&b);
         let mass = sums.method(Method::MassMatrix);
         let coordinates = self.graph.coordinates.iter().enumerate();
         let diagonal = |j: usize| mass[j * (j + 1) / 2 + j];
@@ -184,7 +174,7 @@ impl SceneEquations {
             SceneFunction::Power => vec![self.one(role, balance::power)],
             SceneFunction::Energy => vec![self.one(role, balance::energy)],
             SceneFunction::Outputs => vec![self.one(role, |system, b| {
-                let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
+                let sums = system.effort_sums(b);
                 let found = outputs(system, &sums, &mut Faults::default());
                 found.into_iter().map(|(_, e)| e).collect()
             })],

@@ -1,12 +1,11 @@
 //! The start of a scene: first-order states in the quantities of their effects, and modes that are
 //! consistent with the rest of the state.
 
-use super::summed::summed;
 use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, resolve_stiction_by};
 use nalgebra::DVector;
 
 use super::holds::contacts_under;
-use super::{ActuatorEfforts, EffortSums, SceneEquations};
+use super::{EffortSums, SceneEquations};
 use crate::declaration::Element;
 use crate::effect;
 use crate::expr::{Builder, Expr, Inputs, Leaf, Node, NodeId, Signed, evaluate, reachable};
@@ -24,7 +23,7 @@ impl SceneEquations {
     /// The `faults` so far, and given modes that contradict the rest of the state.
     pub(super) fn started(mut self, mut faults: Faults) -> Result<SceneEquations, Faults> {
         let b = Builder::silent();
-        let sums = summed(&b, &self.scene, &self.graph, ActuatorEfforts::FromInputs);
+        let sums = self.effort_sums(&b);
         let states = states(&self.scene, &sums);
         drop(sums);
         self.initial.x = states;

@@ -1,6 +1,6 @@
 //! Tests causality on small graphs.
 
-use super::*;
+use bgdyn_codegen::bond_graph::{BondNetwork, Causality, GraphNodeId, NodeKind};
 
 fn text(network: &BondNetwork, nodes: &[GraphNodeId]) -> Vec<String> {
     let text = |n: &GraphNodeId| network.nodes[n.0].text.clone();
