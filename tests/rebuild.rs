@@ -2,27 +2,13 @@
 //! script: a changed spec rebuilds it, and so does the changed mechanism of a scene; every folder is
 //! searched, and a spec in two folders is refused.
 
+mod outside;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
+use std::process::Output;
 
-const MANIFEST: &str = r#"
-[package]
-name = "scratch"
-version = "0.0.0"
-edition = "2024"
-
-[dependencies]
-dyn_gen = { package = "bgdyn", path = "BGDYN" }
-
-[build-dependencies]
-bgdyn-codegen = { path = "BGDYN/bgdyn-codegen", features = ["source"] }
-
-[workspace]
-
-[profile.dev]
-debug = false
-"#;
+use outside::Outside;
 
 const BUILD: &str = r#"
 fn main() -> Result<(), bgdyn_codegen::build_script::Error> {
@@ -67,39 +53,26 @@ fn scene(mechanism: &str) -> String {
     format!("scene: 1\nmechanism: {mechanism}\neffects: [gravity]\n")
 }
 
-/// A separate package below `target/`, with a target directory that later runs reuse.
-struct Scratch(PathBuf);
+/// The package of these tests.
+struct Scratch(Outside);
 
 impl Scratch {
     fn new() -> Self {
-        let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("scratch");
+        let bgdyn = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let package = Outside::new(bgdyn, "scratch", "dyn_gen", "");
         for old in ["src", "specs"] {
-            fs::remove_dir_all(root.join(old)).ok();
+            fs::remove_dir_all(package.folder.join(old)).ok();
         }
-        let scratch = Scratch(root);
-        let bgdyn = env!("CARGO_MANIFEST_DIR").replace('\\', "/");
-        scratch.write("Cargo.toml", &MANIFEST.replace("BGDYN", &bgdyn));
-        let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.lock");
-        if let Ok(lock) = fs::read_to_string(lock) {
-            scratch.write("Cargo.lock", &lock);
-        }
-        scratch
+        Scratch(package)
     }
 
     fn write(&self, file: &str, text: &str) {
-        let path = self.0.join(file);
-        fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");
-        fs::write(path, text).expect("a file");
+        self.0.write(file, text);
     }
 
     fn run(&self) -> Output {
-        Command::new(env!("CARGO"))
-            .args(["run", "--quiet", "--offline", "--color", "never"])
-            .current_dir(&self.0)
-            .env("CARGO_TARGET_DIR", self.0.join("target"))
-            .env_remove("RUSTFLAGS")
-            .output()
-            .expect("cargo runs")
+        let mut command = self.0.cargo(&["run", "--quiet"]);
+        command.output().expect("cargo runs")
     }
 
     fn printed(&self) -> String {
