@@ -43,12 +43,8 @@ fn main() {
         let derivatives = WITH_DERIVATIVES.contains(&name.as_str());
         let path = out.join(format!("{name}.yaml"));
         fs::write(&path, text).unwrap();
-        fs::write(
-            out.join(format!("{name}.rs")),
-            generate::source(&path, derivatives),
-        )
-        .unwrap();
-        let model = generate::model(&path, derivatives);
+        let (model, source) = generate::model_and_text(&path, derivatives);
+        fs::write(out.join(format!("{name}.rs")), source).unwrap();
         modules += &calls(&name, derivatives, &model.functions);
         writeln!(all, "Box::new({name}::{}::default()),", struct_ident(&name)).unwrap();
     }

@@ -1,11 +1,21 @@
-//! Generates the models, for the build script and for the tests.
+//! Generates the models, for the build script and for the tests; each of the two uses a part.
+#![allow(dead_code)]
 
 use std::path::Path;
 
 use bgdyn_codegen::build_script::Build;
+use bgdyn_codegen::emit::{OutputOptions, module, source_text};
 use bgdyn_codegen::files::stem;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline;
+
+fn options(derivatives: bool) -> Options {
+    Options {
+        derivatives,
+        ..Options::default()
+    }
+}
 
 /// The model of a spec.
 pub fn model(path: &Path, derivatives: bool) -> Model {
@@ -13,14 +23,21 @@ pub fn model(path: &Path, derivatives: bool) -> Model {
     let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem(path)));
     let shown = path.display().to_string();
     let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&shown, &text)));
-    let options = Options {
-        derivatives,
-        ..Options::default()
-    };
-    bgdyn_codegen::pipeline::model(mechanism, &options).expect("no name is asked for")
+    pipeline::model(mechanism, &options(derivatives)).expect("no name is asked for")
 }
 
-/// The text of its module.
+/// The model of a spec, compared with equation (6), and the text of its module.
+pub fn model_and_text(path: &Path, derivatives: bool) -> (Model, String) {
+    let model = model(path, derivatives);
+    let verified = pipeline::verify(&model, &options(derivatives));
+    verified.unwrap_or_else(|refusal| panic!("{}: {refusal:?}", path.display()));
+    let file = path.file_name().expect("a file").to_string_lossy();
+    let place = OutputOptions::source_text(file.into_owned());
+    let text = source_text(module(&model, &place));
+    (model, text)
+}
+
+/// The text of its module, as a user's build script has it.
 pub fn source(path: &Path, derivatives: bool) -> String {
     let source = Build::new(path).derivatives(derivatives).source();
     source.unwrap_or_else(|error| panic!("{error}")).text
