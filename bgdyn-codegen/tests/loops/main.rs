@@ -1,6 +1,8 @@
 //! Tests mechanisms with loops: reference solutions with multipliers, random loops against the open tree with
 //! multipliers, the generator's own check, faults.
 
+#[path = "../joints/maker.rs"]
+mod maker;
 #[path = "../joints/robot.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;
