@@ -23,8 +23,7 @@ fn options(way: Way) -> Options {
 /// What `pipeline::model` returns, of functions that are made once for all tests.
 fn whole(text: &str, way: Way) -> Model {
     let robot = Robot::read(text);
-    let (sites, velocities) = (&robot.graph.sites, robot.graph.coordinates.len());
-    let methods = options(way).select(sites, velocities).expect("methods");
+    let methods = options(way).select(&robot.graph).expect("methods");
     let functions = methods
         .into_iter()
         .map(|m| (*robot.function(way, m)).clone());
