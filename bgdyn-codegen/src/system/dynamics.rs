@@ -49,8 +49,8 @@ fn with_modes(system: &SceneEquations, asked: Option<&'static dyn Formulation>) 
 fn without_modes(system: &SceneEquations, forward: &Function) -> Function {
     let b = Builder::new();
     let outputs: Vec<Signed> = {
-            let sums = system.effort_sums(&b);
-            let joints = link_accelerations(forward, &sums, system);
+        let sums = system.effort_sums(&b);
+        let joints = link_accelerations(forward, &sums, system);
         let all = joined(system, &sums, joints).into_iter();
         let all = all.chain(sums.coupled_rates());
         all.map(Expr::signed).collect()
