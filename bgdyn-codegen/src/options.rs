@@ -124,12 +124,10 @@ impl Options {
     ///
     /// # Errors
     /// The formulation, with a joint that it does not serve.
-    pub fn check_formulation(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
+    pub fn check_formulation(&self, graph: &BondGraph) -> Result<(), Vec<UnknownName>> {
         // With loops the formulation computes functions of the open tree.
-        let graph = match &graph.closed {
-            Some(closed) => &closed.tree.multibody,
-            None => graph,
-        };
+        let closed = graph.closed.as_deref();
+        let graph = closed.map_or(graph, |closed| &closed.tree);
         let unserved = |f: &'static dyn Formulation| Some((f, f.unserved(graph)?));
         let Some((formulation, link)) = self.formulation.and_then(unserved) else {
             return Ok(());
@@ -246,7 +244,7 @@ fn usual(graph: &BondGraph) -> Vec<Method> {
 }
 
 /// Returns the methods of the trait `Dynamics`, and those that it needs for a mechanism with loops.
-fn dynamics(graph: &Multibody) -> Vec<Method> {
+fn dynamics(graph: &BondGraph) -> Vec<Method> {
     let of_loops = graph.closed.iter().flat_map(|_| Method::OF_LOOPS);
     Method::OF_TRAIT.into_iter().chain(of_loops).collect()
 }

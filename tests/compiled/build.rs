@@ -76,6 +76,8 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::Scalar => "number",
             Shape::Vector | Shape::Spatial | Shape::Drives(_) => "matrix",
             Shape::Symmetric | Shape::Square | Shape::Jacobian => "matrix",
+            Shape::TreeVector | Shape::TreeMatrix => "matrix",
+            Shape::RowVector | Shape::RowMatrix => "matrix",
             Shape::SquarePair => "matrices",
             Shape::CheckedVector => "checked",
             Shape::CheckedSquares => "checked_matrices",

@@ -14,7 +14,7 @@ use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pos
 /// Builds the bond graph of a mechanism. With loops, the junctions of the open tree are those of its own graph.
 pub fn build(mechanism: &Mechanism) -> BondGraph {
     let mut graph = without_loops(mechanism);
-    graph.multibody.closed = mechanism.closure().map(|closure| {
+    graph.closed = mechanism.closure().map(|closure| {
         Box::new(ClosedTree {
             tree: without_loops(&mechanism.open()),
             closure: closure.clone(),
@@ -37,13 +37,13 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
             velocity_products: true,
             parameters: mechanism.parameters().to_vec(),
             sites: sites(mechanism),
-            closed: None,
         },
         junctions: Vec::new(),
         stores: Vec::new(),
         sources: Vec::new(),
         transformers: Vec::new(),
         released: released(mechanism).map(Box::new),
+        closed: None,
     };
     graph.junctions = (0..mechanism.nv())
         .map(|j| Junction::Velocity(CoordinateId(j)))

@@ -21,12 +21,13 @@ use std::ops::Deref;
 use bgdyn_runtime::Dd;
 
 use crate::math::Vec3;
+use crate::mechanism::closure::Closure;
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
 pub use causality::Causality;
 pub use multibody::{
-    ClosedTree, Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,
+    Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,
 };
 pub use network::BondNetwork;
 pub use node::{Bond, GraphNode, GraphNodeId, NodeKind, NodePart, PlacePort, PortSite, PowerTerm};
@@ -115,6 +116,17 @@ pub struct BondGraph {
     /// The mechanism in which the prescribed joints are free, if there are such joints. In this one they have no
     /// coordinates, and their frames no poses.
     pub released: Option<Box<Released>>,
+    /// The loops, with the graph of the open tree; then the coordinates are the independent ones.
+    pub closed: Option<Box<ClosedTree>>,
+}
+
+/// An open tree with loops that close it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedTree {
+    /// The graph of the open tree.
+    pub tree: BondGraph,
+    /// The loops; their coordinates are those of the tree.
+    pub closure: Closure,
 }
 
 /// The mechanism in which the prescribed joints are free. It dereferences to its bond graph.
@@ -185,6 +197,24 @@ impl BondGraph {
                 inertia: StoreInertia::Tensor(entries),
             });
         }
+    }
+
+    /// Returns q̇ = N(q) v; with loops q̇ = N(q) S(q) v.
+    ///
+    /// # Panics
+    /// At a singular position of a loop.
+    pub fn position_rates(&self, q: &[Dd], v: &[Dd]) -> Vec<Dd> {
+        let Some(closed) = &self.closed else {
+            return self.multibody.position_rates(q, v);
+        };
+        let map = closed.closure.velocity_map(q);
+        let map = map.expect("a regular position of the loops");
+        let sum = |row: &Vec<Dd>| {
+            let terms = row.iter().zip(v);
+            terms.fold(Dd::ZERO, |sum, (s, v)| sum + *s * *v)
+        };
+        let all: Vec<Dd> = map.iter().map(sum).collect();
+        closed.tree.multibody.position_rates(q, &all)
     }
 
     /// Returns the junction of q̇_j.

@@ -2,9 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::BondGraph;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::closure::Closure;
 use crate::mechanism::joint::{Column, DoubleDouble, JointConstants};
 use crate::mechanism::{
     BaseMotion, CoordinateId, Degrees, Inertial, LinkId, Motion, Parameter, Pose, Value,
@@ -143,17 +141,6 @@ pub struct Multibody {
     pub parameters: Vec<Parameter>,
     /// The sites: the frames of the links, then the named frames.
     pub sites: Vec<Site>,
-    /// The loops, with the graph of the open tree; then the coordinates are the independent ones.
-    pub closed: Option<Box<ClosedTree>>,
-}
-
-/// An open tree with loops that close it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ClosedTree {
-    /// The graph of the open tree.
-    pub tree: BondGraph,
-    /// The loops; their coordinates are those of the tree.
-    pub closure: Closure,
 }
 
 impl Multibody {
@@ -182,21 +169,8 @@ impl Multibody {
         frames.find(|frame| frame.motion.is_given())
     }
 
-    /// Returns q̇ = N(q) v; with loops q̇ = N(q) S(q) v.
-    ///
-    /// # Panics
-    /// At a singular position of a loop.
+    /// Returns q̇ = N(q) v.
     pub fn position_rates(&self, q: &[Dd], v: &[Dd]) -> Vec<Dd> {
-        if let Some(closed) = &self.closed {
-            let map = closed.closure.velocity_map(q);
-            let map = map.expect("a regular position of the loops");
-            let sum = |row: &Vec<Dd>| {
-                let terms = row.iter().zip(v);
-                terms.fold(Dd::ZERO, |sum, (s, v)| sum + *s * *v)
-            };
-            let all: Vec<Dd> = map.iter().map(sum).collect();
-            return closed.tree.position_rates(q, &all);
-        }
         let mut rates = vec![Dd::ZERO; self.positions.len()];
         for frame in self.frames.iter().filter(|f| f.degrees.own_positions()) {
             let positions = &frame.degrees.positions;

@@ -81,8 +81,7 @@ impl BondNetwork {
         network
     }
 
-    /// Names a joint that follows others, and those with the texts of the ratios. The junction of its velocity is added where an
-    /// effect acts on it.
+    /// Names a joint that follows others, and those with the texts of the ratios; an effect on it adds its junction.
     pub fn follow(&mut self, joint: &str, leaders: Vec<(String, String)>) {
         self.followers.push((joint.to_owned(), leaders));
     }
@@ -271,8 +270,7 @@ impl BondNetwork {
         self.add_port(place, coordinates)
     }
 
-    /// Adds the flows of loops to the network of their open tree: for each the velocity of place b relative to place
-    /// a, with a flow source 0 whose effort are the multipliers.
+    /// Adds the flows of loops: the velocity of place b relative to place a, with a flow source 0.
     pub fn close(&mut self, closure: &Closure) {
         for (closes, one) in closure.loops.iter().enumerate() {
             let steps = one.chain.steps.iter();

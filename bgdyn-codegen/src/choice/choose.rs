@@ -102,7 +102,7 @@ impl<'a> Choice<'a> {
 
     /// Returns the function of the selected formulation, if it supports the method.
     fn requested_candidates(&self, method: Method) -> Vec<CheckedCandidate> {
-        let graph = &self.prepared.graph.multibody;
+        let graph = self.prepared.graph;
         // With loops the open tree has the functions of the selected formulation.
         let asked = self.asked.filter(|f| f.knows(method) && f.serves(graph));
         let Some(asked) = asked else {
@@ -122,7 +122,7 @@ impl<'a> Choice<'a> {
 
     /// Returns the offers of the formulations that support the method.
     fn offers(&self, all: &[&'static dyn Formulation], method: Method) -> Vec<Offered> {
-        let graph = &self.prepared.graph.multibody;
+        let graph = self.prepared.graph;
         let known = all.iter().filter(|f| f.knows(method) && f.serves(graph));
         let offered = known.map(|&f| (f, f.offer(&self.prepared, method)));
         offered.collect()

@@ -25,9 +25,7 @@ use bgdyn_runtime::Dd;
 use super::reference_solution::{MassAndBias, ReferenceSolution, Rounding, norm, product};
 use super::sample_states::{least_inertia, near_singular, random, subsample};
 use crate::expr::{Graph, Inputs, Signed, copy_into, evaluate};
-use crate::formulation::{
-    Prepared, mass_and_bias, mass_and_bias_of_any_joint, mass_and_bias_of_loops,
-};
+use crate::formulation::{Prepared, mass_and_bias, mass_and_bias_of_any_joint};
 use crate::function::{Function, in_triangle};
 
 const EPS: f64 = f64::EPSILON;
@@ -137,9 +135,6 @@ impl ErrorBounds {
         let n = graph.coordinates.len();
         let few = |most: usize| (most * ALL * ALL / n.max(ALL).pow(2)).max(2);
         let mut states = subsample(&random(graph), few(STATES[0]));
-        if let Some((made, outputs)) = mass_and_bias_of_loops(graph) {
-            return Self::solved(made, outputs, states, n);
-        }
         if !graph.plain() {
             // Aligned axes are known for rotations and translations only.
             let (made, outputs) = mass_and_bias_of_any_joint(graph);

@@ -1,7 +1,7 @@
 //! The trait of formulations: name, offer for each method, functions.
 
 use super::prepared::Prepared;
-use crate::bond_graph::{LinkFrame, Multibody};
+use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -30,7 +30,7 @@ pub trait Formulation: Sync {
     }
 
     /// Returns whether it serves this mechanism.
-    fn serves(&self, graph: &Multibody) -> bool {
+    fn serves(&self, graph: &BondGraph) -> bool {
         (self.serves_loops() || graph.closed.is_none()) && self.unserved(graph).is_none()
     }
 

@@ -9,7 +9,7 @@ use crate::expr::{Builder, Expr, Inputs, Signed, evaluate};
 const AS_LARGE: f64 = 0.1;
 
 /// A square matrix, eliminated.
-pub(super) struct Elimination<'g> {
+pub(super) struct EliminatedMatrix<'g> {
     b: &'g Builder,
     /// The pivots in their order: row, column.
     pivots: Vec<(usize, usize)>,
@@ -29,7 +29,7 @@ struct PivotPlace {
     negative: Option<bool>,
 }
 
-impl<'g> Elimination<'g> {
+impl<'g> EliminatedMatrix<'g> {
     /// Eliminates a matrix; with `checks` its pivots are checked, that of each row by its
     /// index.
     pub(super) fn new(
@@ -60,7 +60,7 @@ impl<'g> Elimination<'g> {
                 matrix[i][column] = factor;
             }
         }
-        Elimination {
+        EliminatedMatrix {
             b,
             pivots,
             matrix,

@@ -2,8 +2,6 @@
 
 use bgdyn_runtime::Dd;
 
-use super::loop_rows::{LoopForm, loop_rows};
-use super::velocity_map::VelocityMap;
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
 use crate::math::{Mat3, Vec3};
@@ -72,18 +70,12 @@ pub(crate) fn pose_in_joint<'g>(
     }
 }
 
-/// Returns q̇ = N(q) v; with loops q̇ = N(q) S(q) v.
+/// Returns q̇ = N(q) v.
 pub(crate) fn position_rates<'g>(
     b: &'g Builder,
     graph: &Multibody,
     (q, v): (&[Expr<'g>], &[Expr<'g>]),
 ) -> Vec<Expr<'g>> {
-    if let Some(closed) = &graph.closed {
-        let form = LoopForm::default();
-        let rows = (loop_rows(b, &closed.closure, q, form), form);
-        let all = VelocityMap::new(b, &closed.closure, rows, None).velocities(v);
-        return position_rates(b, &closed.tree, (q, &all));
-    }
     let mut rates = vec![b.zero(); graph.positions.len()];
     for frame in graph.frames.iter().filter(|f| f.degrees.own_positions()) {
         let positions = &frame.degrees.positions;

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::expr::{Builder, Expr};
-use crate::mechanism::closure::{Chain, Closure, KinematicLoop, LoopRow, RelativePlace};
+use crate::mechanism::closure::{Closure, KinematicLoop, LoopChain, LoopRow, RelativePlace};
 
 /// The way in which the rows of the loops are written and solved.
 #[derive(Clone, Copy, Debug, Default)]
@@ -15,7 +15,7 @@ pub(super) struct LoopForm {
 }
 
 /// Returns the chain of a loop in this form.
-fn chain(one: &KinematicLoop, form: LoopForm) -> Cow<'_, Chain> {
+fn chain(one: &KinematicLoop, form: LoopForm) -> Cow<'_, LoopChain> {
     match form.reversed && one.reversible {
         true => Cow::Owned(one.chain.reversed()),
         false => Cow::Borrowed(&one.chain),

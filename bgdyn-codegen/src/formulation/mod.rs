@@ -11,6 +11,7 @@ mod derivatives;
 mod elimination;
 mod joint_motion;
 mod literal;
+mod loop_methods;
 mod loop_rows;
 mod loops;
 mod placed_sites;
@@ -27,7 +28,6 @@ use crate::bond_graph::BondGraph;
 use crate::expr::{Graph, Signed};
 pub use definition::{Formulation, Offer};
 pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};
-pub(crate) use loops::mass_and_bias as mass_and_bias_of_loops;
 pub use prepared::Prepared;
 pub(crate) use prepared::{Candidate, Candidates};
 pub(crate) use prescribed::create;
@@ -61,6 +61,7 @@ pub(crate) static DERIVED: [&dyn Formulation; 3] = [
 pub(crate) fn mass_and_bias_of_any_joint(graph: &BondGraph) -> (Graph, Vec<Signed>) {
     let released = graph.released.as_deref();
     let made = released.and_then(|r| prescribed::mass_and_bias(&subspaces::Subspaces, r));
+    let made = made.or_else(|| loops::mass_and_bias(&subspaces::Subspaces, graph));
     made.unwrap_or_else(|| subspaces::mass_and_bias(graph))
 }
 

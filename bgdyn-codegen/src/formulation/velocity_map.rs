@@ -4,7 +4,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::elimination::Elimination;
+use super::elimination::EliminatedMatrix;
 use super::loop_rows::{LoopForm, LoopRows};
 use crate::expr::{Builder, Expr};
 use crate::mechanism::CoordinateId;
@@ -19,7 +19,7 @@ pub(super) struct VelocityMap<'a, 'g> {
     closure: &'a Closure,
     rows: LoopRows<'g>,
     blocks: Vec<ClosureBlock>,
-    eliminations: Vec<Elimination<'g>>,
+    eliminations: Vec<EliminatedMatrix<'g>>,
     /// S, row by row for the velocities of the tree; empty if only vectors are solved for.
     pub(super) map: Vec<Vec<Expr<'g>>>,
 }
@@ -53,7 +53,7 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
             let matrix = block.rows.iter().map(row).collect();
             let pivot = |&r: &usize| first.map(|first| first + closure.rows[r].closes);
             let checks: Option<Vec<usize>> = block.rows.iter().map(pivot).collect();
-            Elimination::new(b, matrix, &closure.samples, checks.as_deref())
+            EliminatedMatrix::new(b, matrix, &closure.samples, checks.as_deref())
         };
         let eliminations = blocks.iter().map(elimination).collect();
         let mut map = VelocityMap {

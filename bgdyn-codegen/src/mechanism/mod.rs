@@ -12,6 +12,7 @@ pub mod joint;
 mod lock;
 mod numbering;
 mod places;
+mod pose;
 mod prescribed;
 mod released;
 mod symbolic;
@@ -31,6 +32,7 @@ pub use degrees::{Coupling, Degrees, Leader};
 pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
 pub use joint::{JointType, Motion};
 pub(crate) use places::SiteOrigins;
+pub use pose::Pose;
 pub use prescribed::{PRESCRIBED_PARAMETERS, PrescribedJoint, prescribed_parameter_names};
 pub use symbolic::{NumberSymbol, SymbolicMechanism};
 
@@ -60,27 +62,6 @@ impl fmt::Display for Parameter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}, {}", self.meaning, self.unit)
     }
-}
-
-/// A constant pose: axes and origin of one frame in another.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pose {
-    /// Columns are the axes of the inner frame in the outer one.
-    pub rotation: Mat3<Dd>,
-    /// Origin of the inner frame in the outer one, m.
-    pub translation: Vec3<Dd>,
-}
-
-impl Pose {
-    /// No rotation, no displacement.
-    pub const IDENTITY: Pose = Pose {
-        rotation: Mat3([
-            [Dd::ONE, Dd::ZERO, Dd::ZERO],
-            [Dd::ZERO, Dd::ONE, Dd::ZERO],
-            [Dd::ZERO, Dd::ZERO, Dd::ONE],
-        ]),
-        translation: Vec3([Dd::ZERO; 3]),
-    };
 }
 
 /// Inertial parameters of a link.

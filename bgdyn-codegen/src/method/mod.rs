@@ -2,122 +2,15 @@
 //!
 //! The formulations, the emitter and the command line use them.
 
+mod argument;
 mod scene_function;
+mod shape;
 
 use crate::bond_graph::{BondGraph, Site, SiteId};
 use crate::fault::unknown_name;
+pub use argument::Argument;
 pub use scene_function::SceneFunction;
-
-/// An argument of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Argument {
-    /// Positions q: rad, m.
-    Q,
-    /// Velocities v: rad/s, m/s.
-    V,
-    /// Accelerations a: rad/s², m/s².
-    A,
-    /// Joint efforts tau: N·m, N.
-    Tau,
-    /// State of a scene.
-    State,
-    /// Inputs of a scene.
-    Input,
-    /// Accelerations of a scene's coordinates.
-    Accelerations,
-    /// State of a scene with momenta in place of velocities.
-    Canonical,
-    /// Modes of a scene, beside [`Argument::Canonical`].
-    Modes,
-    /// Time, s.
-    Time,
-}
-
-impl Argument {
-    /// Returns its name in signatures.
-    pub fn name(self) -> &'static str {
-        match self {
-            Argument::Q => "q",
-            Argument::V => "v",
-            Argument::A => "a",
-            Argument::Tau => "tau",
-            Argument::State => "state",
-            Argument::Input => "input",
-            Argument::Accelerations => "acceleration",
-            Argument::Canonical => "z",
-            Argument::Modes => "modes",
-            Argument::Time => "t",
-        }
-    }
-}
-
-/// The shape of a method's result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// One number.
-    Scalar,
-    /// NV numbers.
-    Vector,
-    /// NV numbers, or an error with a joint.
-    CheckedVector,
-    /// A symmetric NV × NV matrix; the expressions are its lower triangle, row by row.
-    Symmetric,
-    /// An NV × NV matrix, row by row.
-    Square,
-    /// Two NV × NV matrices.
-    SquarePair,
-    /// NV accelerations and three NV × NV matrices, or an error with a joint; only the matrices are
-    /// returned.
-    CheckedSquares,
-    /// A rotation matrix, row by row, and a point.
-    Pose,
-    /// A spatial vector, angular part first.
-    Spatial,
-    /// A 6 × NV matrix, row by row, angular part first.
-    Jacobian,
-    /// A number for each velocity of the open tree.
-    TreeVector,
-    /// An NT × NV matrix, row by row: velocities of the open tree by independent ones.
-    TreeMatrix,
-    /// A number for each row of the loops.
-    RowVector,
-    /// An NC × NT matrix, row by row.
-    RowMatrix,
-    /// As many numbers as the mechanism has prescribed joints.
-    Drives(usize),
-    /// The named parts of a scene's result.
-    Parts,
-    /// The same, or an error with a coordinate.
-    CheckedParts,
-}
-
-impl Shape {
-    /// Returns the number of expressions of the result; 0 if it depends on more than the number of velocities.
-    pub fn len(self, nv: usize) -> usize {
-        match self {
-            Shape::Scalar => 1,
-            Shape::Vector | Shape::CheckedVector => nv,
-            Shape::Symmetric => nv * (nv + 1) / 2,
-            Shape::Square => nv * nv,
-            Shape::SquarePair => 2 * nv * nv,
-            Shape::CheckedSquares => nv + 3 * nv * nv,
-            Shape::Pose => 12,
-            Shape::Spatial => 6,
-            Shape::Jacobian => 6 * nv,
-            Shape::TreeVector | Shape::TreeMatrix | Shape::RowVector | Shape::RowMatrix => 0,
-            Shape::Drives(np) => np,
-            Shape::Parts | Shape::CheckedParts => 0,
-        }
-    }
-
-    /// Returns whether a singular mass matrix is an error.
-    pub fn checked(self) -> bool {
-        matches!(
-            self,
-            Shape::CheckedVector | Shape::CheckedSquares | Shape::CheckedParts
-        )
-    }
-}
+pub use shape::Shape;
 
 /// A method of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -178,7 +178,7 @@ fn dynamics(name: &'static str) {
         .collect();
     for way in DYNAMICS_WAYS {
         let formulation = way.map(|name| formulation::by_name(name).expect("a formulation"));
-        if formulation.is_some_and(|f| !f.serves(&golden.robot.graph.multibody)) {
+        if formulation.is_some_and(|f| !f.serves(&golden.robot.graph)) {
             continue;
         }
         for (method, key) in [

@@ -8,6 +8,8 @@ mod maker;
 mod robot;
 
 mod faults;
+mod frame_rows;
 mod multipliers;
+mod random_loops;
 mod references;
 mod verified;

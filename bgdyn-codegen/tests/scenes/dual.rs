@@ -137,7 +137,7 @@ impl Scalar for Dual {
     fn failed<const N: usize>(
         _: SVector<Self, N>,
         _: Option<usize>,
-        _: &'static [&'static str; N],
+        _: &'static [&'static str],
         _: impl FnOnce(&mut Look<'_, Self>),
     ) -> Option<()> {
         Some(())

@@ -2,9 +2,11 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bond_graph::Multibody;
-use crate::expr::{Builder, Graph, Leaf, Signed, Tangent};
-use crate::formulation::joint_motion::{along, unit_tangents};
+use crate::bond_graph::{BondGraph, Multibody};
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent};
+use crate::formulation::joint_motion::{along, tangents, unit_tangents};
+use crate::formulation::loop_rows::{LoopForm, loop_rows};
+use crate::formulation::velocity_map::VelocityMap;
 use crate::function::Function;
 use crate::method::Method;
 
@@ -37,15 +39,34 @@ pub(super) fn derivatives(
 pub(super) fn position_derivatives(
     b: &Builder,
     x: &[Signed],
-    graph: &Multibody,
+    graph: &BondGraph,
 ) -> Vec<Vec<Signed>> {
+    let tangents = position_tangents(b, graph);
     let column = |j: usize| {
-        let mut tangent = Tangent::new(along(unit_tangents(b, graph, j)));
+        let mut tangent = Tangent::new(along(tangents[j].clone()));
         x.iter()
             .map(|&e| b.with_graph(|g| tangent.of(g, e)))
             .collect()
     };
     (0..graph.coordinates.len()).map(column).collect()
+}
+
+/// Returns, for each velocity, the rates of all positions for a unit of it.
+fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signed>> {
+    let n = graph.coordinates.len();
+    let Some(closed) = &graph.closed else {
+        return (0..n).map(|j| unit_tangents(b, graph, j)).collect();
+    };
+    let q: Vec<Expr<'_>> = (0..graph.positions.len())
+        .map(|p| b.leaf(Leaf::Position(p)))
+        .collect();
+    let (form, closure) = (LoopForm::default(), &closed.closure);
+    let rows = loop_rows(b, closure, &q, form);
+    let map = VelocityMap::new(b, closure, (rows, form), None).map;
+    let column = |j: usize| map.iter().map(|row| row[j]).collect::<Vec<_>>();
+    (0..n)
+        .map(|j| tangents(b, &closed.tree, &column(j)))
+        .collect()
 }
 
 /// Returns a function of the differentiated graph; its operations are in a fixed order if those of the

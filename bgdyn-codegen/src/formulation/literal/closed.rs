@@ -7,13 +7,12 @@ use std::rc::Rc;
 
 use bgdyn_runtime::Dd;
 
-use super::Literal;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Tangent};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::joint_motion::{along, tangents, unit_tangents};
+use crate::formulation::loop_methods::{LoopMotion, compose};
 use crate::formulation::loop_rows::{LoopForm, LoopRows};
-use crate::formulation::loops::{LoopMotion, compose};
 use crate::formulation::placement::Placement;
 use crate::formulation::velocity_map::VelocityMap;
 use crate::formulation::{Formulation, Prepared};
@@ -22,11 +21,11 @@ use crate::mechanism::closure::RelativePlace;
 use crate::mechanism::{LinkId, Pose};
 use crate::method::Method;
 
-/// Returns the expressions of a method.
+/// Returns the expressions of a method; `literal` computes those of the open tree.
 pub(super) fn outputs<'g>(
+    literal: &dyn Formulation,
     b: &'g Builder,
-    graph: &Multibody,
-    closed: &ClosedTree,
+    (graph, closed): (&Multibody, &ClosedTree),
     method: Method,
 ) -> Option<Vec<Expr<'g>>> {
     let x = Arguments::new(b, graph, method);
@@ -56,7 +55,7 @@ pub(super) fn outputs<'g>(
     let rows = (rows, LoopForm::default());
     let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows, None), &x, bias);
     let prepared = Prepared::new(&closed.tree);
-    let read = |method: Method| Literal.function(&prepared, method).map(Rc::new);
+    let read = |method: Method| literal.function(&prepared, method).map(Rc::new);
     compose(b, closed, method, (&x, &motion), (&read, &conditions))
 }
 

@@ -48,7 +48,7 @@ impl Formulation for Literal {
         let graph = prepared.graph;
         let b = Builder::new();
         let outputs = if let Some(closed) = &graph.closed {
-            let outputs = closed::outputs(&b, graph, closed, method)?;
+            let outputs = closed::outputs(self, &b, (graph, closed), method)?;
             outputs.into_iter().map(|e: Expr<'_>| e.signed()).collect()
         } else {
             let arguments = Arguments::new(&b, graph, method);

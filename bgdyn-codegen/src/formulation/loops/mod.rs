@@ -4,21 +4,18 @@
 //! Sᵀ P = Σ_i [ (∂r_i/∂q S)ᵀ (m_i r̈_i − R_i) + (ρ^i S)ᵀ (K̇_i − M_i) ]. The multipliers do not appear, because
 //! B S = 0.
 
-mod compose;
-
 use std::rc::Rc;
 
 use super::arguments::Arguments;
+use super::loop_methods::{LoopMotion, compose, reads};
 use super::loop_rows::{LoopForm, loop_bias, loop_residuals, loop_rows};
-use super::subspaces::Subspaces;
 use super::velocity_map::{FirstPivot, VelocityMap};
 use super::{Formulation, Offer, Prepared};
-use crate::bond_graph::{ClosedTree, LinkFrame, Multibody};
+use crate::bond_graph::{BondGraph, ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
 use crate::method::Method;
 use crate::passes::factor;
-pub(super) use compose::{LoopMotion, compose};
 
 /// Elimination of the dependent velocities, on the functions chosen for the open tree.
 pub(super) struct Elimination;
@@ -32,15 +29,12 @@ impl Formulation for Elimination {
         "functions of the open tree, with the dependent velocities of the loops eliminated"
     }
 
-    fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
-        match graph.closed {
-            Some(_) => None,
-            None => graph.frames.first(),
-        }
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
     }
 
-    fn serves_loops(&self) -> bool {
-        true
+    fn serves(&self, graph: &BondGraph) -> bool {
+        graph.closed.is_some()
     }
 
     fn knows(&self, method: Method) -> bool {
@@ -52,7 +46,7 @@ impl Formulation for Elimination {
     }
 
     fn reads_of_tree(&self, method: Method) -> Vec<Method> {
-        compose::reads(method)
+        reads(method)
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
@@ -63,7 +57,7 @@ impl Formulation for Elimination {
 }
 
 /// Returns the forms of the rows that are compared.
-fn forms(graph: &Multibody, method: Method) -> Vec<LoopForm> {
+fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
     let loops = graph.closed.iter().flat_map(|closed| &closed.closure.loops);
     let in_axes_of_a = matches!(
         method,
@@ -104,7 +98,7 @@ fn forms(graph: &Multibody, method: Method) -> Vec<LoopForm> {
 
 /// Returns the function of a method in one form.
 fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<Function> {
-    let graph: &Multibody = prepared.graph;
+    let graph = prepared.graph;
     let closed = graph.closed.as_deref()?;
     let b = Builder::new();
     let outputs: Vec<Signed> = {
@@ -116,7 +110,7 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<F
         let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
         outputs.into_iter().map(Expr::signed).collect()
     };
-    let name = match compose::reads(method).first() {
+    let name = match reads(method).first() {
         None => Elimination.name().into(),
         Some(&first) => {
             let of_tree = prepared.tree_function(first)?.formulation.clone();
@@ -139,24 +133,22 @@ fn loop_motion<'a, 'g>(
     LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v), form))
 }
 
-/// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, with the recursion over
-/// motion subspaces for the open tree; `None` without loops.
-pub(crate) fn mass_and_bias(graph: &Multibody) -> Option<(Graph, Vec<Signed>)> {
+/// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, with a formulation of the
+/// open tree; `None` without loops.
+pub(super) fn mass_and_bias(
+    of_tree: &dyn Formulation,
+    graph: &BondGraph,
+) -> Option<(Graph, Vec<Signed>)> {
     let closed = graph.closed.as_deref()?;
     let prepared = Prepared::new(&closed.tree);
-    let read = |method: Method| Subspaces.function(&prepared, method).map(Rc::new);
+    let read = |method: Method| of_tree.function(&prepared, method).map(Rc::new);
     let b = Builder::new();
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, Method::Bias);
         let motion = loop_motion(&b, closed, &x, (LoopForm::default(), None));
-        let mut all = compose(&b, closed, Method::MassMatrix, (&x, &motion), (&read, &[]))?;
-        all.extend(compose(
-            &b,
-            closed,
-            Method::Bias,
-            (&x, &motion),
-            (&read, &[]),
-        )?);
+        let of = |method| compose(&b, closed, method, (&x, &motion), (&read, &[]));
+        let mut all = of(Method::MassMatrix)?;
+        all.extend(of(Method::Bias)?);
         all.into_iter().map(Expr::signed).collect()
     };
     Some((b.into_graph(), outputs))

@@ -36,7 +36,7 @@ pub struct ChainStep {
 
 /// The joints of a loop in series, and its places on the first and the last link.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chain {
+pub struct LoopChain {
     /// Place a on its link.
     pub start: Pose,
     /// The joints from a to b.
@@ -116,14 +116,14 @@ impl ChainStep {
     }
 }
 
-impl Chain {
+impl LoopChain {
     /// Returns the chain from b to a.
     pub fn reversed(&self) -> Self {
         let turned = self.steps.iter().rev().map(|step| ChainStep {
             outward: !step.outward,
             ..step.clone()
         });
-        Chain {
+        LoopChain {
             start: self.end,
             steps: turned.collect(),
             end: self.start,

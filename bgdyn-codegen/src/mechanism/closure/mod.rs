@@ -24,7 +24,7 @@ use bgdyn_runtime::Dd;
 use super::{CoordinateId, LinkId, PositionId};
 use crate::fault::Location;
 use crate::math::Vec3;
-pub use chain::{Chain, ChainFrames, ChainStep, RelativePlace, RelativeRates};
+pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates};
 pub use closing::{CLOSING_TYPES, ClosingType};
 pub use row::RowKind;
 pub(crate) use solve::{eliminate, solve};
@@ -39,7 +39,7 @@ pub struct KinematicLoop {
     /// The links of its places a and b; `None` for the world.
     pub links: [Option<LinkId>; 2],
     /// The joints from a to b.
-    pub chain: Chain,
+    pub chain: LoopChain,
     /// Length of a rod, m; 1 for other types.
     pub length: Dd,
     /// Unit vector of the axis of a planar loop, in the axes of place a.

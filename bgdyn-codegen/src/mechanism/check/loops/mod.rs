@@ -17,7 +17,7 @@ mod read;
 mod structure;
 
 use super::direction::Directions;
-use crate::fault::{Faults, wording};
+use crate::fault::Faults;
 use crate::format::Spec;
 use crate::mechanism::closure::Closure;
 use crate::mechanism::{CoordinateId, Mechanism, Motion, PositionId};
@@ -97,21 +97,4 @@ fn neutral(mechanism: &Mechanism) -> Vec<bgdyn_runtime::Dd> {
         bgdyn_runtime::Dd::from_f64(neutral)
     };
     mechanism.positions().iter().enumerate().map(part).collect()
-}
-
-/// Reports a joint that no loop can go through.
-fn unsuitable(
-    one: &crate::format::LoopSpec,
-    name: &str,
-    mechanism: &Mechanism,
-    link: usize,
-    faults: &mut Faults,
-) {
-    let joint = &mechanism.links()[link].joint;
-    faults.push(wording::loop_through_joint(
-        &one.location,
-        name,
-        &joint.name,
-        joint.kind.keyword,
-    ));
 }

@@ -2,12 +2,11 @@
 
 use bgdyn_runtime::Dd;
 
-use super::unsuitable;
 use crate::fault::{Faults, wording};
 use crate::format::{Field, Located, LoopEndSpec, LoopSpec, Number, Spec};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::check::direction::Directions;
-use crate::mechanism::closure::{CLOSING_TYPES, Chain, ChainStep, ClosingType, KinematicLoop};
+use crate::mechanism::closure::{CLOSING_TYPES, ChainStep, ClosingType, KinematicLoop, LoopChain};
 use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
 use crate::name::{WORLD, is_identifier};
 
@@ -49,7 +48,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
         rotation: pose.rotation * turn,
         ..pose
     };
-    let chain = Chain {
+    let chain = LoopChain {
         start: turned(a.1),
         steps: path
             .iter()
@@ -334,7 +333,7 @@ fn is_suitable(mechanism: &Mechanism, link: LinkId) -> bool {
 
 /// Returns the axis of a loop whose rotations are all about one direction, in the axes of place a: that of the
 /// first rotation.
-fn loop_axis(chain: &Chain) -> Option<Vec3<Dd>> {
+fn loop_axis(chain: &LoopChain) -> Option<Vec3<Dd>> {
     let (mut rotation, mut axis) = (chain.start.rotation.transpose(), None::<Vec3<Dd>>);
     for step in &chain.steps {
         let origin = step.origin.rotation;
@@ -359,4 +358,15 @@ fn loop_axis(chain: &Chain) -> Option<Vec3<Dd>> {
 fn parallel(a: Vec3<Dd>, b: Vec3<Dd>) -> bool {
     let across = a.cross(b);
     across.dot(across).to_f64() < 1e-40
+}
+
+/// Reports a joint that no loop can go through.
+fn unsuitable(one: &LoopSpec, name: &str, mechanism: &Mechanism, link: usize, faults: &mut Faults) {
+    let joint = &mechanism.links()[link].joint;
+    faults.push(wording::loop_through_joint(
+        &one.location,
+        name,
+        &joint.name,
+        joint.kind.keyword,
+    ));
 }

@@ -1,6 +1,6 @@
 //! The closing rod.
 
-use super::ClosingType;
+use super::closing_type::ClosingType;
 use crate::mechanism::closure::row::RowKind::Length;
 
 /// The places are connected by a massless rod with a ball at both ends.

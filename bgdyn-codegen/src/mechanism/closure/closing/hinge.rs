@@ -1,6 +1,6 @@
 //! The closing hinge.
 
-use super::ClosingType;
+use super::closing_type::ClosingType;
 use crate::mechanism::closure::row::RowKind::{Place, Tilt};
 
 /// The places coincide, and their axes are parallel: rotation about the axis is free.

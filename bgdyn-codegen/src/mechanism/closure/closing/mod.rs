@@ -1,5 +1,6 @@
 //! The types of loop closings: a file for each, and a line for each in [`CLOSING_TYPES`].
 
+mod closing_type;
 mod distance;
 mod hinge;
 mod point;
@@ -7,24 +8,7 @@ mod slider;
 mod universal;
 mod weld;
 
-use super::row::RowKind;
-
-/// A word for a loop's `type` in the spec, with the rows that it imposes.
-#[derive(Debug, PartialEq, Eq)]
-pub struct ClosingType {
-    /// The word in the spec.
-    pub keyword: &'static str,
-    /// Its meaning: one line of documentation.
-    pub about: &'static str,
-    /// Its rows, with their names.
-    pub rows: &'static [(&'static str, RowKind)],
-    /// Whether it has an axis.
-    pub axial: bool,
-    /// Whether it has a length.
-    pub length: bool,
-    /// Whether the two places coincide.
-    pub coincident: bool,
-}
+pub use closing_type::ClosingType;
 
 /// All types of loop closings.
 pub static CLOSING_TYPES: [&ClosingType; 6] = [

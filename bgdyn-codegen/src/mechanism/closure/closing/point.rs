@@ -1,6 +1,6 @@
 //! The closing point: a spherical joint.
 
-use super::ClosingType;
+use super::closing_type::ClosingType;
 use crate::mechanism::closure::row::RowKind::Place;
 
 /// The places coincide: every rotation is free.

@@ -1,6 +1,6 @@
 //! The closing slider: a prismatic joint.
 
-use super::ClosingType;
+use super::closing_type::ClosingType;
 use crate::mechanism::closure::row::RowKind::{Place, Turn};
 
 /// Place b moves along the axis of place a, without rotation.

@@ -1,6 +1,6 @@
 //! The closing universal joint.
 
-use super::ClosingType;
+use super::closing_type::ClosingType;
 use crate::mechanism::closure::row::RowKind::{Angle, Place};
 
 /// The places coincide, and axis z of a is perpendicular to axis x of b.

@@ -1,6 +1,6 @@
 //! The closing weld.
 
-use super::ClosingType;
+use super::closing_type::ClosingType;
 use crate::mechanism::closure::row::RowKind::{Place, Turn};
 
 /// The places coincide, and nothing moves: a link that is cut in two.

@@ -12,7 +12,7 @@ use crate::function::{Function, in_triangle};
 use crate::method::Method;
 
 /// The motion of the open tree for the independent velocities and accelerations.
-pub(in crate::formulation) struct LoopMotion<'a, 'g> {
+pub(super) struct LoopMotion<'a, 'g> {
     map: VelocityMap<'a, 'g>,
     /// S u
     velocities: Vec<Expr<'g>>,
@@ -40,7 +40,7 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
 
 impl<'a, 'g> LoopMotion<'a, 'g> {
     /// Returns the motion for the arguments of a method; `bias` returns −γ for velocities of the tree.
-    pub(in crate::formulation) fn new(
+    pub(super) fn new(
         map: VelocityMap<'a, 'g>,
         x: &Arguments<'g>,
         bias: impl FnOnce(&[Expr<'g>]) -> Vec<Expr<'g>>,
@@ -68,7 +68,7 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
 
 /// Returns the expressions of a method; `None` for one that is not composed of those of the tree. `residuals` are
 /// c(q).
-pub(in crate::formulation) fn compose<'g>(
+pub(super) fn compose<'g>(
     b: &'g Builder,
     closed: &ClosedTree,
     method: Method,

@@ -1,0 +1,44 @@
+//! The arguments of methods.
+
+/// An argument of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// Positions q: rad, m.
+    Q,
+    /// Velocities v: rad/s, m/s.
+    V,
+    /// Accelerations a: rad/s², m/s².
+    A,
+    /// Joint efforts tau: N·m, N.
+    Tau,
+    /// State of a scene.
+    State,
+    /// Inputs of a scene.
+    Input,
+    /// Accelerations of a scene's coordinates.
+    Accelerations,
+    /// State of a scene with momenta in place of velocities.
+    Canonical,
+    /// Modes of a scene, beside [`Argument::Canonical`].
+    Modes,
+    /// Time, s.
+    Time,
+}
+
+impl Argument {
+    /// Returns its name in signatures.
+    pub fn name(self) -> &'static str {
+        match self {
+            Argument::Q => "q",
+            Argument::V => "v",
+            Argument::A => "a",
+            Argument::Tau => "tau",
+            Argument::State => "state",
+            Argument::Input => "input",
+            Argument::Accelerations => "acceleration",
+            Argument::Canonical => "z",
+            Argument::Modes => "modes",
+            Argument::Time => "t",
+        }
+    }
+}
