@@ -74,7 +74,7 @@ macro_rules! compiled {
             }
 
             fn outcome(&self, values: Vec<T>, refused: T::Refused) -> Outcome<T> {
-                let accelerations = vector(&values[..$module::NV]);
+                let accelerations: SVector<T, { $module::NV }> = vector(&values[..$module::NV]);
                 let names = &$module::JOINT_NAMES;
                 let finished = T::finish(accelerations, refused, names, |_| ());
                 finished.map(|_| values).map_err(|error| format!("{error:?}"))
