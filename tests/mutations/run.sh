@@ -176,6 +176,24 @@ mutate "position of a joint followed in velocity" bgdyn-codegen/src/emit/joint_s
 mutate "locked leaders" bgdyn-codegen/src/mechanism/lock.rs \
     'Some(leader.ratio * *at)' 'Some(*at)' "${codegen[@]}" joints coupled_scenes::
 
+# Loops and prescribed motions.
+closure=bgdyn-codegen/src/mechanism/closure
+formulation=bgdyn-codegen/src/formulation
+mutate "accelerations along a loop" $closure/chain.rs \
+    'before.cross(along + l) + omega.cross(l);' 'before.cross(along + l);' "${codegen[@]}" loops multipliers::
+mutate "levers on the side of place a" $closure/chain.rs \
+    '(false, true) => -sum(&frames.segments[..=k]),' '(false, true) => sum(&frames.segments[..=k]),' \
+    "${codegen[@]}" loops references::
+mutate "the velocity of a rod's ends" $closure/row.rs \
+    'along + v.dot(v) * (Dd::ONE / length)' 'along' "${codegen[@]}" loops multipliers::
+mutate "efforts of dependent joints" $formulation/velocity_map.rs \
+    'sum - row[i.0] * *l' 'sum + row[i.0] * *l' "${codegen[@]}" loops multipliers::
+mutate "pivots of another branch" $formulation/elimination.rs \
+    'Some(true) => -(one / (-value).pivot(size, index)),' 'Some(true) => one / value,' -p bgdyn --test closed_loops reach::
+mutate "accelerations of prescribed joints" $formulation/prescribed.rs \
+    'FreeArgument::Prescribed(k) => Some(prescribed(k, 2)),' 'FreeArgument::Prescribed(k) => Some(prescribed(k, 1)),' \
+    "${codegen[@]}" joints prescribed
+
 if [[ $survivors -gt 0 ]]; then
     echo "$survivors mutations were not caught, or could not be made" >&2
     exit 1

@@ -69,6 +69,7 @@ impl Equations {
             NoClosedForm::NotTrigonometric
             | NoClosedForm::MovingBase
             | NoClosedForm::Prescribed { .. }
+            | NoClosedForm::Loop { .. }
             | NoClosedForm::Joint { .. } => {
                 anyhow!("{file}: no closed form: {refused}")
             }

@@ -15,6 +15,8 @@ pub(crate) struct Chart {
     pub links: Vec<ChartLink>,
     /// Lines between two sites with an element along them, drawn like links without a joint.
     pub lines: Vec<ChartLink>,
+    /// The velocities that loops hold at zero.
+    pub loops: Vec<ChartLink>,
     /// Frames of links with an element: their flow is [ω; v].
     pub sites: Vec<ChartLink>,
     /// Names of links that no coordinate moves, which have no junctions.
@@ -27,9 +29,10 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
-    /// Returns links, then lines, then sites.
+    /// Returns links, then lines, then sites, then loops.
     pub fn bands(&self) -> impl Iterator<Item = &ChartLink> {
-        self.links.iter().chain(&self.lines).chain(&self.sites)
+        let places = self.lines.iter().chain(&self.sites);
+        self.links.iter().chain(places).chain(&self.loops)
     }
 
     /// Returns every flow, link by link.

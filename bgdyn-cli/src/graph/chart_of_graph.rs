@@ -72,6 +72,7 @@ impl Chart {
                 .collect(),
             links,
             lines: Vec::new(),
+            loops: Vec::new(),
             sites: Vec::new(),
             still: still.map(name).collect(),
             folded,

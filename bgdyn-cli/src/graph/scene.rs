@@ -63,7 +63,7 @@ impl Chart {
                     loops += 1;
                     let n = subscript(loops);
                     let name = format!("loop {name}, rad/s and m/s");
-                    (name, format!("ċ{n}"), format!("∂c{n}/∂q"), &mut chart.lines)
+                    (name, format!("ċ{n}"), format!("∂c{n}/∂q"), &mut chart.loops)
                 }
             };
             let names = chart.velocities.iter().map(|v| v.name.as_str());

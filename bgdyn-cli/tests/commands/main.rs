@@ -10,6 +10,7 @@ mod generate;
 mod golden_specs;
 mod graph;
 mod import;
+mod loops;
 mod messages;
 mod ops;
 mod pictures;

@@ -38,9 +38,15 @@ fn files(folder: &str) -> Vec<(String, String)> {
 #[test]
 fn every_spec_fits() {
     let validator = validator();
-    let all = ["specs", "tests/golden/specs", "bgdyn-codegen/tests/outside"]
-        .map(files)
-        .concat();
+    let all = [
+        "specs",
+        "specs/constraints",
+        "specs/loops",
+        "tests/golden/specs",
+        "bgdyn-codegen/tests/outside",
+    ]
+    .map(files)
+    .concat();
     assert!(all.len() > 30);
     for (name, text) in all {
         let instance = yaml(&text);

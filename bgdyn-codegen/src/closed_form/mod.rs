@@ -60,6 +60,13 @@ pub fn closed_form(mechanism: &Mechanism, limit: usize) -> Result<ClosedForm, No
     if mechanism.base().is_some() {
         return Err(NoClosedForm::MovingBase);
     }
+    if let Some(one) = mechanism
+        .closure()
+        .and_then(|closure| closure.loops.first())
+    {
+        let name = one.name.clone();
+        return Err(NoClosedForm::Loop { name });
+    }
     if let Some(joint) = mechanism.prescribed_names().into_iter().next() {
         return Err(NoClosedForm::Prescribed { joint });
     }

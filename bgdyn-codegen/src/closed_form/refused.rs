@@ -24,6 +24,11 @@ pub enum NoClosedForm {
     NotTrigonometric,
     /// The motion of the base is given.
     MovingBase,
+    /// It has a kinematic loop.
+    Loop {
+        /// Its name.
+        name: String,
+    },
     /// The motion of a joint is prescribed.
     Prescribed {
         /// Its name.
@@ -50,6 +55,7 @@ impl fmt::Display for NoClosedForm {
             NoClosedForm::MovingBase => {
                 write!(f, "the motion of its base is given (`base: given`)")
             }
+            NoClosedForm::Loop { name } => write!(f, "it has the loop `{name}`"),
             NoClosedForm::Prescribed { joint } => {
                 write!(f, "the motion of the joint `{joint}` is prescribed")
             }

@@ -10,8 +10,9 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs, summary_of};
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{body, closure, code, constants, entries, explain, joint_segments, traits};
-use crate::bond_graph::PositionVariable;
+use crate::bond_graph::{LinkFrame, PositionVariable};
 use crate::function::Function;
+use crate::mechanism::Motion;
 use crate::method::Method;
 use crate::model::Model;
 
@@ -84,17 +85,24 @@ fn position_docs(model: &Model) -> Vec<String> {
     if graph.positions.iter().all(own) {
         return Vec::new();
     }
-    let mut docs = vec![
-        String::new(),
-        " Velocities of joints with several degrees are along and about the link's axes; `position_rates`"
-            .into(),
-        " returns the rates of the positions. Quaternions are x, y, z, w, from link axes to the axes of the"
-            .into(),
-        " joint's origin, of length 1 unless the spec says `quaternion: any`.".into(),
+    let several = |frame: &LinkFrame| matches!(frame.motion, Motion::Compound(_));
+    let words: &[&str] = match graph.closed.is_some() && !graph.frames.iter().any(several) {
+        true => {
+            &[" Positions of all joints of the open tree; `position_rates` returns their rates."]
+        }
+        false => &[
+            " Velocities of joints with several degrees are along and about the link's axes; `position_rates`",
+            " returns the rates of the positions. Quaternions are x, y, z, w, from link axes to the axes of the",
+            " joint's origin, of length 1 unless the spec says `quaternion: any`.",
+        ],
+    };
+    let mut docs = vec![String::new()];
+    docs.extend(words.iter().map(ToString::to_string));
+    docs.extend([
         String::new(),
         " | position | name | unit |".into(),
         " |---|---|---|".into(),
-    ];
+    ]);
     for (p, position) in graph.positions.iter().enumerate() {
         let unit = position.unit;
         docs.push(format!(" | {p} | `{}` | {unit} |", position.name));
@@ -206,6 +214,9 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             " Names the joint whose pivot vanishes where the mass matrix is singular, or the argument".into(),
             " that is NaN or infinite.".into(),
         ]);
+        if model.bond_graph.closed.is_some() {
+            docs.push(" Names the loop at a singular position, and on another branch than that of the start.".into());
+        }
     }
     docs
 }

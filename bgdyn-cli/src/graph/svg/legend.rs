@@ -37,6 +37,7 @@ const TRIPLE: &str = "bond of three components x, y, z";
 const MTF: &str = "transformer modulated by the coordinates below its modulus, which is ∂rᵢ/∂qⱼ on the way to ṙ (m/rad; 1 for a slide) and ρⱼⁱ on the way to ω (1). In brackets x, y, z: 0 at all times, a constant (three digits), or · varying.";
 const LINE_RATE: &str = "rate of the length between two places, m/s; the transformers on the way there are ∂s/∂qⱼ, one number each";
 const SITE: &str = "motion [ω; v] of a place of a link, rad/s and m/s; the transformers on the way there are the columns of its Jacobian J, of six numbers each";
+const LOOP: &str = "velocity of place b of a loop relative to its place a, one number for each row: the flow source holds it at 0, and its effort are the multipliers λ; the transformers on the way there are rows of B";
 const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
@@ -44,6 +45,7 @@ const INTEGRAL: &str = ". Where its stroke is at the store, its own state gives 
 const SOURCE: &str = "source of effort: P the drive of a joint, R the weight of a link, N; u a voltage, p a pressure";
 
 const FLOW: &str = "source of flow: a reference that moves by itself";
+const LOOP_FLOW: &str = "source of flow: 0 in a loop";
 const GEAR: &str = "on a joint's drive: a gear, at the joint's scale, with its efficiency η";
 const CYLINDER: &str = "on a joint or a line: a side of a cylinder, of area A: effort = A · pressure, flow of fluid = A · velocity";
 const RESISTOR: &str =
@@ -88,12 +90,17 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
     let integral = chart.has(|p| p.symbol == "I" && p.on_junction == Some(false));
     let own = if integral { INTEGRAL } else { "." };
     let store = [STORE, own].concat();
+    let flow = match chart.loops.is_empty() {
+        true => FLOW,
+        false => LOOP_FLOW,
+    };
     let stands = |symbol| chart.has(|port| port.symbol == symbol);
     let filled = |port: &Port| port.ports.iter().any(|behind| behind.symbol == "0");
     let entries = [
         ("MTF", MTF, of_symbol("MTF")),
         ("ṡ", LINE_RATE, !chart.lines.is_empty()),
         ("V", SITE, !chart.sites.is_empty()),
+        ("ċ", LOOP, !chart.loops.is_empty()),
         ("TF", TF, of_symbol("TF")),
         (
             "p",
@@ -102,7 +109,7 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
         ),
         ("I", store.as_str(), stands("I")),
         ("Se", SOURCE, stands("Se")),
-        ("Sf", FLOW, stands("Sf")),
+        ("Sf", flow, stands("Sf")),
         ("TF", GEAR, chart.has(|p| p.symbol == "TF" && !filled(p))),
         ("TF", CYLINDER, chart.has(|p| p.symbol == "TF" && filled(p))),
         ("R", RESISTOR, stands("R")),

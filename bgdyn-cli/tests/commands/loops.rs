@@ -1,0 +1,79 @@
+//! Mechanisms with loops: what the commands print of them.
+
+use serde_json::{Value, json};
+
+use crate::{bgdyn, scratch};
+
+const FIVE_BAR: &str = "specs/loops/five_bar.yaml";
+
+#[test]
+fn check_prints_rows_branch_and_mobility() {
+    let checked = bgdyn(&["check", FIVE_BAR]).good();
+    let lines: Vec<&str> = checked.lines().collect();
+    assert_eq!(
+        lines,
+        [
+            "ok: five_bar, NQ 4, NV 2: proximal1_angle, proximal2_angle",
+            "loop tip_pin, hinge: rows x, y; always closed: z, tilt x, tilt y; branch left",
+            "mobility 2: 4 velocities less 2 rows; independent: proximal1_angle, proximal2_angle; \
+             dependent: distal2_angle, distal1_angle",
+        ]
+    );
+    let report: Value =
+        serde_json::from_str(&bgdyn(&["check", FIVE_BAR, "--json"]).good()).expect("JSON");
+    let closure = &report["model"]["closure"];
+    assert_eq!(
+        closure["loops"][0]["dropped_rows"],
+        json!(["z", "tilt x", "tilt y"])
+    );
+    assert_eq!(
+        closure["independent"],
+        json!(["proximal1_angle", "proximal2_angle"])
+    );
+}
+
+#[test]
+fn the_graph_has_a_flow_source_for_each_loop() {
+    let drawn = bgdyn(&["graph", FIVE_BAR, "--format", "dot"]).good();
+    assert!(drawn.contains("loop tip_pin"), "{drawn}");
+    assert!(drawn.contains("Sf: 0, effort λ"), "{drawn}");
+    // The drives are those of the independent joints.
+    assert!(
+        drawn.contains("Se: P₁") && drawn.contains("Se: P₃"),
+        "{drawn}"
+    );
+    assert!(!drawn.contains("Se: P₂"), "{drawn}");
+    let refused = bgdyn(&["equations", FIVE_BAR]).bad_input();
+    assert!(
+        refused.contains("no closed form: it has the loop `tip_pin`"),
+        "{refused}"
+    );
+}
+
+/// Positions that are open by a rounding are closed; others are refused with the loop and the gap.
+#[test]
+fn eval_closes_positions_that_are_almost_closed() {
+    let closed = [2.0, -1.269858316944471, 1.1, 1.293970919622041];
+    let states = |by: f64| {
+        let q = [closed[0], closed[1] + by, closed[2], closed[3]];
+        json!({ "states": [{ "q": q, "v": [0.5, 0], "a": [1, 0], "tau": [1, 0] }] }).to_string()
+    };
+    let value = |by: f64| -> Value {
+        let file = scratch("loops_eval", &format!("states{by}.json"), states(by));
+        let run = ["eval", FIVE_BAR, "forward_dynamics", "--states", &file];
+        serde_json::from_str(&bgdyn(&run).good()).expect("JSON")
+    };
+    let (exact, rounded) = (value(0.0), value(1e-7));
+    for k in 0..2 {
+        let [x, y] = [&exact, &rounded].map(|v| v["results"][0][k].as_f64().expect("a number"));
+        assert!((x - y).abs() < 1e-10 * x.abs(), "{x} {y}");
+    }
+    let file = scratch("loops_eval", "open.json", states(0.01));
+    let run = bgdyn(&["eval", FIVE_BAR, "forward_dynamics", "--states", &file]);
+    let said = format!("{}{}", run.stdout, run.stderr);
+    assert_ne!(run.code, Some(0));
+    assert!(
+        said.contains("the loop `tip_pin` is open by 0.00"),
+        "{said}"
+    );
+}
