@@ -7,6 +7,7 @@ mod maker;
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;
 
+mod counts;
 mod faults;
 mod frame_rows;
 mod multipliers;

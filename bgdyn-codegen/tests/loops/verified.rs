@@ -69,3 +69,40 @@ fn a_turned_sign_is_refused_in_every_function() {
         }
     }
 }
+
+/// Loops beside other features: a moving base, run-time parameters, joints that follow others inside of the loop.
+#[test]
+fn loops_with_other_features_are_accepted() {
+    let five_bar = spec("five_bar");
+    let given = five_bar.replacen("links:", "base: given\nlinks:", 1);
+    let parameters = five_bar.replace("mass: 0.5", "mass: { parameter: rod_mass, value: 0.5 }");
+    // The second crank follows the first one by a gear, and by `mimic`: one velocity is left.
+    let gear = "constraints:\n  belt: { type: gear, joints: { proximal2_angle: 2, proximal1_angle: -1 } }\nloops:";
+    let one_crank = five_bar.replace(", proximal2_angle: 1.1", "");
+    let geared = one_crank.replacen("loops:", gear, 1).replace(
+        "independent: [proximal1_angle, proximal2_angle]",
+        "independent: [proximal1_angle]",
+    );
+    let mimicked = one_crank
+        .replace(
+            "{ name: proximal2_angle, type: continuous,",
+            "{ name: proximal2_angle, type: continuous, mimic: { joint: proximal1_angle, ratio: 0.5 },",
+        )
+        .replace("independent: [proximal1_angle, proximal2_angle]", "independent: [proximal1_angle]");
+    for (what, text) in [
+        ("a given base", given),
+        ("parameters", parameters),
+        ("a gear", geared),
+        ("mimic", mimicked),
+    ] {
+        assert_ne!(text, five_bar, "{what}");
+        for way in [None, Some("subspaces")] {
+            let model = whole(&text, way);
+            match verify(&model, &options(way)) {
+                Ok(()) => {}
+                Err(Refusal::Unequal(found)) => panic!("{what}, {way:?}: {}", explain(&found)),
+                Err(refusal) => panic!("{what}, {way:?}: {refusal:?}"),
+            }
+        }
+    }
+}
