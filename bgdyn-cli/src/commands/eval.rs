@@ -79,12 +79,10 @@ fn evaluate(
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
     if let Some(joint) = refused {
-        let loops = mechanism
-            .closure()
-            .into_iter()
-            .flat_map(|closure| &closure.loops);
-        let pivots: Vec<&String> = rates.iter().chain(loops.map(|one| &one.name)).collect();
-        return Err(singular(pivots[joint]));
+        return Err(match joint.checked_sub(rates.len()) {
+            None => singular(&rates[joint]),
+            Some(closes) => singular_loop(mechanism, closes),
+        });
     }
     if values.iter().any(|x| !x.is_finite()) {
         return Err(plain(
@@ -130,6 +128,17 @@ fn positions(mechanism: &Mechanism, state: &Value) -> Result<Vec<f64>, Failure> 
         None => Ok(q),
         Some(closure) => closed(closure, &q),
     }
+}
+
+/// Returns the failure at a singular position of a loop, or beyond one.
+fn singular_loop(mechanism: &Mechanism, closes: usize) -> Failure {
+    let one = mechanism
+        .closure()
+        .and_then(|closure| closure.loops.get(closes));
+    let name = one.map_or("", |one| &one.name);
+    plain(format!(
+        "the loop `{name}` is at a singular position, or on another branch than that of the start"
+    ))
 }
 
 /// Returns positions with the dependent ones changed so that the loops close. Loops that are open by more than

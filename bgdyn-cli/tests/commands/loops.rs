@@ -77,3 +77,18 @@ fn eval_closes_positions_that_are_almost_closed() {
         "{said}"
     );
 }
+
+/// The mirror image of the tip at the line between the elbows closes, and is no position of this mechanism.
+#[test]
+fn eval_names_the_loop_on_another_branch() {
+    let q = [2.0, -2.747621733967752, 1.1, -3.5114509705342645];
+    let states = json!({ "states": [{ "q": q, "v": [0, 0], "tau": [0, 0] }] }).to_string();
+    let file = scratch("loops_branch", "states.json", states);
+    let run = bgdyn(&["eval", FIVE_BAR, "forward_dynamics", "--states", &file]);
+    let said = format!("{}{}", run.stdout, run.stderr);
+    assert_ne!(run.code, Some(0));
+    assert!(
+        said.contains("the loop `tip_pin` is at a singular position"),
+        "{said}"
+    );
+}

@@ -31,7 +31,7 @@ pub(super) fn most_accurate(
     let asked = asked.filter(|f| f.knows(method));
     let tried = FORMULATIONS.into_iter().filter(|f| match asked {
         Some(asked) => f.name() == asked.name(),
-        None => f.knows(method) && f.serves(graph) && is_affordable(graph, method, *f),
+        None => f.knows(method) && f.serves(computed(graph)) && is_affordable(graph, method, *f),
     });
     let candidates: Vec<Function> = tried.flat_map(|f| variants(graph, method, f)).collect();
     let exact = exact_results(&candidates, graph);
@@ -41,6 +41,11 @@ pub(super) fn most_accurate(
     })
 }
 
+/// Returns the graph that formulations compute functions of: with loops that of the open tree.
+fn computed(graph: &BondGraph) -> &BondGraph {
+    graph.closed.as_deref().map_or(graph, |closed| &closed.tree)
+}
+
 fn is_affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulation) -> bool {
     let most = match method {
         Method::CoriolisMatrix
@@ -48,7 +53,7 @@ fn is_affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulatio
         | Method::ForwardDynamicsDerivatives => MAX_LITERAL_DERIVED,
         _ => MAX_LITERAL,
     };
-    formulation.name() != LITERAL || graph.coordinates.len() <= most
+    formulation.name() != LITERAL || computed(graph).coordinates.len() <= most
 }
 
 /// Returns a formulation's function, factored and not factored.
@@ -63,6 +68,7 @@ fn variants(
         Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
             choice.function(method).map(|f| (*f).clone())
         }
+        _ if graph.closed.is_some() => choice.function(method).map(|f| (*f).clone()),
         _ => choice.asked_plain(method),
     };
     let Some(plain) = plain else {

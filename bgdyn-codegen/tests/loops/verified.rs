@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::formulation;
 use bgdyn_codegen::model::Model;
-use bgdyn_codegen::options::Options;
+use bgdyn_codegen::options::{Options, Preference};
 use bgdyn_codegen::pipeline::{model, verify};
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::{check_functions, explain};
@@ -105,4 +105,18 @@ fn loops_with_other_features_are_accepted() {
             }
         }
     }
+}
+
+/// `prefer: accuracy` has every method, and the generator's check accepts them.
+#[test]
+fn the_most_accurate_functions_are_accepted() {
+    let most_accurate = Options {
+        prefer: Preference::Accuracy,
+        ..Options::default()
+    };
+    let mechanism = Robot::read(&spec("slider_crank")).mechanism;
+    let usual = model(mechanism.clone(), &Options::default()).expect("a model");
+    let model = model(mechanism, &most_accurate).expect("a model");
+    assert_eq!(model.functions.len(), usual.functions.len());
+    assert_eq!(verify(&model, &most_accurate), Ok(()));
 }
