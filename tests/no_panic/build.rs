@@ -10,13 +10,14 @@ use syn::{
     File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, Visibility,
 };
 
-const SPECS: [&str; 6] = [
+const SPECS: [&str; 7] = [
     "specs/scara.yaml",
     "specs/puma560.yaml",
     "specs/panda.yaml",
     "firmware/specs/scara_payload.yaml",
     "tests/free_joints/quadrotor_arm.yaml",
     "tests/free_joints/any_length.yaml",
+    "specs/loops/five_bar.yaml",
 ];
 
 /// Scenes with effects of every kind.
