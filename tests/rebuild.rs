@@ -59,7 +59,7 @@ struct Scratch(Outside);
 impl Scratch {
     fn new() -> Self {
         let bgdyn = Path::new(env!("CARGO_MANIFEST_DIR"));
-        let package = Outside::new(bgdyn, "scratch", "dyn_gen", "");
+        let package = Outside::new(bgdyn, "scratch", "dyn_gen");
         for old in ["src", "specs"] {
             fs::remove_dir_all(package.folder.join(old)).ok();
         }

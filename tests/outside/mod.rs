@@ -1,5 +1,4 @@
-//! Packages outside the workspace that depend on bgdyn as a user's do. They share what is compiled of their
-//! dependencies: the same features, the same settings.
+//! Packages outside of the workspace that depend on bgdyn as a user's do.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,14 +29,13 @@ pub struct Outside {
 }
 
 impl Outside {
-    /// Writes the manifest of an empty package. `workspace` is the folder of bgdyn, which the package calls `crate_name`;
-    /// `targets` are more lines of the manifest.
-    pub fn new(workspace: &Path, name: &str, crate_name: &str, targets: &str) -> Self {
+    /// Writes the manifest of an empty package. `workspace` is the folder of bgdyn, which the package calls `crate_name`.
+    pub fn new(workspace: &Path, name: &str, crate_name: &str) -> Self {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
         let package = Outside { folder };
         let bgdyn = workspace.display().to_string().replace('\\', "/");
         let manifest = MANIFEST.replace("NAME", name).replace("CRATE", crate_name);
-        package.write("Cargo.toml", &(manifest.replace("BGDYN", &bgdyn) + targets));
+        package.write("Cargo.toml", &manifest.replace("BGDYN", &bgdyn));
         if let Ok(lock) = fs::read_to_string(workspace.join("Cargo.lock")) {
             package.write("Cargo.lock", &lock);
         }
