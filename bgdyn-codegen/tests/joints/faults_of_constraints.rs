@@ -1,6 +1,6 @@
 //! Faults of constraints: each with its place, its rule and the numbers seen.
 
-use super::findings::{found, with_joints};
+use super::findings::{found, refused_text, with_joints};
 
 const JOINTS: [&str; 4] = [
     "name: left, type: revolute",
@@ -12,17 +12,7 @@ const JOINTS: [&str; 4] = [
 /// Asserts exactly one fault of a file with these constraints, and further keys.
 fn refused(constraints: &str, more: &str, rule: &str, path: &str, words: &[&str]) {
     let text = format!("{}constraints:\n{constraints}{more}", with_joints(&JOINTS));
-    let faults = found(&text);
-    let shown = faults.render("arm.yaml", &text);
-    assert_eq!(faults.0.len(), 1, "{text}\n{shown}");
-    let fault = &faults.0[0];
-    assert_eq!((fault.rule, fault.path.as_str()), (rule, path), "{shown}");
-    let help = fault.help.clone().unwrap_or_default();
-    assert!(!help.is_empty(), "{rule}: no help");
-    for word in words {
-        let said = format!("{}\n{help}", fault.message);
-        assert!(said.contains(word), "{rule}: no {word:?} in {said:?}");
-    }
+    refused_text(&text, rule, path, words);
 }
 
 fn one(entry: &str, rule: &str, path: &str, words: &[&str]) {

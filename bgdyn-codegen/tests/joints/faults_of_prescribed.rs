@@ -4,7 +4,7 @@ use bgdyn_codegen::formulation;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
 
-use super::findings::{found, with_joints};
+use super::findings::{found, refused_text, with_joints};
 use super::robot::Robot;
 
 const JOINTS: [&str; 4] = [
@@ -17,17 +17,7 @@ const JOINTS: [&str; 4] = [
 /// Asserts exactly one fault of a file with these joints and keys.
 fn refused(joints: &[&str], keys: &str, rule: &str, path: &str, words: &[&str]) {
     let text = format!("{}{keys}", with_joints(joints));
-    let faults = found(&text);
-    let shown = faults.render("arm.yaml", &text);
-    assert_eq!(faults.0.len(), 1, "{text}\n{shown}");
-    let fault = &faults.0[0];
-    assert_eq!((fault.rule, fault.path.as_str()), (rule, path), "{shown}");
-    let help = fault.help.clone().unwrap_or_default();
-    assert!(!help.is_empty(), "{rule}: no help");
-    for word in words {
-        let said = format!("{}\n{help}", fault.message);
-        assert!(said.contains(word), "{rule}: no {word:?} in {said:?}");
-    }
+    refused_text(&text, rule, path, words);
 }
 
 const LEFT: &str = "constraints:\n  c: { type: prescribed, joint: left }\n";

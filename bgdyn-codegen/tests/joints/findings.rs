@@ -44,9 +44,23 @@ pub(super) fn warned(joints: &[&str], rule: &str, path: &str, words: &[&str]) {
     finding(joints, Severity::Warning, (rule, path), words);
 }
 
-fn finding(joints: &[&str], severity: Severity, (rule, path): (&str, &str), words: &[&str]) {
-    let text = with_joints(joints);
-    let fault = one(&text);
+fn finding(joints: &[&str], severity: Severity, at: (&str, &str), words: &[&str]) {
+    let fault = finding_in(&with_joints(joints), severity, at, words);
+    // The position is that of the line of the link, after its dash.
+    let line = 4 + at.1["links[".len()..]
+        .split(']')
+        .next()
+        .map_or(0, |i| i.parse::<usize>().expect("an index"));
+    assert_eq!(fault.position.line, line, "{}", at.0);
+}
+
+/// Asserts exactly one fault of a text, in the same way.
+pub(super) fn refused_text(text: &str, rule: &str, path: &str, words: &[&str]) {
+    finding_in(text, Severity::Fault, (rule, path), words);
+}
+
+fn finding_in(text: &str, severity: Severity, (rule, path): (&str, &str), words: &[&str]) -> Fault {
+    let fault = one(text);
     assert_eq!(fault.severity, severity, "{rule}");
     let help = fault.help.clone().unwrap_or_default();
     let said = format!("{}\n{help}", fault.message);
@@ -60,12 +74,7 @@ fn finding(joints: &[&str], severity: Severity, (rule, path): (&str, &str), word
     for word in words {
         assert!(said.contains(word), "{rule}: no {word:?} in {said:?}");
     }
-    // The position is that of the line of the link, after its dash.
-    let line = 4 + path["links[".len()..]
-        .split(']')
-        .next()
-        .map_or(0, |i| i.parse::<usize>().expect("an index"));
-    assert_eq!(fault.position.line, line, "{rule}");
+    fault
 }
 
 pub(super) fn sound(joints: &[&str]) -> Robot {

@@ -1,6 +1,6 @@
 //! Faults of loops: each with its place, its rule and the numbers seen.
 
-use bgdyn_codegen::fault::Faults;
+use super::findings::{found, refused_text};
 
 /// A four-bar without its loop; the coupler is 0.4 m long, the rocker 0.3 m, the ground 0.35 m, the crank 0.12 m.
 const LINKS: &str = "format: 1
@@ -16,24 +16,10 @@ frames:
 
 const HINGE: &str = "{ name: pin, type: hinge, a: { link: coupler, origin: { xyz: [0.4, 0, 0] } }, b: { frame: tip } }";
 
-fn found(text: &str) -> Faults {
-    bgdyn_codegen::read(text, None).1
-}
-
 /// Asserts exactly one fault of a file with these loops, and further keys.
 fn refused(loops: &str, more: &str, rule: &str, path: &str, words: &[&str]) {
     let text = format!("{LINKS}loops:\n  - {loops}\n{more}");
-    let faults = found(&text);
-    let shown = faults.render("linkage.yaml", &text);
-    assert_eq!(faults.0.len(), 1, "{text}\n{shown}");
-    let fault = &faults.0[0];
-    assert_eq!((fault.rule, fault.path.as_str()), (rule, path), "{shown}");
-    let help = fault.help.clone().unwrap_or_default();
-    assert!(!help.is_empty(), "{rule}: no help");
-    for word in words {
-        let said = format!("{}\n{help}", fault.message);
-        assert!(said.contains(word), "{rule}: no {word:?} in {said:?}");
-    }
+    refused_text(&text, rule, path, words);
 }
 
 /// The hinge with one part of its text replaced.
@@ -148,6 +134,18 @@ fn keys_of_types() {
         "unknown-name",
         ".near.q4",
         &["`q4`", "`q1`"],
+    );
+}
+
+/// `near` has the unit of the joint.
+#[test]
+fn positions_to_start_from_have_units() {
+    changed(
+        "type: hinge",
+        "type: hinge, near: { q1: 3 cm }",
+        "unit-misfit",
+        ".near.q1",
+        &["3 cm"],
     );
 }
 

@@ -7,6 +7,10 @@ mod maker;
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;
 
+#[path = "../joints/findings.rs"]
+#[allow(dead_code, reason = "shared with the tests of joints")]
+mod findings;
+
 mod counts;
 mod faults;
 mod frame_rows;

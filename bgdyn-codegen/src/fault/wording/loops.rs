@@ -99,18 +99,19 @@ pub(crate) fn branch_of_spatial_loop(location: &Location) -> Fault {
         .with_help("give positions on the branch: `near: { elbow: 30 deg }`")
 }
 
-/// `value` has its unit.
+/// `unit` is empty for a number without one.
 pub(crate) fn loop_row_never_holds(
     location: &Location,
     (name, row): (&str, &str),
     (value, unit): (f64, &str),
 ) -> Fault {
-    let value = six_digits(value);
+    let measured = format!("{} {unit}", six_digits(value));
     let message = format!(
-        "the loop {} can never close: its row `{row}` is {value} {unit} at every position of the joints",
-        quote(name)
+        "the loop {} can never close: its row `{row}` is {} at every position of the joints",
+        quote(name),
+        measured.trim_end()
     );
-    Fault::new(location, "loop-never-closes", message.replace(" ,", ","))
+    Fault::new(location, "loop-never-closes", message)
         .with_help("correct the places: `origin` and `axis` of `a` and `b`, or the origins of the joints in the loop")
 }
 

@@ -41,18 +41,6 @@ impl Closure {
         rows.iter().map(value).unzip()
     }
 
-    /// Returns −γ = Ḃ q̇ for closed velocities of the open tree.
-    pub fn bias(&self, q: &[Dd], v: &[Dd]) -> Vec<Dd> {
-        let row = |row: &LoopRow| {
-            let one = &self.loops[row.closes];
-            let frames = one.chain.frames(q, &DoubleDouble);
-            let place = one.chain.place(&frames, false, &DoubleDouble);
-            let rates = one.chain.rates(&frames, v, &DoubleDouble);
-            row.kind.bias(&place, &rates, one.length)
-        };
-        self.rows.iter().map(row).collect()
-    }
-
     /// Returns S, row by row for the velocities of the open tree; `None` at a singular position.
     pub fn velocity_map(&self, q: &[Dd]) -> Option<Vec<Vec<Dd>>> {
         let (_, jacobian) = self.values(&self.rows, q);

@@ -4,8 +4,8 @@ use bgdyn_runtime::Dd;
 
 use super::read::ReadLoop;
 use crate::fault::{Faults, wording};
+use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::Closure;
-use crate::mechanism::{CoordinateId, LinkId};
 use crate::random::Random;
 
 /// Starts of the search, the given position first.
@@ -29,11 +29,8 @@ pub(super) fn assemble(
     faults: &mut Faults,
 ) -> Option<()> {
     let mut given = closure.start.clone();
-    for (link, value) in read.iter().flat_map(|one| &one.near) {
-        let at = position_of(closure, *link);
-        if let Some(p) = at {
-            given[p] = *value;
-        }
+    for (position, value) in read.iter().flat_map(|one| &one.near) {
+        given[position.0] = *value;
     }
     let moving = closure.moving();
     let others: Vec<usize> = moving
@@ -119,12 +116,4 @@ pub(super) fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
         q.clone()
     };
     (0..SAMPLES).map(next).collect()
-}
-
-/// Returns the position of a link's joint, if a loop contains it.
-fn position_of(closure: &Closure, link: LinkId) -> Option<usize> {
-    let mut steps = closure.loops.iter().flat_map(|one| &one.chain.steps);
-    let step = steps.find(|step| step.link == link)?;
-    let position = step.degrees.positions.first()?;
-    Some(position.0)
 }

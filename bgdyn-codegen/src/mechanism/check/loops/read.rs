@@ -3,11 +3,11 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::format::{Field, Located, LoopEndSpec, LoopSpec, Number, Spec};
+use crate::format::{Dimension, Field, Located, LoopEndSpec, LoopSpec, Spec, check_unit};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::check::direction::Directions;
 use crate::mechanism::closure::{CLOSING_TYPES, ChainStep, ClosingType, KinematicLoop, LoopChain};
-use crate::mechanism::{LinkId, Mechanism, Motion, Pose};
+use crate::mechanism::{Joint, LinkId, Mechanism, Motion, Pose, PositionId};
 use crate::name::{WORLD, is_identifier};
 
 /// A loop of the file.
@@ -16,7 +16,7 @@ pub(super) struct ReadLoop {
     /// Whether the places lie left or right of the line between the outer joints, with the word.
     pub(super) branch: Option<Located<bool>>,
     /// Positions to start from.
-    pub(super) near: Vec<(LinkId, Dd)>,
+    pub(super) near: Vec<(PositionId, Dd)>,
 }
 
 /// What the entries of `loops` refer to.
@@ -238,33 +238,29 @@ fn axis(
 }
 
 /// Reads the positions to start from.
-fn near(one: &LoopSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(LinkId, Dd)> {
+fn near(one: &LoopSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(PositionId, Dd)> {
+    let own = |joint: &&Joint| joint.degrees.own_positions() && joint.kind.one_degree();
+    let all = || mechanism.links().iter().map(|link| &link.joint).filter(own);
     let mut found = Vec::new();
-    for (joint, number) in one.near.value().into_iter().flatten() {
-        let known = || {
-            let links = mechanism.links().iter().enumerate();
-            links.filter(|(_, link)| {
-                link.joint.degrees.own_positions() && link.joint.kind.one_degree()
-            })
+    for (name, number) in one.near.value().into_iter().flatten() {
+        let joint = all().find(|joint| joint.name == name.value);
+        let Some((joint, &position)) = joint.and_then(|j| Some((j, j.degrees.positions.first()?)))
+        else {
+            let names: Vec<&str> = all().map(|joint| joint.name.as_str()).collect();
+            let fault = wording::unknown_constrained_joint(&name.location, &name.value, &names);
+            faults.push(fault);
+            continue;
         };
-        let at = known().find(|(_, link)| link.joint.name == joint.value);
-        match at {
-            Some((link, _)) => found.push((LinkId(link), number_of(number))),
-            None => {
-                let names: Vec<&str> = known().map(|(_, link)| link.joint.name.as_str()).collect();
-                faults.push(wording::unknown_constrained_joint(
-                    &joint.location,
-                    &joint.value,
-                    &names,
-                ));
-            }
+        let dimension = match joint.kind.motion {
+            Motion::Translation => Dimension::Length,
+            _ => Dimension::Angle,
+        };
+        match check_unit(number, &[dimension]) {
+            Some(fault) => faults.push(fault),
+            None => found.push((position, number.value.value)),
         }
     }
     found
-}
-
-fn number_of(number: &Located<Number>) -> Dd {
-    number.value.value
 }
 
 fn branch(one: &LoopSpec, planar: bool, faults: &mut Faults) -> Option<Located<bool>> {
