@@ -1,5 +1,6 @@
 //! The layout of a scene's state vector: positions, coordinates, first-order states, modes, inputs.
 
+mod dependents;
 mod followers;
 mod quasi_joints;
 mod references;
@@ -71,7 +72,7 @@ pub struct StatePosition {
     /// Its dimension.
     pub dimension: Dimension,
     /// The coordinate whose velocity is its rate; `None` for a position of a [`QuasiJoint`], whose rates
-    /// are q̇ = N(q) v, and for that of a joint whose velocity alone follows others.
+    /// are q̇ = N(q) v, for that of a [`DependentJoint`], and for that of a joint whose velocity alone follows others.
     pub coordinate: Option<usize>,
     /// Its value in the neutral position.
     pub neutral: Dd,
@@ -109,6 +110,23 @@ pub struct StateFollower {
     pub dimensions: [Dimension; 3],
 }
 
+/// A joint whose velocity follows from the independent ones through a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DependentJoint {
+    /// Its name.
+    pub name: String,
+    /// Its position.
+    pub position: usize,
+    /// Its velocity in the open tree.
+    pub velocity: CoordinateId,
+    /// The dimensions of its position, velocity and effort.
+    pub dimensions: [Dimension; 3],
+    /// Name of its velocity.
+    pub rate_name: String,
+    /// The loop that it closes, by its index.
+    pub closes: usize,
+}
+
 /// The store of a coordinate's momentum.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MomentumStore {
@@ -129,6 +147,8 @@ pub struct Variable {
     pub about: String,
     /// For inputs: the index of the coordinate whose drive it is.
     pub drives: Option<usize>,
+    /// For inputs: the index of the dependent joint whose drive it is.
+    pub drives_dependent: Option<usize>,
     /// For inputs: the coordinate that a controller on it follows.
     pub follows: Option<String>,
     /// For first-order states: the quantity that a scene gives at the start, if it is not the state
@@ -154,6 +174,7 @@ impl Variable {
             dimension,
             about,
             drives: None,
+            drives_dependent: None,
             follows: None,
             entered: None,
         }
@@ -169,6 +190,10 @@ pub struct StateLayout {
     pub quasi_joints: Vec<QuasiJoint>,
     /// The joints that follow others: they have no velocity in the state.
     pub followers: Vec<StateFollower>,
+    /// The joints whose velocities follow from others through loops: they have no velocity in the state.
+    pub dependents: Vec<DependentJoint>,
+    /// Names of the loops.
+    pub loops: Vec<String>,
     /// Velocities: joints, then other coordinates with positions, then currents.
     pub coordinates: Vec<StateCoordinate>,
     /// First-order states.
@@ -278,6 +303,18 @@ impl StateLayout {
             drives: j,
             follows: Some(follows.to_owned()),
             ..Variable::new(name, dimension, about)
+        });
+    }
+
+    /// Adds the input that is the drive of a dependent joint in a loop, by its index.
+    pub fn drive_dependent(&mut self, joint: usize, about: String) {
+        let DependentJoint {
+            name, dimensions, ..
+        } = self.dependents[joint].clone();
+        self.inputs.push(Variable {
+            drives_dependent: Some(joint),
+            follows: Some(name.clone()),
+            ..Variable::new(name, dimensions[2], about)
         });
     }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::Scalar;
+use crate::{Scalar, StateVector};
 
 /// Largest number of steps.
 const STEPS: usize = 10;
@@ -22,14 +22,14 @@ pub struct Dependent {
 }
 
 /// The result of [`close`].
-#[derive(Clone, Copy, Debug)]
-pub struct Closing<T: Scalar, const NQ: usize> {
-    /// The positions.
-    pub q: SVector<T, NQ>,
+#[derive(Clone, Debug)]
+pub struct Closing<Y: StateVector> {
+    /// The positions, or the state that begins with them.
+    pub q: Y,
     /// The largest of the last steps that were checked; below [`CLOSED`] where the loops close.
-    last: T,
-    /// The loop that does not close: at `NQ` + its index.
-    refused: T::Refused,
+    last: Y::Scalar,
+    /// The loop that does not close: the first loop's index plus its own.
+    pub refused: <Y::Scalar as Scalar>::Refused,
 }
 
 /// Newton's method converges quadratically: after a step below this one more step is exact to rounding.
@@ -39,26 +39,58 @@ const CLOSED: f64 = 1e-8;
 /// velocities of the open tree.
 #[inline]
 pub fn close<T: Scalar, const NQ: usize, const NT: usize>(
-    mut q: SVector<T, NQ>,
+    q: SVector<T, NQ>,
     dependents: &[Dependent],
     step: impl Fn(&SVector<T, NQ>) -> SVector<T, NT>,
-) -> Closing<T, NQ> {
-    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
-    let (mut refused, mut last) = (T::none_refused(), zero);
+) -> Closing<SVector<T, NQ>> {
+    close_from(q, dependents, NQ, step)
+}
+
+/// Changes the dependent positions in the state `y` of a scene so that all loops close. `step` returns the Newton
+/// step of the `NQ` positions, the first components of the state. `names` are those of the `M` rates, and of the loops
+/// after them. Where a loop does not close, the dependent positions are NaN.
+///
+/// # Errors
+/// The first loop that does not close, with the cause [`crate::Cause::Loop`]; per lane.
+#[inline]
+pub fn close_state<T: Scalar, const N: usize, const NQ: usize, const M: usize>(
+    y: &mut SVector<T, N>,
+    dependents: &[Dependent],
+    names: &'static [&'static str],
+    step: impl Fn(&SVector<T, N>) -> SVector<T, NQ>,
+) -> Result<(), T::Singular<M>> {
+    let closing = close_from(*y, dependents, M, step);
+    let refused = closing.refused;
+    *y = closing.or_nan(dependents);
+    let nothing = SVector::<T, M>::from_element(T::from_f64(0.0));
+    T::finish(nothing, refused, names, |_| ()).map(|_| ())
+}
+
+/// Does the same as [`close`] for vectors of any kind; the loops have the indices from `first` on.
+#[inline]
+pub fn close_from<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
+    mut q: Y,
+    dependents: &[Dependent],
+    first: usize,
+    step: impl Fn(&Y) -> Z,
+) -> Closing<Y> {
+    let number = <Y::Scalar as Scalar>::from_f64;
+    let (zero, one) = (number(0.0), number(1.0));
+    let (mut refused, mut last) = (Y::Scalar::none_refused(), zero);
     for _ in 0..STEPS {
         let change = step(&q);
         last = zero;
-        refused = T::none_refused();
+        refused = Y::Scalar::none_refused();
         for d in dependents {
-            if let Some(&x) = change.get(d.velocity) {
+            if let Some(&x) = change.entries().get(d.velocity) {
                 last = last.max(x.abs());
-                (T::from_f64(CLOSED) - x.abs()).checked_pivot(zero, NQ + d.closes, &mut refused);
+                (number(CLOSED) - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
             }
         }
-        let large = T::from_f64(LARGEST).less(last);
-        let scale = T::select(large, T::from_f64(LARGEST) / last, one);
+        let large = number(LARGEST).less(last);
+        let scale = Y::Scalar::select(large, number(LARGEST) / last, one);
         move_by(&mut q, dependents, &change, scale);
-        if T::succeeded(&SVector::<T, 1>::from_element(zero), refused) {
+        if Y::Scalar::succeeded(&SVector::<Y::Scalar, 1>::from_element(zero), refused) {
             break;
         }
     }
@@ -68,20 +100,24 @@ pub fn close<T: Scalar, const NQ: usize, const NT: usize>(
 }
 
 /// Subtracts the steps of the dependent velocities from their positions.
-fn move_by<T: Scalar, const NQ: usize, const NT: usize>(
-    q: &mut SVector<T, NQ>,
+fn move_by<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
+    q: &mut Y,
     dependents: &[Dependent],
-    change: &SVector<T, NT>,
-    scale: T,
+    change: &Z,
+    scale: Y::Scalar,
 ) {
     for d in dependents {
-        if let (Some(&x), Some(q)) = (change.get(d.velocity), q.get_mut(d.position)) {
+        let (step, position) = (
+            change.entries().get(d.velocity),
+            q.entries_mut().get_mut(d.position),
+        );
+        if let (Some(&x), Some(q)) = (step, position) {
             *q = *q - x * scale;
         }
     }
 }
 
-impl<T: Scalar, const NQ: usize> Closing<T, NQ> {
+impl<T: Scalar, const NQ: usize> Closing<SVector<T, NQ>> {
     /// Returns the positions, or the first loop that does not close; `names` are those of the `NQ` positions, and
     /// of the loops after them.
     ///
@@ -91,16 +127,19 @@ impl<T: Scalar, const NQ: usize> Closing<T, NQ> {
     pub fn finish(self, names: &'static [&'static str]) -> Result<SVector<T, NQ>, T::Singular<NQ>> {
         T::finish(self.q, self.refused, names, |_| ())
     }
+}
 
+impl<Y: StateVector> Closing<Y> {
     /// Returns the positions; where a loop does not close, the dependent ones are NaN, so that no function takes
     /// them for closed ones.
     #[inline]
-    pub fn or_nan(self, dependents: &[Dependent]) -> SVector<T, NQ> {
+    pub fn or_nan(self, dependents: &[Dependent]) -> Y {
         let mut q = self.q;
-        let closed = self.last.less(T::from_f64(CLOSED));
+        let number = <Y::Scalar as Scalar>::from_f64;
+        let closed = self.last.less(number(CLOSED));
         for d in dependents {
-            if let Some(q) = q.get_mut(d.position) {
-                *q = T::select(closed, *q, T::from_f64(f64::NAN));
+            if let Some(q) = q.entries_mut().get_mut(d.position) {
+                *q = Y::Scalar::select(closed, *q, number(f64::NAN));
             }
         }
         q

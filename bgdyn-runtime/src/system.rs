@@ -61,14 +61,38 @@ pub trait HybridSystem<T: Scalar> {
     /// Returns the names of the components of the state.
     fn state_names(&self) -> &'static ArrayOf<Self::State, &'static str>;
     /// Returns the number of positions in the state. They come first, then the velocities: the rates of the
-    /// positions in their order, but for the joints of [`HybridSystem::quasi_joints`]. A winding's charge
-    /// is not part of the state; its current follows the other velocities.
+    /// positions in their order, but for the joints of [`HybridSystem::quasi_joints`], and in scenes that have
+    /// [`HybridSystem::position_rates`] of their own. A winding's charge is not part of the state; its current follows
+    /// the other velocities.
     fn positions(&self) -> usize;
     /// Returns the joints whose velocities are not the rates of their positions, in the order of the state:
     /// planar, spherical and floating ones. Their quaternions have length 1 within rounding.
     fn quasi_joints(&self) -> &'static [QuasiJoint] {
         &[]
     }
+    /// Writes the rates of all positions into the first components of `rates`. Returns whether it did: scenes with loops
+    /// or other constraints do, since there the velocities of the state are fewer than the joints; in other scenes the
+    /// rates follow from [`HybridSystem::quasi_joints`].
+    fn position_rates(&self, y: &Self::State, rates: &mut Self::State) -> bool {
+        let _ = (y, rates);
+        false
+    }
+
+    /// Returns whether the scene has loops.
+    fn has_loops(&self) -> bool {
+        false
+    }
+
+    /// Changes the dependent positions of joints in loops so that the loops close: Newton's method, at most 11 steps of
+    /// at most 0.5 rad or m. Returns whether the scene has loops. Where a loop does not close, its positions are NaN.
+    ///
+    /// # Errors
+    /// Names the first loop that does not close.
+    fn close(&self, y: &mut Self::State) -> Result<bool, Self::Singular> {
+        let _ = y;
+        Ok(false)
+    }
+
     /// Returns the names of the modes.
     fn mode_names(&self) -> &'static ArrayOf<Self::Modes, &'static str>;
     /// Returns the names of the inputs.

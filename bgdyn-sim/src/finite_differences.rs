@@ -48,11 +48,11 @@ where
         self.0.position_change(t, y, h)
     }
 
-    fn project(&self, y: &mut O::State) -> bool {
+    fn project(&self, y: &mut O::State) -> Result<bool, O::Error> {
         self.0.project(y)
     }
 
-    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> bool {
+    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> Result<bool, O::Error> {
         self.0.project_in_two(y, low)
     }
 

@@ -18,6 +18,7 @@ use crate::integrator::{Integrator, Start};
 use crate::ode::Ode;
 use crate::quasi_joints;
 use crate::real::{Of, Real};
+use crate::scene_positions::{self, position_rates};
 use crate::two_sum::sum_in_two;
 
 /// A scalar that has one number per lane; a plain number has one lane.
@@ -191,14 +192,6 @@ where
     }
 }
 
-/// Returns the rates of a scene's positions.
-fn position_rates<T: Scalar, S: HybridSystem<T>>(scene: &S, y: &S::State) -> S::State {
-    let mut rates = *y;
-    let (joints, positions) = (scene.quasi_joints(), scene.positions());
-    quasi_joints::position_rates(joints, positions, y.entries(), rates.entries_mut());
-    rates
-}
-
 /// A scene without dry friction that can hold, in any scalar. Kinks of its laws and corners of its inputs are
 /// stepped over: there the method loses its order, and [`crate::Run`] would not.
 #[derive(Debug)]
@@ -264,14 +257,12 @@ where
     }
 
     fn position_change(&self, _: T, y: &S::State, h: T) -> Result<S::State, Infallible> {
-        let mut change = *y;
-        let (joints, positions) = (self.scene.quasi_joints(), self.scene.positions());
-        quasi_joints::position_change(joints, positions, y.entries(), h, change.entries_mut());
-        Ok(change)
+        Ok(scene_positions::position_change(self.scene, y, h))
     }
 
-    fn project(&self, y: &mut S::State) -> bool {
-        quasi_joints::normalize(self.scene.quasi_joints(), y.entries_mut())
+    fn project(&self, y: &mut S::State) -> Result<bool, Infallible> {
+        // In a lane with a loop that does not close, its positions are NaN, and the lane ends.
+        Ok(scene_positions::project(self.scene, y).unwrap_or(true))
     }
 }
 
@@ -334,6 +325,7 @@ where
             return;
         };
         let mut y = self.y.plus(one, &step.change);
+        let Ok(_) = ode.project(&mut y);
         let zero = Of::<Y>::from_f64(0.0);
         #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
         let rest = y.entries().iter().fold(zero, |sum, &x| sum + (x - x));
@@ -347,7 +339,6 @@ where
                 });
             }
         }
-        ode.project(&mut y);
         self.y = y;
         (self.t, self.low_time) = sum_in_two(self.t, self.low_time + h);
     }

@@ -83,6 +83,7 @@ mod rk4;
 mod rodas4;
 mod run;
 mod scene_plant;
+mod scene_positions;
 mod semi_implicit_euler;
 mod solver;
 mod stiction;

@@ -81,14 +81,24 @@ pub trait Ode {
     }
 
     /// Projects a state onto the manifold of valid states. Returns whether that changed it.
-    fn project(&self, y: &mut Self::State) -> bool {
+    ///
+    /// # Errors
+    /// If there is no valid state nearby: a loop does not close.
+    fn project(&self, y: &mut Self::State) -> Result<bool, Self::Error> {
         let _ = y;
-        false
+        Ok(false)
     }
 
     /// Projects a state in two words, y + low unevaluated. The default projects the first word. Returns
     /// whether that changed it.
-    fn project_in_two(&self, y: &mut Self::State, low: &mut Self::State) -> bool {
+    ///
+    /// # Errors
+    /// As [`Ode::project`].
+    fn project_in_two(
+        &self,
+        y: &mut Self::State,
+        low: &mut Self::State,
+    ) -> Result<bool, Self::Error> {
         let _ = low;
         self.project(y)
     }
@@ -134,11 +144,11 @@ impl<O: Ode> Ode for &O {
         (**self).position_change(t, y, h)
     }
 
-    fn project(&self, y: &mut O::State) -> bool {
+    fn project(&self, y: &mut O::State) -> Result<bool, Self::Error> {
         (**self).project(y)
     }
 
-    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> bool {
+    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> Result<bool, Self::Error> {
         (**self).project_in_two(y, low)
     }
 

@@ -90,13 +90,23 @@ pub trait Plant {
     }
 
     /// Takes a state back onto the set of possible ones, as [`Ode::project`].
-    fn project(&self, y: &mut Self::State) -> bool {
+    ///
+    /// # Errors
+    /// As [`Ode::project`].
+    fn project(&self, y: &mut Self::State) -> Result<bool, Self::Error> {
         let _ = y;
-        false
+        Ok(false)
     }
 
     /// Takes a state in two words back onto the set of possible ones, as [`Ode::project_in_two`].
-    fn project_in_two(&self, y: &mut Self::State, low: &mut Self::State) -> bool {
+    ///
+    /// # Errors
+    /// As [`Ode::project`].
+    fn project_in_two(
+        &self,
+        y: &mut Self::State,
+        low: &mut Self::State,
+    ) -> Result<bool, Self::Error> {
         let _ = low;
         self.project(y)
     }
@@ -221,11 +231,11 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
         self.plant.position_change(t, y, self.modes, h)
     }
 
-    fn project(&self, y: &mut P::State) -> bool {
+    fn project(&self, y: &mut P::State) -> Result<bool, Self::Error> {
         self.plant.project(y)
     }
 
-    fn project_in_two(&self, y: &mut P::State, low: &mut P::State) -> bool {
+    fn project_in_two(&self, y: &mut P::State, low: &mut P::State) -> Result<bool, Self::Error> {
         self.plant.project_in_two(y, low)
     }
 

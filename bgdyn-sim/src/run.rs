@@ -109,10 +109,14 @@ where
     }
 
     /// The state in a part of a step, as a possible one.
-    pub(super) fn within(&self, dense: &Dense<P::State>, theta: Time<P>) -> P::State {
+    pub(super) fn within(
+        &self,
+        dense: &Dense<P::State>,
+        theta: Time<P>,
+    ) -> Result<P::State, Refused<P>> {
         let mut y = dense.at(theta);
-        self.plant.project(&mut y);
-        y
+        self.plant.project(&mut y).map_err(Reason::Singular)?;
+        Ok(y)
     }
 
     /// The account with the work of a step, and the energy after it.
@@ -130,7 +134,9 @@ where
         for (at, weight) in quadrature(self.solver.integrator().info().order) {
             let theta: Time<P> = at.to();
             let t = dense.start() + theta * h;
-            let power = self.plant.power(t, &self.within(dense, theta), &self.modes);
+            let power = self
+                .plant
+                .power(t, &self.within(dense, theta)?, &self.modes);
             ledger.add(
                 weight.to::<Time<P>>() * h,
                 &power.map_err(Reason::Singular)?,

@@ -1,14 +1,12 @@
 //! Compiled scenes as plants.
 
-use bgdyn_runtime::{
-    ArrayOf, Canonical, Contact, FixedVector, HybridSystem, MatrixOf, Slope, StateVector,
-};
+use bgdyn_runtime::{ArrayOf, Canonical, Contact, FixedVector, HybridSystem, MatrixOf, Slope};
 
 use crate::finite_differences::differences;
 use crate::ode::Jacobian;
 use crate::plant::{FixedModes, Plant, Power};
-use crate::quasi_joints;
 use crate::real::Real;
+use crate::scene_positions;
 use crate::stiction::Stiction;
 
 /// A scene's slopes: (∂ẏ/∂y, ∂ẏ/∂t) by state, modes, given inputs, time.
@@ -143,10 +141,7 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
     }
 
     fn position_rates(&self, _: T, y: &S::State, _: &S::Modes) -> Result<S::State, S::Singular> {
-        let mut rates = *y;
-        let (joints, positions) = (self.scene.quasi_joints(), self.positions());
-        quasi_joints::position_rates(joints, positions, y.entries(), rates.entries_mut());
-        Ok(rates)
+        Ok(scene_positions::position_rates(self.scene, y))
     }
 
     fn position_change(
@@ -156,23 +151,19 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         _: &S::Modes,
         h: T,
     ) -> Result<S::State, S::Singular> {
-        let mut change = *y;
-        let (joints, positions) = (self.scene.quasi_joints(), self.positions());
-        quasi_joints::position_change(joints, positions, y.entries(), h, change.entries_mut());
-        Ok(change)
+        Ok(scene_positions::position_change(self.scene, y, h))
     }
 
-    fn project(&self, y: &mut S::State) -> bool {
-        quasi_joints::normalize(self.scene.quasi_joints(), y.entries_mut())
+    fn project(&self, y: &mut S::State) -> Result<bool, S::Singular> {
+        scene_positions::project(self.scene, y)
     }
 
-    fn project_in_two(&self, y: &mut S::State, low: &mut S::State) -> bool {
-        let joints = self.scene.quasi_joints();
-        quasi_joints::normalize_in_two(joints, y.entries_mut(), low.entries_mut())
+    fn project_in_two(&self, y: &mut S::State, low: &mut S::State) -> Result<bool, S::Singular> {
+        scene_positions::project_in_two(self.scene, y, low)
     }
 
     fn strays(&self, y: &S::State) -> bool {
-        quasi_joints::strays(self.scene.quasi_joints(), y.entries())
+        scene_positions::strays(self.scene, y)
     }
 
     fn events(&self, t: T, y: &S::State, modes: &S::Modes) -> Result<S::Events, S::Singular> {

@@ -269,7 +269,8 @@ where
             && match &mut low {
                 None => ode.project(&mut y),
                 Some(low) => ode.project_in_two(&mut y, low),
-            };
+            }
+            .map_err(Reason::Singular)?;
         let smooth = !projected;
         Ok(Proposal {
             step,

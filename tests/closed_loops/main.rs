@@ -3,9 +3,16 @@
 mod laws;
 mod motions;
 mod reach;
+mod scenes;
 
 bgdyn::bgdyn!("../../specs/loops/five_bar.yaml", derivatives = true);
 bgdyn::bgdyn!("../../specs/loops/slider_crank.yaml");
 bgdyn::bgdyn!("../../specs/loops/slider_crank_near_singular.yaml");
 bgdyn::bgdyn!("../../specs/loops/delta_robot.yaml");
 bgdyn::bgdyn!("excavator_bucket.yaml");
+bgdyn::bgdyn!("crank_run.scene.yaml");
+bgdyn::bgdyn!("five_bar_run.scene.yaml");
+bgdyn::bgdyn!("stewart_run.scene.yaml");
+bgdyn::bgdyn!("slider_stop.scene.yaml");
+bgdyn::bgdyn!("short_rod.scene.yaml");
+bgdyn::bgdyn!("swing.scene.yaml");

@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::five_bar::FiveBar;
 use crate::slider_crank::SliderCrank;
 
-fn reference(name: &str) -> Value {
+pub(crate) fn reference(name: &str) -> Value {
     let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "tests/golden/loops", name]
         .iter()
         .collect();
@@ -17,7 +17,7 @@ fn reference(name: &str) -> Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     let all = value.as_array().expect("a list").iter();
     all.map(|x| x.as_f64().expect("a number")).collect()
 }

@@ -1,26 +1,23 @@
 //! `bgdyn eval`: evaluates a method at given states.
 
 mod arguments;
+mod closed;
 mod scene;
 mod states;
 
 use anyhow::Result;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::mechanism::closure::Closure;
 use bgdyn_codegen::mechanism::{Mechanism, Motion};
 use bgdyn_codegen::method::{Argument, Method, Shape};
-use bgdyn_runtime::Dd;
 use serde_json::{Value, json};
 
 pub(crate) use self::arguments::Eval;
 
+use self::closed::{closed, singular_loop};
 use self::states::{Failure, finite, parameters, plain, singular, states};
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
-
-/// Largest opening of a loop that is closed, m or rad.
-const OPEN: f64 = 1e-6;
 
 /// Largest deviation of a quaternion's length from 1.
 const LENGTH: f64 = 1e-6;
@@ -81,7 +78,7 @@ fn evaluate(
     if let Some(joint) = refused {
         return Err(match joint.checked_sub(rates.len()) {
             None => singular(&rates[joint]),
-            Some(closes) => singular_loop(mechanism, closes),
+            Some(closes) => singular_loop(mechanism.closure(), closes),
         });
     }
     if values.iter().any(|x| !x.is_finite()) {
@@ -128,37 +125,6 @@ fn positions(mechanism: &Mechanism, state: &Value) -> Result<Vec<f64>, Failure> 
         None => Ok(q),
         Some(closure) => closed(closure, &q),
     }
-}
-
-/// Returns the failure at a singular position of a loop, or beyond one.
-fn singular_loop(mechanism: &Mechanism, closes: usize) -> Failure {
-    let one = mechanism
-        .closure()
-        .and_then(|closure| closure.loops.get(closes));
-    let name = one.map_or("", |one| &one.name);
-    plain(format!(
-        "the loop `{name}` is at a singular position, or on another branch than that of the start"
-    ))
-}
-
-/// Returns positions with the dependent ones changed so that the loops close. Loops that are open by more than
-/// [`OPEN`] are refused.
-fn closed(closure: &Closure, q: &[f64]) -> Result<Vec<f64>, Failure> {
-    let mut exact: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
-    let (residuals, _) = closure.values(&closure.rows, &exact);
-    let sizes = residuals.iter().map(|x| x.to_f64().abs());
-    let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    if let Some((row, size)) = worst.filter(|(_, size)| *size > OPEN) {
-        let row = &closure.rows[row];
-        return Err(plain(format!(
-            "the loop `{}` is open by {size} {} (row `{}`) at these positions, and at most {OPEN} is closed",
-            closure.loops[row.closes].name,
-            row.kind.unit(),
-            row.name
-        )));
-    }
-    closure.close(&mut exact);
-    Ok(exact.into_iter().map(Dd::to_f64).collect())
 }
 
 /// Returns a state's array of numbers, one for each name.

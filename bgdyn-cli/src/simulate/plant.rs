@@ -5,12 +5,13 @@ use std::sync::Arc;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::closure::close_from;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
 use super::scene_functions::{Form, SceneFunctions};
-use super::undefined::Undefined;
+use super::undefined::{Undefined, UndefinedCause};
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
@@ -158,7 +159,7 @@ impl<'a> Evaluated<'a> {
         let (values, refused) = function.evaluate(at);
         match refused {
             None => Ok(values),
-            Some(j) => Err(self.undefined(j, true)),
+            Some(j) => Err(self.refused(j)),
         }
     }
 
@@ -167,7 +168,7 @@ impl<'a> Evaluated<'a> {
         let values = self.regular(function, at)?;
         match values.iter().position(|x| !x.is_finite()) {
             None => Ok(values),
-            Some(i) => Err(self.undefined(i % self.rows(), false)),
+            Some(i) => Err(self.not_finite(i % self.rows())),
         }
     }
 
@@ -177,9 +178,22 @@ impl<'a> Evaluated<'a> {
         (layout.nv() + layout.nx() + layout.coupled().len()).max(1)
     }
 
-    /// Returns the error of rate `i`: the coordinates come first, then the first-order states, then coupled
-    /// positions.
-    fn undefined(&self, i: usize, singular: bool) -> Undefined {
+    /// Returns the error of a refused pivot: those of the coordinates come first, those of the loops after all
+    /// rates.
+    fn refused(&self, i: usize) -> Undefined {
+        let layout = &self.system.scene.layout;
+        let closes = i.checked_sub(layout.nv() + layout.nx());
+        let (at, cause) = match closes {
+            Some(closes) => (&layout.loops[closes], UndefinedCause::Loop),
+            None => (&layout.coordinates[i].name, UndefinedCause::Singular),
+        };
+        let at = at.clone();
+        Undefined { at, cause }
+    }
+
+    /// Returns the error of rate `i`, which is not finite: the coordinates come first, then the first-order states,
+    /// then coupled positions.
+    fn not_finite(&self, i: usize) -> Undefined {
         let layout = &self.system.scene.layout;
         let own = layout.nv() + layout.nx();
         let at = match (i.checked_sub(layout.nv()), i.checked_sub(own)) {
@@ -187,8 +201,35 @@ impl<'a> Evaluated<'a> {
             (Some(i), None) => &layout.states[i].name,
             (None, None) => &layout.coordinates[i].name,
         };
-        let at = at.clone();
-        Undefined { at, singular }
+        let (at, cause) = (at.clone(), UndefinedCause::NotFinite);
+        Undefined { at, cause }
+    }
+
+    /// Returns the rates of all positions of a scene with constraints; `None` for other scenes.
+    fn own_position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Vec<f64>> {
+        let rates = self.functions.position_rates.as_ref()?;
+        Some(rates.evaluate(self.arguments(t, y, modes)).0)
+    }
+
+    /// Closes the loops in a state. Returns whether there are loops.
+    fn close(&self, y: &mut Numbers) -> Evaluation<bool> {
+        let Some(closing) = &self.functions.closing else {
+            return Ok(false);
+        };
+        let layout = &self.system.scene.layout;
+        let modes = DVector::zeros(layout.modes.len());
+        let step = |y: &Numbers| -> Numbers {
+            closing
+                .step
+                .evaluate(self.arguments(0.0, y, &modes))
+                .0
+                .into()
+        };
+        let first = layout.nv() + layout.nx();
+        let closed = close_from(y.clone(), &closing.dependents, first, step);
+        let refused = closed.refused;
+        *y = closed.or_nan(&closing.dependents);
+        refused.map_or(Ok(true), |i| Err(self.refused(i)))
     }
 
     /// Returns the contacts that can hold a coordinate, mode by mode, at y.
@@ -238,7 +279,7 @@ impl Plant for Evaluated<'_> {
             return match rates.iter().position(|x| !x.is_finite()) {
                 None => Ok(rates.into()),
                 // The error of a position's rate has the name of its coordinate.
-                Some(i) => Err(self.undefined(i.checked_sub(self.positions()).unwrap_or(i), false)),
+                Some(i) => Err(self.not_finite(i.checked_sub(self.positions()).unwrap_or(i))),
             };
         }
         let at = self.driven(t, state, modes);
@@ -281,8 +322,13 @@ impl Plant for Evaluated<'_> {
     fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
         let mut rates = y.clone();
-        let (joints, nq) = (&self.functions.quasi_joints, self.positions());
-        quasi_joints::position_rates(joints, nq, y.as_slice(), rates.as_mut_slice());
+        match self.own_position_rates(t, &y, modes) {
+            Some(own) => rates.as_mut_slice()[..own.len()].copy_from_slice(&own),
+            None => {
+                let (joints, nq) = (&self.functions.quasi_joints, self.positions());
+                quasi_joints::position_rates(joints, nq, y.as_slice(), rates.as_mut_slice());
+            }
+        }
         Ok(rates)
     }
 
@@ -296,21 +342,43 @@ impl Plant for Evaluated<'_> {
         let y = self.natural(t, state, modes)?;
         let mut change = y.clone();
         let (joints, nq) = (&self.functions.quasi_joints, self.positions());
-        quasi_joints::position_change(joints, nq, y.as_slice(), h, change.as_mut_slice());
+        let (of_y, of_change) = (y.as_slice(), change.as_mut_slice());
+        match self.own_position_rates(t, &y, modes) {
+            Some(own) => {
+                of_change
+                    .iter_mut()
+                    .zip(own)
+                    .for_each(|(x, rate)| *x = h * rate);
+                quasi_joints::change_of_joints(joints, of_y, h, of_change);
+            }
+            None => quasi_joints::position_change(joints, nq, of_y, h, of_change),
+        }
         Ok(change)
     }
 
-    fn project(&self, y: &mut Numbers) -> bool {
-        quasi_joints::normalize(&self.functions.quasi_joints, y.as_mut_slice())
+    fn project(&self, y: &mut Numbers) -> Evaluation<bool> {
+        let normalized = quasi_joints::normalize(&self.functions.quasi_joints, y.as_mut_slice());
+        Ok(self.close(y)? || normalized)
     }
 
-    fn project_in_two(&self, y: &mut Numbers, low: &mut Numbers) -> bool {
+    fn project_in_two(&self, y: &mut Numbers, low: &mut Numbers) -> Evaluation<bool> {
         let joints = &self.functions.quasi_joints;
-        quasi_joints::normalize_in_two(joints, y.as_mut_slice(), low.as_mut_slice())
+        let normalized =
+            quasi_joints::normalize_in_two(joints, y.as_mut_slice(), low.as_mut_slice());
+        let before = y.clone();
+        let closed = self.close(y)?;
+        for ((low, y), before) in low.iter_mut().zip(y.iter()).zip(&before) {
+            // A dependent position has the digits of one word.
+            if y != before {
+                *low = 0.0;
+            }
+        }
+        Ok(closed || normalized)
     }
 
     fn strays(&self, y: &Numbers) -> bool {
-        quasi_joints::strays(&self.functions.quasi_joints, y.as_slice())
+        self.functions.closing.is_some()
+            || quasi_joints::strays(&self.functions.quasi_joints, y.as_slice())
     }
 
     fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {

@@ -225,7 +225,8 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
                 return;
             }
             let mut y = step.at_time(t.min(now));
-            self.run.plant().project(&mut y);
+            // Positions of a loop that does not close are recorded as NaN.
+            self.run.plant().project(&mut y).ok();
             self.keep_with(t, &y, modes, false);
             self.points += 1;
         }

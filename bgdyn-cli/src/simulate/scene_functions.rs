@@ -2,8 +2,10 @@
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
+use bgdyn_codegen::scene::DependentJoint;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::QuasiJoint;
+use bgdyn_runtime::closure::Dependent;
 
 /// The variables in which a scene is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +28,9 @@ pub(super) struct SceneFunctions {
     pub(super) energy: Function,
     pub(super) jacobian: Option<Function>,
     pub(super) canonical: Option<Canonical>,
+    /// Rates of all positions, in scenes with constraints.
+    pub(super) position_rates: Option<Function>,
+    pub(super) closing: Option<ClosedLoops>,
     pub(super) event_modes: Vec<Option<usize>>,
     /// The component of the state that is the velocity of each mode's coordinate.
     pub(super) mode_velocities: Vec<usize>,
@@ -33,6 +38,13 @@ pub(super) struct SceneFunctions {
     pub(super) corners: Vec<f64>,
     /// The joints with quasi-velocities, by their components in the state.
     pub(super) quasi_joints: Vec<QuasiJoint>,
+}
+
+/// The closing of loops.
+#[derive(Debug)]
+pub(super) struct ClosedLoops {
+    pub(super) step: Function,
+    pub(super) dependents: Vec<Dependent>,
 }
 
 /// The functions of the canonical form.
@@ -69,6 +81,11 @@ impl SceneFunctions {
             jacobian: (slopes && form == Form::Natural)
                 .then(|| system.function(SceneFunction::Jacobian)),
             canonical: (form == Form::Canonical).then(canonical),
+            position_rates: if_there(SceneFunction::PositionRates),
+            closing: if_there(SceneFunction::ClosingStep).map(|step| ClosedLoops {
+                step,
+                dependents: layout.dependents.iter().map(in_state).collect(),
+            }),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_velocities: mode_velocities.collect(),
             corners: system.scene.corners(),
@@ -78,5 +95,14 @@ impl SceneFunctions {
                 .map(|joint| joint.in_state(layout))
                 .collect(),
         }
+    }
+}
+
+/// Returns a dependent joint by its component in the state.
+fn in_state(joint: &DependentJoint) -> Dependent {
+    Dependent {
+        velocity: joint.position,
+        position: joint.position,
+        closes: joint.closes,
     }
 }

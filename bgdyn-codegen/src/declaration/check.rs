@@ -173,7 +173,10 @@ fn known<'a>(
     context: &'a NameScope,
 ) -> Option<Vec<&'a str>> {
     let followers = context.followers.iter().map(|(name, ..)| name.as_str());
-    let followers = followers.filter(|_| effect.acts_on_followers());
+    let dependents = context.dependents.iter().map(|(name, _)| name.as_str());
+    let followers = followers
+        .chain(dependents)
+        .filter(|_| effect.acts_on_followers());
     Some(match reads {
         Reads::Word([]) => return None,
         Reads::Word(words) | Reads::Words(words) => words.to_vec(),
@@ -224,6 +227,11 @@ fn unknown(
     let follower = followers.find(|(name, ..)| name == word);
     if let (Some((_, leaders, _)), Reads::Coordinate | Reads::Joint) = (follower, key.reads) {
         return wording::effect_on_follower(location, word, leaders);
+    }
+    if context.dependents.iter().any(|(name, _)| name == word)
+        && matches!(key.reads, Reads::Coordinate | Reads::Joint)
+    {
+        return wording::effect_on_dependent(location, word);
     }
     let what = match key.reads {
         Reads::Coordinate | Reads::Joint => "moving joint",

@@ -16,6 +16,8 @@ pub struct NameScope {
     pub quasi_velocities: Vec<(String, &'static str)>,
     /// Joints that follow others, with the names of those, and their motions.
     pub followers: Vec<(String, Vec<String>, Motion)>,
+    /// Joints whose velocities follow from others through loops, with their motions.
+    pub dependents: Vec<(String, Motion)>,
     /// Limits of the joints that have limits.
     pub limits: Vec<(String, Limits)>,
     /// Names of the coordinates that are no joints.
@@ -54,9 +56,15 @@ impl NameScope {
                 motion(linear),
             )
         };
+        let joints = || mechanism.links().iter().map(|link| &link.joint);
         let limits = |&link: &LinkId| {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.limits)
+        };
+        let of_loops = || joints().filter(|joint| joint.degrees.dependent);
+        let dependent = |joint: &Joint| {
+            let linear = joint.kind.motion == Motion::Translation;
+            (joint.name.clone(), motion(linear))
         };
         let of_followers = mechanism.followers();
         let of_followers = of_followers.map(|(joint, ..)| (joint.name.clone(), joint.limits));
@@ -64,8 +72,10 @@ impl NameScope {
             coordinates: names.iter().enumerate().map(coordinate).collect(),
             quasi_velocities: names.iter().enumerate().filter_map(kind).collect(),
             followers: mechanism.followers().map(follower).collect(),
+            dependents: of_loops().map(dependent).collect(),
             limits: (mechanism.coordinates().iter().map(limits))
                 .chain(of_followers)
+                .chain(of_loops().map(|joint| (joint.name.clone(), joint.limits)))
                 .collect(),
             added: Vec::new(),
             locked,
@@ -109,7 +119,9 @@ impl NameScope {
         let found = self.coordinates.iter().find(|(name, _)| name == coordinate);
         let mut followers = self.followers.iter();
         let follower = followers.find(|(name, ..)| name == coordinate);
-        let own = found.map(|(_, motion)| *motion);
+        let mut dependents = self.dependents.iter();
+        let dependent = dependents.find(|(name, _)| name == coordinate);
+        let own = found.or(dependent).map(|(_, motion)| *motion);
         own.or(follower.map(|(.., motion)| *motion))
     }
 }

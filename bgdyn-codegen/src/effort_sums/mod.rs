@@ -4,6 +4,7 @@
 mod attitude;
 mod gear;
 mod gears;
+mod loops;
 mod parts;
 mod poses;
 mod read;
@@ -11,11 +12,12 @@ mod result;
 mod undeclared;
 mod write;
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use crate::bond_graph::SiteId;
 use crate::choice::GraphMethods;
-use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
+use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_with_pivots};
 use crate::formulation::Formulation;
 use crate::function::Function;
 use crate::math::{Mat3, Vec3};
@@ -41,6 +43,10 @@ pub struct EffortSums<'g, 'a> {
     own: ActuatorEfforts,
     /// The selected formulation; `None` for the cheapest one of each method.
     pub(crate) asked: Option<&'static dyn Formulation>,
+    /// Whether rows of loops are in the axes of places b.
+    pub(crate) reversed: bool,
+    /// S of the loops, once a law reads it.
+    velocity_map: OnceCell<Vec<Vec<Expr<'g>>>>,
     scene: &'a Scene,
     graph: &'a GraphMethods,
     x: Vec<Expr<'g>>,
@@ -85,13 +91,15 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             stored: b.zero(),
             dissipated: b.zero(),
         };
-        EffortSums {
+        let mut sums = EffortSums {
             b,
             q: leaves(layout.nq(), Leaf::Position),
             v: leaves(layout.nv(), Leaf::Velocity),
             t: b.leaf(Leaf::Time),
             own,
             asked,
+            reversed: false,
+            velocity_map: OnceCell::new(),
             scene,
             graph,
             x: leaves(layout.nx(), Leaf::State),
@@ -109,7 +117,9 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             conditions: Vec::new(),
             shared: BTreeMap::new(),
             poses: BTreeMap::new(),
-        }
+        };
+        sums.push_drives_of_dependents();
+        sums
     }
 
     /// Begins the law of the element with this index.
@@ -145,9 +155,15 @@ impl<'g> EffortSums<'g, '_> {
             l => leaf(g, l),
         };
         let outputs = &function.blocks[0].outputs;
+        // Pivots of loops follow those of the joints in the mechanism, and those of all rates here.
+        let joints = self.graph.coordinates.len();
+        let pivot = |index: usize| match index.checked_sub(joints) {
+            Some(closes) => Some(self.first_loop_pivot() + closes),
+            None => Some(index),
+        };
         let copies = self
             .b
-            .with_graph(|g| copy_into(g, &function.graph, outputs, placed));
+            .with_graph(|g| copy_with_pivots(g, &function.graph, outputs, placed, pivot));
         copies.into_iter().map(|e| self.b.expr(e)).collect()
     }
 

@@ -7,12 +7,11 @@ use super::{ActuatorEfforts, EffortSums, Port};
 use crate::bond_graph::SiteId;
 use crate::declaration::Chain;
 use crate::declaration::{Element, Quantity};
-use crate::expr::{Expr, Graph, Leaf, Signed, Tangent};
+use crate::expr::{Expr, Leaf, Signed};
 use crate::format::{Dimension, Key};
-use crate::formulation;
 use crate::math::{Mat3, Vec3};
 use crate::method::Method;
-use crate::scene::{Level, Scene, StatePosition};
+use crate::scene::{Level, Scene};
 
 impl<'g, 'a> EffortSums<'g, 'a> {
     /// Returns whether the limits of drives are active; they are not if the drives are unknowns.
@@ -135,7 +134,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     }
 
     /// Returns a coordinate as a port. The port of a joint that follows others has a transformer to
-    /// each of their coordinates, with the ratio as modulus.
+    /// each of their coordinates, with the ratio as modulus; that of a joint in a loop to the independent ones.
     ///
     /// # Panics
     /// If the scene has no coordinate and no such joint with this name.
@@ -153,6 +152,9 @@ impl<'g, 'a> EffortSums<'g, 'a> {
                 transformers: follower.leaders.iter().map(transformer).collect(),
             };
         }
+        if let Some(joint) = self.scene.layout.dependent_named(name) {
+            return self.dependent(joint);
+        }
         let j = self.coordinate_index(name);
         Port {
             displacement: self.position_of(j),
@@ -165,30 +167,6 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     pub(crate) fn position_of(&self, j: usize) -> Expr<'g> {
         let position = self.scene.layout.coordinates[j].position;
         position.map_or(self.b.zero(), |p| self.q[p])
-    }
-
-    /// Returns q̇ = N(q) v.
-    pub(crate) fn position_rates(&self) -> Vec<Expr<'g>> {
-        let positions = &self.scene.layout.positions;
-        let coupled = match positions.iter().all(|p| p.coordinate.is_some()) {
-            true => vec![],
-            false => formulation::position_rates(self.b, self.graph, (&self.q, &self.v)),
-        };
-        let rate = |(p, position): (usize, &StatePosition)| match position.coordinate {
-            Some(j) => self.v[j],
-            None => coupled[p],
-        };
-        positions.iter().enumerate().map(rate).collect()
-    }
-
-    /// Returns the rates of the positions that are not the integrals of single velocities.
-    pub(crate) fn coupled_rates(&self) -> Vec<Expr<'g>> {
-        let coupled = self.scene.layout.coupled();
-        if coupled.is_empty() {
-            return vec![];
-        }
-        let rates = self.position_rates();
-        coupled.into_iter().map(|p| rates[p]).collect()
     }
 
     /// Returns the distance of two sites as a port: s = |r_b − r_a|, ∂s/∂q_j = n · (∂r_b/∂q_j − ∂r_a/∂q_j)
@@ -210,25 +188,6 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             }
         }
         port
-    }
-
-    /// Returns ∂x/∂q_j along the tangent: d/dε x(integrate(q, ε e_j)).
-    pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
-        let x = x.signed();
-        let one = |g: &mut Graph| g.constant(Dd::ONE);
-        if self.scene.layout.quasi_joints.is_empty() {
-            let seed = |g: &mut Graph, leaf| (leaf == Leaf::Position(j)).then(|| one(g));
-            return self
-                .b
-                .expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)));
-        }
-        let rates = formulation::unit_tangents(self.b, self.graph, j);
-        let seed = |_: &mut Graph, leaf| match leaf {
-            Leaf::Position(p) => rates.get(p).copied(),
-            _ => None,
-        };
-        self.b
-            .expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)))
     }
 
     /// Returns axes and origin of a site in the world.

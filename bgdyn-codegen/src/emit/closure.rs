@@ -84,14 +84,8 @@ pub(super) fn closure_access(
 /// Returns a dependent joint with its position and its loop.
 fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
     let closure = &closed.closure;
-    let block = closure
-        .blocks
-        .iter()
-        .find(|block| block.dependents.contains(&j));
-    let row = block.and_then(|block| block.rows.first());
-    let closes = row.map_or(0, |&r| closure.rows[r].closes);
     let position = closure.positions[j.0].map_or(0, |p| p.0);
-    let [velocity, position, closes] = [j.0, position, closes].map(size);
+    let [velocity, position, closes] = [j.0, position, closure.loop_of(j)].map(size);
     quote! {
         __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }
     }

@@ -8,13 +8,28 @@ pub fn copy_into(
     to: &mut Graph,
     from: &Graph,
     outputs: &[Signed],
+    leaf: impl FnMut(&mut Graph, Leaf) -> Option<Signed>,
+) -> Vec<Signed> {
+    copy_with_pivots(to, from, outputs, leaf, Some)
+}
+
+/// Does the same, with other indices of the checked pivots; a pivot is not checked where `index` returns `None`.
+pub(crate) fn copy_with_pivots(
+    to: &mut Graph,
+    from: &Graph,
+    outputs: &[Signed],
     mut leaf: impl FnMut(&mut Graph, Leaf) -> Option<Signed>,
+    index: impl Fn(usize) -> Option<usize>,
 ) -> Vec<Signed> {
     let needed = reachable(from, outputs);
     let wanted = (0..from.len()).filter(|&i| needed[i]);
     remade(to, from, outputs, wanted, |to, id, at| {
         match from.node(id) {
             Node::Leaf(l) => leaf(to, *l).unwrap_or_else(|| to.leaf(*l)),
+            Node::Pivot(value, magnitude, joint) => match index(*joint) {
+                Some(joint) => to.pivot(at(*value), at(*magnitude), joint),
+                None => at(*value),
+            },
             node => to.rebuilt(node, at),
         }
     })

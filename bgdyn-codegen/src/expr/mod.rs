@@ -28,6 +28,7 @@ pub use arrange::reassociate;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Expr};
 pub use copy::copy_into;
+pub(crate) use copy::copy_with_pivots;
 pub(crate) use cost::reads;
 pub use cost::{Cost, cost};
 pub use count::{count, reachable};

@@ -5,13 +5,29 @@
 use bgdyn_runtime::Dd;
 
 use super::elimination::EliminatedMatrix;
-use super::loop_rows::{LoopForm, LoopRows};
+use super::loop_rows::{LoopForm, LoopRows, loop_rows};
 use crate::expr::{Builder, Expr};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::{Closure, ClosureBlock};
 
 /// Checks of pivots: the first index of the loops' pivots, after those of the joints.
 pub(super) type FirstPivot = Option<usize>;
+
+/// Returns S for positions of the open tree, row by row for its velocities; `reversed` for rows in the axes of places
+/// b. With `first` pivots are checked.
+pub(crate) fn velocity_map<'g>(
+    b: &'g Builder,
+    closure: &Closure,
+    (q, reversed): (&[Expr<'g>], bool),
+    first: FirstPivot,
+) -> Vec<Vec<Expr<'g>>> {
+    let form = LoopForm {
+        reversed,
+        by_vectors: false,
+    };
+    let rows = loop_rows(b, closure, q, form);
+    VelocityMap::new(b, closure, (rows, form), first).map
+}
 
 /// S with the eliminations of its blocks.
 pub(super) struct VelocityMap<'a, 'g> {

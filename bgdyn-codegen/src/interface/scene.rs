@@ -223,6 +223,7 @@ fn part(name: &str) -> Variable {
         dimension: Dimension::One,
         about: String::new(),
         drives: None,
+        drives_dependent: None,
         follows: None,
         entered: None,
     }

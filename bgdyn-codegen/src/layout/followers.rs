@@ -15,7 +15,10 @@ impl StateLayout {
     pub fn dimensions_of(&self, name: &str) -> Option<[Dimension; 3]> {
         match self.coordinate_named(name) {
             Some(j) => Some(self.coordinates[j].dimensions),
-            None => self.follower_named(name).map(|f| f.dimensions),
+            None => {
+                let follower = self.follower_named(name).map(|f| f.dimensions);
+                follower.or(self.dependent_named(name).map(|d| d.dimensions))
+            }
         }
     }
 

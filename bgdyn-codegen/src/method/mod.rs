@@ -223,7 +223,11 @@ impl Method {
                 Argument::Input,
                 Argument::Time,
             ],
-            Method::Scene(SceneFunction::ToCanonical) => &[Argument::State],
+            Method::Scene(
+                SceneFunction::ToCanonical
+                | SceneFunction::PositionRates
+                | SceneFunction::ClosingStep,
+            ) => &[Argument::State],
             Method::Scene(SceneFunction::FromCanonical) => &[Argument::Canonical],
             Method::Scene(SceneFunction::CanonicalRates) => &[
                 Argument::Canonical,
@@ -259,7 +263,9 @@ impl Method {
                 | SceneFunction::Inverse
                 | SceneFunction::Inputs
                 | SceneFunction::Outputs
-                | SceneFunction::ToCanonical,
+                | SceneFunction::ToCanonical
+                | SceneFunction::PositionRates
+                | SceneFunction::ClosingStep,
             ) => Shape::Parts,
             Method::Scene(_) => Shape::CheckedParts,
         }

@@ -28,11 +28,15 @@ pub enum SceneFunction {
     FromCanonical,
     /// q̇, ṗ and ẋ from momenta, including the inputs that the scene drives.
     CanonicalRates,
+    /// Rates of all positions.
+    PositionRates,
+    /// Newton steps of the positions that close the loops.
+    ClosingStep,
 }
 
 impl SceneFunction {
     /// All functions.
-    pub const ALL: [SceneFunction; 12] = [
+    pub const ALL: [SceneFunction; 14] = [
         SceneFunction::Derivative,
         SceneFunction::Inverse,
         SceneFunction::Inputs,
@@ -45,6 +49,8 @@ impl SceneFunction {
         SceneFunction::ToCanonical,
         SceneFunction::FromCanonical,
         SceneFunction::CanonicalRates,
+        SceneFunction::PositionRates,
+        SceneFunction::ClosingStep,
     ];
 
     /// The functions of the canonical form.
@@ -69,6 +75,8 @@ impl SceneFunction {
             SceneFunction::ToCanonical => "to_canonical",
             SceneFunction::FromCanonical => "from_canonical",
             SceneFunction::CanonicalRates => "canonical_rates",
+            SceneFunction::PositionRates => "position_rates",
+            SceneFunction::ClosingStep => "closing_step",
         }
     }
 
@@ -102,6 +110,12 @@ impl SceneFunction {
             SceneFunction::FromCanonical => "The state of momenta: v = M⁻¹ p in place of p.",
             SceneFunction::CanonicalRates => {
                 "Rates of the state with momenta: q̇ = M⁻¹ p, ṗ and ẋ, under the inputs that the scene drives itself; `input` is what is `given`."
+            }
+            SceneFunction::PositionRates => {
+                "Rates of the positions: q̇ = S(q) v for joints in loops."
+            }
+            SceneFunction::ClosingStep => {
+                "Newton step of the positions: less this, the loops are open by the square of it."
             }
         }
     }

@@ -6,6 +6,7 @@
 mod ablate;
 mod causality;
 mod check;
+mod closed_start;
 mod integration;
 mod overrides;
 mod signal;
@@ -18,8 +19,8 @@ use crate::fault::Location;
 use crate::fault::wording;
 use crate::format::{Located, Raw};
 pub use crate::layout::{
-    InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout,
-    StatePosition, Variable,
+    DependentJoint, InitialValueAs, Level, MomentumStore, QuasiJoint, StateCoordinate,
+    StateFollower, StateLayout, StatePosition, Variable,
 };
 use crate::math::Ring;
 use crate::mechanism::{Mechanism, Parameter};

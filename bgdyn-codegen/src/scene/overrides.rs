@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::Scene;
+use super::closed_start::{self, motion_of};
 use crate::fault::{Faults, Location, unknown_name, wording};
 
 /// A value of a run that can be overridden.
@@ -171,10 +172,29 @@ impl Scene {
                 .any(|raw| raw.name.value == name);
             written || values.iter().any(|(s, _)| s.name == name)
         };
+        if let Some(closure) = self.mechanism.closure() {
+            let in_tree = closure.start.len();
+            let independent = |p: usize| self.layout.positions[p].coordinate.is_some();
+            let chosen = |p: &usize| {
+                let name = &self.layout.positions[*p].name;
+                let changed = values.iter().any(|(s, _)| s.name == *name);
+                changed || (independent(*p) && given(name))
+            };
+            let given: Vec<usize> = (0..in_tree).filter(chosen).collect();
+            let q = &mut scene.initial.q[..in_tree];
+            if let Err(reason) = closed_start::close_positions(closure, q, &given) {
+                faults.push(closed_start::fault(&self.layout, &reason, |_| {
+                    Location::file()
+                }));
+                return Err(faults);
+            }
+        }
         let layout = &self.layout;
         for (j, c) in layout.coordinates.iter().enumerate() {
             let (with, start) = (c.starts_with.as_ref(), &mut scene.initial);
-            let motion = with.and_then(|name| layout.motion_of(name, &start.q, &start.v));
+            let state = (&start.q[..], &start.v[..]);
+            let joints = (&self.mechanism, layout);
+            let motion = with.and_then(|name| motion_of(joints, name, state));
             let Some((position, velocity)) = motion else {
                 continue;
             };

@@ -65,7 +65,7 @@ fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntryS
         "kinetic energy of links and rotors",
         EntrySource::Links,
     );
-    if (0..scene.layout.motions()).any(|j| !sums.own_effort(j).is_zero()) {
+    if !sums.drive_power().is_zero() {
         own(
             DRIVES,
             "efforts at the joints that are inputs",
@@ -158,11 +158,7 @@ pub(super) fn power<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>
                 [balance.supplied, stored, balance.dissipated]
             }
             EntrySource::Links => [zero, kinetic_rate, zero],
-            EntrySource::Drives => {
-                let n = system.scene.layout.motions();
-                let power = (0..n).fold(zero, |sum, j| sum + sums.own_effort(j) * sums.v[j]);
-                [power, zero, zero]
-            }
+            EntrySource::Drives => [sums.drive_power(), zero, zero],
             EntrySource::Prescribed => [supplied_by_prescribed(&sums, &rates), zero, zero],
             EntrySource::Dropped if !system.scene.layout.prescribed.is_empty() => {
                 let inertial = inertial_power(&sums, &rates);

@@ -2,7 +2,7 @@
 
 use crate::bond_graph::BondNetwork;
 use crate::choice::GraphMethods;
-use crate::expr::{Builder, Expr, Signed};
+use crate::expr::{Builder, Expr, Graph, Signed, copy_with_pivots};
 use crate::function::Function;
 use crate::method::{Method, SceneFunction};
 use crate::scene::{Initial, Scene};
@@ -67,6 +67,13 @@ impl SceneEquations {
         outputs: Vec<Signed>,
     ) -> Function {
         let method = Method::Scene(role);
-        Function::flat(&self.graph, method, formulation, b.into_graph(), outputs)
+        let graph = b.into_graph();
+        if self.graph.closed.is_none() || method.shape().checked() {
+            return Function::flat(&self.graph, method, formulation, graph, outputs);
+        }
+        // A function without errors has the values of S, but not the checks of its pivots.
+        let mut unchecked = Graph::default();
+        let outputs = copy_with_pivots(&mut unchecked, &graph, &outputs, |_, _| None, |_| None);
+        Function::flat(&self.graph, method, formulation, unchecked, outputs)
     }
 }

@@ -25,7 +25,7 @@ pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
     // The recursion's derivatives are along the tangent, the Jacobian's columns components of positions. The
     // derivatives at fixed course lack the motion of prescribed joints in time.
     let layout = &system.scene.layout;
-    if !layout.quasi_joints.is_empty() || !layout.prescribed.is_empty() {
+    if !layout.coupled().is_empty() || !layout.prescribed.is_empty() {
         return vec![differentiated(system)];
     }
     let mut ways = implicit(system);

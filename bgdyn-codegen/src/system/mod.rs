@@ -35,6 +35,7 @@ use crate::fault::{Faults, wording};
 use crate::format::Dimension;
 use crate::formulation::Formulation;
 use crate::function::Function;
+use crate::mechanism::Mechanism;
 use crate::method::{Method, SceneFunction};
 use crate::passes::{cheapest, factor, finish};
 use crate::scene::{Level, Override, Scene};
@@ -47,11 +48,15 @@ impl SceneEquations {
     /// Outputs that the scene does not have; values that do not stay positive over the limits of the
     /// joints; given modes that contradict the state.
     pub fn new(scene: Scene) -> Result<Self, Faults> {
-        let mut graph = bond_graph::build(&scene.mechanism).without_loads();
-        for element in &scene.elements {
-            effect::of(element).modify_graph(element, &scene.mechanism, &mut graph);
+        let mut graph = loaded(
+            bond_graph::build(&scene.mechanism),
+            &scene,
+            &scene.mechanism,
+        );
+        if let Some(closed) = &mut graph.closed {
+            let open = scene.mechanism.open();
+            closed.tree = loaded(closed.tree.clone(), &scene, &open);
         }
-        graph.update_released();
         let mut system = SceneEquations {
             initial: scene.initial.clone(),
             outputs: Vec::new(),
@@ -104,6 +109,14 @@ impl SceneEquations {
         let mut positions: Vec<Dd> = (0..self.scene.layout.nq())
             .map(|j| Dd::from_f64(0.37 + 0.71 * j as f64))
             .collect();
+        if let Some(closed) = self
+            .scene
+            .mechanism
+            .closure()
+            .and_then(|c| c.samples.first())
+        {
+            positions[..closed.len()].copy_from_slice(closed);
+        }
         self.scene.layout.normalize(&mut positions);
         let at = crate::scene::Initial {
             q: positions,
@@ -120,8 +133,8 @@ impl SceneEquations {
         self.roles_with(false, false)
     }
 
-    /// Returns the same, with the Jacobian and the canonical form if selected. Scenes with quasi-velocities
-    /// have no canonical form.
+    /// Returns the same, with the Jacobian and the canonical form if selected. Scenes with quasi-velocities or
+    /// loops have no canonical form.
     pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<SceneFunction> {
         let layout = &self.scene.layout;
         let method = self.scene.integration.method;
@@ -138,9 +151,11 @@ impl SceneEquations {
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
             | SceneFunction::CanonicalRates => {
-                let natural = layout.quasi_joints.is_empty() && self.graph.released.is_none();
+                let natural = layout.coupled().is_empty() && self.graph.released.is_none();
                 natural && (canonical || method.needs_canonical())
             }
+            SceneFunction::PositionRates => layout.needs_position_rates(),
+            SceneFunction::ClosingStep => self.graph.closed.is_some(),
         };
         SceneFunction::ALL.into_iter().filter(has).collect()
     }
@@ -182,6 +197,12 @@ impl SceneEquations {
             SceneFunction::ToCanonical => canonical::momenta(self),
             SceneFunction::FromCanonical => canonical::velocities(self),
             SceneFunction::CanonicalRates => canonical::rates(self),
+            SceneFunction::PositionRates => {
+                vec![self.one(role, |system, b| system.effort_sums(b).position_rates())]
+            }
+            SceneFunction::ClosingStep => {
+                vec![self.one(role, |system, b| system.effort_sums(b).closing_steps())]
+            }
         }
     }
 
@@ -202,11 +223,27 @@ impl SceneEquations {
     }
 }
 
+/// Returns the bond graph of a mechanism with the loads of the scene's effects.
+fn loaded(graph: BondGraph, scene: &Scene, mechanism: &Mechanism) -> BondGraph {
+    let mut graph = graph.without_loads();
+    for element in &scene.elements {
+        effect::of(element).modify_graph(element, mechanism, &mut graph);
+    }
+    graph.update_released();
+    graph
+}
+
 /// Returns the bond graph of the mechanism and of the scene's effects.
 fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     let layout = &scene.layout;
     let driven = layout.inputs.iter().filter_map(|input| input.drives);
-    let driven = driven.map(|j| layout.coordinates[j].name.clone()).collect();
+    let driven = driven.map(|j| layout.coordinates[j].name.clone());
+    let dependents = layout
+        .inputs
+        .iter()
+        .filter_map(|input| input.drives_dependent);
+    let dependents = dependents.map(|d| layout.dependents[d].name.clone());
+    let driven = driven.chain(dependents).collect();
     // Prescribed joints are part of the drawing.
     let drawn = graph.released.as_deref().map_or(graph, |released| released);
     let mut network = BondNetwork::of_mechanism(drawn, driven);

@@ -7,6 +7,7 @@ use bgdyn_runtime::Dd;
 use super::EffortSums;
 use crate::effort_sums::Condition;
 use crate::fault::{Faults, wording};
+use crate::mechanism::Limits;
 use crate::scene::{Initial, MomentumStore, Scene};
 
 /// Number of points between a joint's limits.
@@ -41,15 +42,11 @@ fn violated<'g>(
     if let Some(value) = first {
         return Some((value, "at the start".into()));
     }
-    for p in sums.positions_of(condition.value) {
-        let Some(j) = scene.layout.positions[p].coordinate else {
+    let read = sums.positions_of(condition.value);
+    for &p in &read {
+        let Some((limits, name)) = limits_of(scene, p) else {
             continue;
         };
-        let coordinate = &scene.layout.coordinates[j];
-        let MomentumStore::Links(id) = &coordinate.store else {
-            continue;
-        };
-        let limits = scene.mechanism.joint(*id).limits;
         let (Some(lower), Some(upper)) = (limits.lower, limits.upper) else {
             continue;
         };
@@ -57,12 +54,35 @@ fn violated<'g>(
             let q = lower + (upper - lower) * f64::from(k) / f64::from(POINTS);
             let mut moved = start.clone();
             moved.q[p] = Dd::from_f64(q);
+            // Other positions that the value depends on may move with this one.
+            let closure = scene.mechanism.closure().filter(|_| read.len() > 1);
+            if closure.is_some_and(|closure| !closure.close(&mut moved.q[..closure.start.len()])) {
+                continue;
+            }
             if let Some(value) = Some(value_at(&moved)).filter(wrong) {
-                let (name, unit) = (&coordinate.name, coordinate.dimensions[0].si());
+                let unit = scene.layout.positions[p].dimension.si();
                 let location = format!("where `{name}` is {q:.4} {unit}, within its limits");
                 return Some((value, location));
             }
         }
     }
     None
+}
+
+/// Returns the limits of the joint with this position, and its name.
+fn limits_of(scene: &Scene, p: usize) -> Option<(Limits, &str)> {
+    let (layout, mechanism) = (&scene.layout, &scene.mechanism);
+    if let Some(j) = layout.positions[p].coordinate {
+        let coordinate = &layout.coordinates[j];
+        return match &coordinate.store {
+            MomentumStore::Links(id) => {
+                Some((mechanism.joint(*id).limits, coordinate.name.as_str()))
+            }
+            MomentumStore::Own(_) => None,
+        };
+    }
+    let dependent = layout.dependents.iter().find(|joint| joint.position == p)?;
+    let mut joints = mechanism.links().iter().map(|link| &link.joint);
+    let joint = joints.find(|joint| joint.name == dependent.name)?;
+    Some((joint.limits, &joint.name))
 }

@@ -34,7 +34,7 @@ pub(super) fn summed_by<'g, 'a>(
     own: ActuatorEfforts,
     asked: Option<&'static dyn Formulation>,
 ) -> EffortSums<'g, 'a> {
-    let input = |(i, part): (usize, &Variable)| match part.drives {
+    let input = |(i, part): (usize, &Variable)| match part.drives.or(part.drives_dependent) {
         Some(_) if own != ActuatorEfforts::FromInputs => b.zero(),
         _ => b.leaf(Leaf::Input(i)),
     };

@@ -40,6 +40,9 @@ pub fn check_scene(system: &SceneEquations, functions: &[Function]) -> Vec<Diffe
 /// Rates of first-order states below this, times the permitted error, count as zero: SI units.
 const LEAST_RATE: f64 = 1e-12;
 
+/// An opening of the loops, m or rad, that Newton's method reduces to about its square.
+const OPENING: f64 = 1e-4;
+
 struct CheckedScene<'a> {
     system: &'a SceneEquations,
     functions: &'a [Function],
@@ -84,6 +87,12 @@ impl CheckedScene<'_> {
             | SceneFunction::Contacts
             | SceneFunction::Energy
             | SceneFunction::Outputs => None,
+            SceneFunction::PositionRates => {
+                let rates = self.system.graph.position_rates(&at.q, &at.v);
+                let law = ("q̇ = N(q) S(q) v", EXACT);
+                self.compare(function, law, (&found[..rates.len()], &rates), 0.0, at)
+            }
+            SceneFunction::ClosingStep => self.closing_step(function, at),
         }
     }
 
@@ -129,13 +138,16 @@ impl CheckedScene<'_> {
             })
             .or_else(|| {
                 let layout = &self.system.scene.layout;
-                let rates = layout
+                let mut expected = self.system.graph.position_rates(&at.q, &at.v);
+                for (p, rate) in layout
                     .quasi_joints
                     .iter()
-                    .flat_map(|joint| coupled_rates(joint, at));
-                let coupled_positions = layout.coupled();
-                let own = rates.filter(|(p, _)| coupled_positions.contains(p));
-                let expected: Vec<Dd> = own.map(|(_, rate)| rate).collect();
+                    .flat_map(|joint| coupled_rates(joint, at))
+                {
+                    expected[p] = rate;
+                }
+                let of_coupled = layout.coupled().into_iter().map(|p| expected[p]);
+                let expected: Vec<Dd> = of_coupled.collect();
                 self.compare(
                     function,
                     ("q̇ = N(q) v", EXACT),
@@ -144,6 +156,22 @@ impl CheckedScene<'_> {
                     at,
                 )
             })
+    }
+
+    /// Checks that the loops are open by the square of a small opening after one step.
+    fn closing_step(&self, function: &Function, at: &Inputs<Dd>) -> Option<Difference> {
+        let closure = self.system.scene.mechanism.closure()?;
+        let mut opened = at.clone();
+        let mut random = Random(23);
+        for p in closure.dependents().filter_map(|j| closure.positions[j.0]) {
+            opened.q[p.0] += signed(&mut random) * Dd::from_f64(OPENING);
+        }
+        let steps = function.evaluate(opened.clone()).0;
+        let stepped = minus(&opened.q, &steps);
+        let (left, _) = closure.values(&closure.rows, &stepped);
+        let closed = vec![Dd::ZERO; left.len()];
+        let law = ("loops closed after a step, to its square", OPENING);
+        self.compare(function, law, (&left, &closed), OPENING, at)
     }
 
     /// Returns P, E and ẋ at these accelerations.

@@ -6,6 +6,7 @@ use crate::bond_graph::BondGraph;
 use crate::conditioning::rounding_error::in_double_double;
 use crate::conditioning::sample_states;
 use crate::expr::Inputs;
+use crate::mechanism::closure::Closure;
 use crate::random::Random;
 use crate::system::SceneEquations;
 
@@ -63,6 +64,21 @@ fn vary(parameters: &mut [Dd], random: &mut Random) {
     }
 }
 
+/// Closes the loops at these positions, or closer to the start if they do not close on its branch.
+fn close_near(closure: &Closure, start: &[Dd], q: &mut [Dd]) {
+    let wanted = q.to_vec();
+    for halvings in 0..8 {
+        let part = Dd::from_f64(0.5_f64.powi(halvings));
+        for ((q, &wanted), &start) in q.iter_mut().zip(&wanted).zip(start) {
+            *q = start + (wanted - start) * part;
+        }
+        if closure.close(q) && closure.signs_at(q) == closure.signs {
+            return;
+        }
+    }
+    q.copy_from_slice(start);
+}
+
 /// Returns states of a scene near its start: with all modes slipping, or some of them held.
 pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
     let layout = &system.scene.layout;
@@ -101,6 +117,9 @@ pub(super) fn of_scene(system: &SceneEquations) -> Vec<Inputs<Dd>> {
             passed: vec![],
         };
         layout.normalize(&mut state.q);
+        if let Some(closure) = system.scene.mechanism.closure() {
+            close_near(closure, &initial.q, &mut state.q);
+        }
         state
     };
     (0..count).map(state).collect()

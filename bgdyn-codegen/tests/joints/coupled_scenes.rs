@@ -48,6 +48,26 @@ fn scene(constraint: Option<&str>, effect: &str) -> SceneEquations {
     read.unwrap_or_else(|e| panic!("{effect}: {e:?}"))
 }
 
+/// Returns each effect with each constraint: on positions, and on velocities only.
+fn each() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let effects = |constraint| EFFECTS.into_iter().map(move |effect| (constraint, effect));
+    [GEAR, LINEAR].into_iter().flat_map(effects)
+}
+
+/// The rate of the third position is that of its velocity.
+#[test]
+fn a_position_of_its_own_has_the_rate_of_its_velocity() {
+    let system = scene(Some(LINEAR), EFFECTS[0]);
+    let [own, tree] = states(&system, 3);
+    let rates = values(&system, SceneFunction::PositionRates, own.clone());
+    let rates_of_all = values(&system, SceneFunction::Derivative, own);
+    for (found, wanted) in rates.iter().zip(&tree.v) {
+        assert!((*found - *wanted).to_f64().abs() < 1e-30);
+    }
+    assert_eq!(rates_of_all.last(), rates.get(2));
+    assert!(!system.roles().contains(&SceneFunction::ClosingStep));
+}
+
 fn values(system: &SceneEquations, role: SceneFunction, at: Inputs<Dd>) -> Vec<Dd> {
     let (found, refused) = system.function(role).evaluate(at);
     assert!(refused.is_none(), "{role:?}: {refused:?}");
@@ -80,8 +100,13 @@ fn states(one: &SceneEquations, seed: u64) -> [Inputs<Dd>; 2] {
         t: Some(Dd::ZERO),
         passed: vec![],
     };
-    let mut q = mapped(&own.q);
-    q[2] -= Dd::from_f64(5.0) / Dd::from_f64(100.0);
+    // With a constraint on velocities only, the third position is its own.
+    let free = layout.positions.iter().any(|p| p.name == "slide");
+    let mut q = own.q.clone();
+    if !free {
+        q = mapped(&own.q);
+        q[2] -= Dd::from_f64(5.0) / Dd::from_f64(100.0);
+    }
     let tree = Inputs {
         q,
         v: mapped(&own.v),
@@ -93,8 +118,8 @@ fn states(one: &SceneEquations, seed: u64) -> [Inputs<Dd>; 2] {
 
 #[test]
 fn effects_on_a_joint_that_follows_two_act_on_both() {
-    for effect in EFFECTS {
-        let (one, open) = (scene(Some(GEAR), effect), scene(None, effect));
+    for (constraint, effect) in each() {
+        let (one, open) = (scene(Some(constraint), effect), scene(None, effect));
         for seed in 0..4 {
             let [own, tree] = states(&one, seed);
             let found = values(&one, SceneFunction::Inverse, own.clone());
@@ -130,8 +155,8 @@ fn effects_on_a_joint_that_follows_two_act_on_both() {
 /// The generator's check: equation (6) under the laws, the balance of power, the Jacobian, the canonical form.
 #[test]
 fn coupled_scenes_are_verified() {
-    for effect in EFFECTS {
-        let system = scene(Some(GEAR), effect);
+    for (constraint, effect) in each() {
+        let system = scene(Some(constraint), effect);
         let roles = system.roles_with(true, true).into_iter();
         let functions: Vec<Function> = roles.map(|role| system.function(role)).collect();
         let found = check_scene(&system, &functions);
@@ -202,15 +227,10 @@ fn locks_of_coupled_joints() {
 }
 
 #[test]
-fn constraints_on_velocities_only_are_refused_in_scenes() {
-    let words = [
-        "`slide` follows `left`, `right`",
-        "`gear`",
-        "own methods support",
-    ];
-    for lock in ["", "lock: { left: 0, right: 0 }"] {
-        refused((LINEAR, "velocity-constraint"), "", lock, &words);
-    }
+fn constraints_on_velocities_have_no_canonical_form() {
+    let keys = "integration: { method: canonical_gauss2, step: 1 ms, end: 1 s }";
+    let words = ["`slide`", "canonical_gauss2", "write `gauss2`"];
+    refused((LINEAR, "canonical-of-constraints"), "", keys, &words);
 }
 
 /// The scene of the gear with a further joint, so that something moves.

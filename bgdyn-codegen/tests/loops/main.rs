@@ -17,4 +17,5 @@ mod frame_rows;
 mod multipliers;
 mod random_loops;
 mod references;
+mod scenes;
 mod verified;

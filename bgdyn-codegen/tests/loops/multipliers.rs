@@ -6,7 +6,7 @@ use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
 use super::frame_rows::{FrameMotion, minus, rows};
-use super::random_loops::{Text, thousandths};
+use super::random_loops::{Text, noisy};
 use super::robot::{Robot, State, Way, close, dot, full, largest, times};
 
 const WAYS: [Way; 2] = [None, Some("subspaces")];
@@ -183,15 +183,6 @@ fn compare(text: &Text, what: &str) {
                 &format!("{what}: mass matrix"),
             );
         }
-    }
-}
-
-fn noisy(random: &mut Random) -> [i64; 3] {
-    let axis = [0; 3].map(|_| thousandths(random, 999));
-    if axis.iter().all(|x| x.abs() < 50) {
-        [0, 0, 1000]
-    } else {
-        axis
     }
 }
 

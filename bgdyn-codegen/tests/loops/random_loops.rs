@@ -32,6 +32,16 @@ pub fn vector(v: [i64; 3]) -> String {
     format!("[{}]", v.map(decimal).join(", "))
 }
 
+/// Returns an axis in any direction.
+pub fn noisy(random: &mut Random) -> [i64; 3] {
+    let axis = [0; 3].map(|_| thousandths(random, 999));
+    if axis.iter().all(|x| x.abs() < 50) {
+        [0, 0, 1000]
+    } else {
+        axis
+    }
+}
+
 /// A mechanism whose links' axes are parallel at zero, so that places with the sum of the origins coincide there.
 pub struct Text {
     pub links: String,

@@ -168,10 +168,8 @@ where
         }
         let dense = self.solver.dense(&self.fixed_modes(), &whole.step)?;
         let values = |theta: Time<P>| {
-            self.values(
-                dense.start() + theta * dense.length(),
-                &self.within(&dense, theta),
-            )
+            let t = dense.start() + theta * dense.length();
+            self.values(t, &self.within(&dense, theta)?)
         };
         let number = |n: u32| Time::<P>::from_f64(n.into());
         let mut low = (number(0), before.clone());

@@ -116,11 +116,11 @@ impl Ode for Turning {
         ]))
     }
 
-    fn project(&self, y: &mut SVector<f64, 4>) -> bool {
+    fn project(&self, y: &mut SVector<f64, 4>) -> Result<bool, ()> {
         if self.projects {
             *y /= y.norm_squared().sqrt();
         }
-        self.projects
+        Ok(self.projects)
     }
 }
 

@@ -15,6 +15,7 @@ use bgdyn_runtime::Dd;
 use serde_json::{Value, json};
 
 use super::arguments::Eval;
+use super::closed::{closed, singular_loop};
 use super::states::{Failure, finite, parameters, plain, singular, states};
 use crate::usage::Usage;
 
@@ -103,6 +104,9 @@ impl SceneCall<'_> {
             SceneFunction::Contacts => parts(&layout.modes),
             SceneFunction::Power | SceneFunction::Energy => named(&self.system.entries),
             SceneFunction::Outputs => named(&self.system.outputs),
+            SceneFunction::PositionRates | SceneFunction::ClosingStep => {
+                layout.positions.iter().map(|p| p.name.clone()).collect()
+            }
         }
     }
 
@@ -110,7 +114,11 @@ impl SceneCall<'_> {
         let at = self.arguments(state)?;
         let (values, refused) = self.function.evaluate(at.clone());
         if let Some(j) = refused {
-            return Err(singular(&self.names.coordinates[j]));
+            let layout = &self.system.scene.layout;
+            return Err(match j.checked_sub(layout.nv() + layout.nx()) {
+                None => singular(&self.names.coordinates[j]),
+                Some(closes) => singular_loop(self.system.scene.mechanism.closure(), closes),
+            });
         }
         if values.iter().any(|x| !x.is_finite()) {
             return Err(plain(
@@ -138,6 +146,11 @@ impl SceneCall<'_> {
         }
         let mut y = vector(state, key, &self.names.state, begin)?;
         self.unit_quaternions(&mut y[..nq])?;
+        let closure = self.system.scene.mechanism.closure();
+        if let Some(closure) = closure.filter(|_| self.role != SceneFunction::ClosingStep) {
+            let q = closed(closure, &y[..closure.start.len()])?;
+            y[..q.len()].copy_from_slice(&q);
+        }
         let modes = vector(state, "modes", &self.names.modes, numbers(&start.modes))?;
         let a = vec![0.0; nv];
         let t = match state.get("t") {

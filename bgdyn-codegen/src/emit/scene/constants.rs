@@ -7,6 +7,7 @@ use super::super::constants::size;
 use super::super::tokens::ident;
 use super::parts::{StructField, moving_parts, of_named};
 use crate::interface::SceneInterface;
+use crate::scene::StateLayout;
 
 pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
     let layout = &scene.layout;
@@ -64,6 +65,7 @@ pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
     let entry_count = size(entries.len());
     let entry_names = entries.iter().map(|e| &e.name);
     let coordinates = layout.coordinates.iter().map(|c| &c.name);
+    let loops = loops(layout, &rate_names);
     quote! {
         #(#sizes)*
         #state
@@ -79,5 +81,28 @@ pub(super) fn constants(scene: &SceneInterface) -> TokenStream {
         pub const ENTRY_NAMES: [&str; #entry_count] = [#(#entry_names),*];
         /// Names in errors: of coordinates, then of first-order states.
         pub const RATE_NAMES: [&str; NV + NX] = [#(#rate_names),*];
+        #loops
+    }
+}
+
+/// Returns the constants of a scene with loops: names in errors, and the dependent joints.
+fn loops(layout: &StateLayout, rate_names: &[&String]) -> TokenStream {
+    if layout.loops.is_empty() {
+        return TokenStream::new();
+    }
+    let loops = &layout.loops;
+    let names = size(rate_names.len() + loops.len());
+    let dependents = layout.dependents.iter().map(|joint| {
+        let [position, closes] = [joint.position, joint.closes].map(size);
+        quote! {
+            __rt::closure::Dependent { velocity: #position, position: #position, closes: #closes }
+        }
+    });
+    let count = size(layout.dependents.len());
+    quote! {
+        /// Names in errors: those of [`RATE_NAMES`], then of the loops.
+        pub const PIVOT_NAMES: [&str; #names] = [#(#rate_names,)* #(#loops),*];
+        /// The dependent joints of the loops, by their positions.
+        const DEPENDENTS: [__rt::closure::Dependent; #count] = [#(#dependents),*];
     }
 }

@@ -30,7 +30,9 @@ fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<
         SceneFunction::Jacobian
         | SceneFunction::ToCanonical
         | SceneFunction::FromCanonical
-        | SceneFunction::CanonicalRates => ("", vec![]),
+        | SceneFunction::CanonicalRates
+        | SceneFunction::PositionRates
+        | SceneFunction::ClosingStep => ("", vec![]),
     }
 }
 
@@ -81,6 +83,9 @@ pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStr
     let types = arguments.iter().map(|a| argument_type(*a));
     let result = match role {
         SceneFunction::Events => quote! { __na::SVector<T, NE> },
+        SceneFunction::PositionRates | SceneFunction::ClosingStep => {
+            quote! { __na::SVector<T, NQ> }
+        }
         SceneFunction::Jacobian => quote! { (__na::SMatrix<T, N, N>, __na::SVector<T, N>) },
         SceneFunction::ToCanonical
         | SceneFunction::FromCanonical
@@ -109,7 +114,8 @@ fn finish(
     is_checked: bool,
 ) -> TokenStream {
     let method = Method::Scene(role);
-    let rates_or_error = |rates: &TokenStream| checked(method, rates, &quote! { &RATE_NAMES });
+    let names = pivot_names(layout);
+    let rates_or_error = |rates: &TokenStream| checked(method, rates, &names);
     let refuse = is_checked.then(|| {
         let found = rates_or_error(&quote! { __rt::vector([T::from_f64(0.0); NV + NX]) });
         quote! { #found?; }
@@ -174,6 +180,15 @@ fn finish(
         SceneFunction::ToCanonical => to_canonical(layout, values),
         SceneFunction::FromCanonical => from_canonical(layout, values),
         SceneFunction::CanonicalRates => canonical_rates(layout, values),
+        SceneFunction::PositionRates | SceneFunction::ClosingStep => vector(values),
+    }
+}
+
+/// Returns the names of the causes of missing rates.
+fn pivot_names(layout: &StateLayout) -> TokenStream {
+    match layout.loops.is_empty() {
+        true => quote! { &RATE_NAMES },
+        false => quote! { &PIVOT_NAMES },
     }
 }
 
@@ -188,11 +203,7 @@ fn passed(
     let all = layout.nv() + layout.nx();
     let zeros = (values.len()..all).map(|_| quote! { T::from_f64(0.0) });
     let padded: Vec<TokenStream> = values.iter().cloned().chain(zeros).collect();
-    let padded = checked(
-        Method::Scene(role),
-        &vector(&padded),
-        &quote! { &RATE_NAMES },
-    );
+    let padded = checked(Method::Scene(role), &vector(&padded), &pivot_names(layout));
     let names = (0..all).map(|i| format_ident!("{prefix}{i}"));
     let names: Vec<Ident> = names.collect();
     let bound = names

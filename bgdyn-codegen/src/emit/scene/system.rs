@@ -45,6 +45,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
     let velocities = &scene.mode_coordinates;
     let corners = corners(&scene.corners);
     let quasi_joints = quasi_joints(layout);
+    let constrained = constrained_positions(layout);
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
         impl<T: __Scalar> __rt::HybridSystem<T> for #name<T> {
@@ -58,6 +59,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
             fn state_names(&self) -> &'static [&'static str; N] { &STATE_NAMES }
             fn positions(&self) -> usize { NQ }
             #quasi_joints
+            #constrained
             fn mode_names(&self) -> &'static [&'static str; NM] { &MODE_NAMES }
             fn input_names(&self) -> &'static [&'static str; NU] { &INPUT_NAMES }
             fn event_names(&self) -> &'static [&'static str; NE] { &EVENT_NAMES }
@@ -162,6 +164,40 @@ fn quasi_joints(layout: &StateLayout) -> TokenStream {
         }
     });
     quote! { fn quasi_joints(&self) -> &'static [__rt::QuasiJoint] { &[#(#joints),*] } }
+}
+
+/// Returns the methods for positions whose rates follow from several velocities.
+fn constrained_positions(layout: &StateLayout) -> TokenStream {
+    if !layout.needs_position_rates() {
+        return TokenStream::new();
+    }
+    let close = (!layout.loops.is_empty()).then(|| {
+        quote! {
+            fn has_loops(&self) -> bool { true }
+            fn close(
+                &self,
+                y: &mut __na::SVector<T, N>,
+            ) -> ::core::result::Result<bool, Self::Singular> {
+                let modes = State::<T>::default().modes();
+                let step = |y: &__na::SVector<T, N>| {
+                    self.closing_step(&State::from_vectors(y, &modes))
+                };
+                __rt::closure::close_state::<T, N, NQ, { NV + NX }>(y, &DEPENDENTS, &PIVOT_NAMES, step)?;
+                ::core::result::Result::Ok(true)
+            }
+        }
+    });
+    quote! {
+        fn position_rates(&self, y: &__na::SVector<T, N>, rates: &mut __na::SVector<T, N>) -> bool {
+            let modes = State::<T>::default().modes();
+            let own = self.position_rates(&State::from_vectors(y, &modes));
+            for (rate, &own) in rates.iter_mut().zip(own.iter()) {
+                *rate = own;
+            }
+            true
+        }
+        #close
+    }
 }
 
 /// The implementation of the trait `Slope`.

@@ -112,6 +112,25 @@ pub(crate) fn effect_on_follower(location: &Location, joint: &str, leaders: &[St
     Fault::new(location, "follower", message).with_help(help)
 }
 
+pub(crate) fn effect_on_dependent(location: &Location, joint: &str) -> Fault {
+    let message = format!(
+        "the velocity of `{joint}` follows from others through a loop: it has no drive of its own for this effect to act on"
+    );
+    Fault::new(location, "dependent-joint", message).with_help(format!(
+        "list `{joint}` under `independent:` in the mechanism, so that another joint follows"
+    ))
+}
+
+/// `keyword` is the type of the effect, which can hold its joint at rest.
+pub(crate) fn hold_of_dependent(location: &Location, keyword: &str, joint: &str) -> Fault {
+    let message = format!(
+        "the velocity of `{joint}` follows from others through a loop, and `{keyword}` can hold a joint at rest: it acts on independent joints only"
+    );
+    Fault::new(location, "dependent-joint", message).with_help(format!(
+        "take `coulomb_smooth` or `lugre`, which do not hold exactly, or list `{joint}` under `independent:` in the mechanism"
+    ))
+}
+
 pub(crate) fn rotor_ratio_on_follower(location: &Location, joint: &str, leader: &str) -> Fault {
     let message = format!(
         "`{joint}` follows `{leader}`: a rotor there turns by its `ratio` times that of the two joints, and this `ratio` is a run-time parameter"

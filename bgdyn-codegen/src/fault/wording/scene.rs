@@ -50,23 +50,18 @@ pub(crate) fn lock_of_follower(location: &Location, joint: &str, leaders: &[Stri
     ))
 }
 
-pub(crate) fn velocity_constraint(location: &Location, joint: &str, leaders: &[String]) -> Fault {
+/// `constraints` are loops or joints, the others the method of the scene and the same on velocities.
+pub(crate) fn canonical_of_constraints(
+    location: &Location,
+    constraints: &[&str],
+    (name, natural): (&str, &str),
+) -> Fault {
     let message = format!(
-        "the velocity of `{joint}` follows {}, and its position is its own: scenes do not support such constraints yet",
-        quoted_list(leaders.iter().map(String::as_str))
+        "`{name}` integrates momenta, and scenes with constraints ({}) have no canonical form yet",
+        quoted_list(constraints.iter().copied())
     );
-    Fault::new(location, "velocity-constraint", message).with_help(
-        "a constraint `gear` has the same velocities, and positions that follow too; the mechanism's own methods support `linear`",
-    )
-}
-
-pub(crate) fn loops_in_scene(location: &Location, names: &[&str]) -> Fault {
-    let message = format!(
-        "the mechanism has loops ({}): scenes do not support them yet",
-        quoted_list(names.iter().copied())
-    );
-    Fault::new(location, "loops-in-scene", message)
-        .with_help("the mechanism's own methods support loops: integrate its trait `Dynamics`")
+    Fault::new(location, "canonical-of-constraints", message)
+        .with_help(format!("write `{natural}`: the same method on velocities"))
 }
 
 pub(crate) fn effect_beyond_prescribed(
@@ -192,6 +187,45 @@ pub(crate) fn quaternion_length(location: &Location, joint: &str, any: bool, len
     Fault::new(location, "quaternion-length", message).with_help(format!(
         "{scaled}write the angles: `{joint}: {{ rpy: [0, 0, 90 deg] }}`"
     ))
+}
+
+/// `part` is the share of the way from the mechanism's own position up to which the loops close.
+pub(crate) fn start_is_open(
+    location: &Location,
+    (closes, row): (&str, &str),
+    gap: f64,
+    part: f64,
+) -> Fault {
+    let percent = 100.0 * part;
+    let message = format!(
+        "the loop `{closes}` does not close at this start: its row {row} stays open by {gap:.3e} m or rad"
+    );
+    Fault::new(location, "open-start", message).with_help(format!(
+        "from the closed position of the mechanism (`bgdyn check`) the loops close up to {percent:.0} % of the way; give fewer positions, or others"
+    ))
+}
+
+pub(crate) fn start_on_other_branch(location: &Location, loops: &[String]) -> Fault {
+    let names = quoted_list(loops.iter().map(String::as_str));
+    let message = format!(
+        "this start is on another branch of the loops ({names}) than the mechanism, or at a singular position"
+    );
+    Fault::new(location, "other-branch", message).with_help(
+        "give other positions, or choose the branch in the mechanism with `branch` or `near`",
+    )
+}
+
+pub(crate) fn start_contradicts(
+    location: &Location,
+    name: &str,
+    (given, closed): (f64, f64),
+    unit: &str,
+) -> Fault {
+    let message = format!(
+        "`{name}` is {given} {unit} here, but the loops and the other values at the start make it {closed:.6} {unit}"
+    );
+    Fault::new(location, "contradicting-start", message)
+        .with_help(format!("leave `{name}` out, or one of the others"))
 }
 
 /// `natural` is the same method on velocities.

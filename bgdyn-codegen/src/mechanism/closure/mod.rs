@@ -27,7 +27,7 @@ use crate::math::Vec3;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates};
 pub use closing::{CLOSING_TYPES, ClosingType};
 pub use row::RowKind;
-pub(crate) use solve::{eliminate, solve};
+pub(crate) use solve::{eliminate, solve, solve_basic};
 
 /// A kinematic loop of a mechanism.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,6 +98,14 @@ impl Closure {
     /// Returns the name of a row: "rocker_pin x".
     pub fn row_name(&self, row: &LoopRow) -> String {
         format!("{} {}", self.loops[row.closes].name, row.name)
+    }
+
+    /// Returns the index of the loop with the row that determines a dependent velocity.
+    pub fn loop_of(&self, dependent: CoordinateId) -> usize {
+        let mut blocks = self.blocks.iter();
+        let block = blocks.find(|block| block.dependents.contains(&dependent));
+        let row = block.and_then(|block| block.rows.first());
+        row.map_or(0, |&r| self.rows[r].closes)
     }
 
     /// Returns the dependent velocities, block by block.

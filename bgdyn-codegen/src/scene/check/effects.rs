@@ -33,7 +33,13 @@ pub(super) fn elements(
     }
     let free = reduced.joint_names();
     let free: Vec<&str> = free.iter().map(String::as_str).collect();
-    let single = reduced.one_degree_names();
+    let mut single = reduced.one_degree_names();
+    single.extend(
+        super::joints::layout(reduced)
+            .dependents
+            .into_iter()
+            .map(|d| d.name),
+    );
     let single: Vec<&str> = single.iter().map(String::as_str).collect();
     let wanted = wanted(spec, (whole, kinds, &single), &mut refused, faults);
     let all = whole.mechanism.joint_names();
@@ -85,8 +91,8 @@ pub(super) fn elements(
     }
 }
 
-/// Refuses effects that can hold a joint at rest, which have modes, on joints that follow several others: the
-/// hold would couple those.
+/// Refuses effects that can hold a joint at rest, which have modes, on joints that follow several others or that are
+/// dependent in a loop: the hold would couple other joints.
 fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faults) {
     let several = mechanism
         .followers()
@@ -94,9 +100,7 @@ fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faul
     for (joint, coupling, _) in several {
         let on = |e: &&Element| e.name("joint") == Some(joint.name.as_str());
         for element in elements.iter().filter(on) {
-            let mut layout = super::joints::layout(mechanism);
-            element.effect.declare(element, &mut layout);
-            if !layout.modes.is_empty() {
+            if can_hold(element, mechanism) {
                 let (keyword, leaders) = (element.effect.keyword(), mechanism.leaders(coupling));
                 faults.push(wording::effect_on_follower_of_several(
                     &element.location,
@@ -107,6 +111,28 @@ fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faul
             }
         }
     }
+    let dependent = |name: &str| {
+        let mut joints = mechanism.links().iter().map(|link| &link.joint);
+        joints.any(|joint| joint.degrees.dependent && joint.name == name)
+    };
+    for element in elements {
+        let joint = element.name("joint").filter(|joint| dependent(joint));
+        if let Some(joint) = joint.filter(|_| can_hold(element, mechanism)) {
+            let keyword = element.effect.keyword();
+            faults.push(wording::hold_of_dependent(
+                &element.location,
+                keyword,
+                joint,
+            ));
+        }
+    }
+}
+
+/// Returns whether an effect has modes.
+fn can_hold(element: &Element, mechanism: &Mechanism) -> bool {
+    let mut layout = super::joints::layout(mechanism);
+    element.effect.declare(element, &mut layout);
+    !layout.modes.is_empty()
 }
 
 /// Checks the effects that a scene declares with their types, without its mechanism.

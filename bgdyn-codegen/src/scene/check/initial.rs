@@ -5,11 +5,14 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 
 use super::super::Initial;
+use super::super::closed_start::{self, motion_of};
 use super::pose;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::StateLayout;
+use crate::mechanism::Mechanism;
+use crate::mechanism::closure::Closure;
 
 /// The names of the joints that begin with a pose, and the positions that poses in the file set, each with
 /// its joint.
@@ -40,13 +43,13 @@ fn poses<'a>(
 
 /// Returns the initial state.
 pub(super) fn initial(
-    layout: &StateLayout,
+    (mechanism, layout): (&Mechanism, &StateLayout),
     entries: &[Raw],
     refused: &RejectedEffects,
     faults: &mut Faults,
 ) -> Initial {
     let mut initial = Initial {
-        q: layout.positions.iter().map(|p| p.neutral).collect(),
+        q: neutral(mechanism, layout),
         v: vec![Dd::ZERO; layout.nv()],
         x: vec![Dd::ZERO; layout.nx()],
         modes: vec![Dd::ZERO; layout.modes.len()],
@@ -57,6 +60,11 @@ pub(super) fn initial(
     }
     for (j, c) in layout.coordinates.iter().enumerate() {
         places.insert(c.rate_name.clone(), (1, j, c.dimensions[1]));
+    }
+    let mut tree_velocities: Vec<(usize, Dd)> = Vec::new();
+    for joint in &layout.dependents {
+        let rate = (4, joint.velocity.0, joint.dimensions[1]);
+        places.insert(joint.rate_name.clone(), rate);
     }
     for (i, part) in layout.states.iter().enumerate() {
         let given = part.entered.map_or(part.dimension, |e| e.dimension);
@@ -111,7 +119,8 @@ pub(super) fn initial(
                 0 => initial.q[i] = value,
                 1 => initial.v[i] = value,
                 2 => initial.x[i] = value,
-                _ => initial.modes[i] = value,
+                3 => initial.modes[i] = value,
+                _ => tree_velocities.push((i, value)),
             }
         }
     }
@@ -136,10 +145,19 @@ pub(super) fn initial(
         let (name, any) = (&joint.name, joint.any_length);
         faults.push(wording::quaternion_length(&location, name, any, length));
     }
+    if let Some(closure) = mechanism.closure().filter(|_| refused_values.is_empty()) {
+        close(
+            (closure, layout),
+            &mut initial,
+            (&given, tree_velocities),
+            (entries, faults),
+        );
+    }
     // The default initial position and velocity of a drive are those of its joint.
     for (j, c) in layout.coordinates.iter().enumerate() {
         let name = c.starts_with.as_ref();
-        let with = name.and_then(|name| layout.motion_of(name, &initial.q, &initial.v));
+        let state = (&initial.q[..], &initial.v[..]);
+        let with = name.and_then(|name| motion_of((mechanism, layout), name, state));
         let Some((position, velocity)) = with else {
             continue;
         };
@@ -153,4 +171,44 @@ pub(super) fn initial(
         }
     }
     initial
+}
+
+/// Returns the positions at which all joints are neutral, with the mechanism's own closed positions of loops.
+fn neutral(mechanism: &Mechanism, layout: &StateLayout) -> Vec<Dd> {
+    let mut q: Vec<Dd> = layout.positions.iter().map(|p| p.neutral).collect();
+    if let Some(closure) = mechanism.closure() {
+        q[..closure.start.len()].copy_from_slice(&closure.start);
+    }
+    q
+}
+
+/// Closes the loops at the start. `given` are the positions and velocities of the file, by kind and index, and
+/// velocities of dependent joints.
+fn close(
+    (closure, layout): (&Closure, &StateLayout),
+    initial: &mut Initial,
+    (given, dependents): (&[(usize, usize)], Vec<(usize, Dd)>),
+    (entries, faults): (&[Raw], &mut Faults),
+) {
+    let positions = given.iter().filter(|(kind, _)| *kind == 0).map(|&(_, p)| p);
+    let positions: Vec<usize> = positions.collect();
+    let in_tree = closure.start.len();
+    let closed = closed_start::close_positions(closure, &mut initial.q[..in_tree], &positions);
+    let closed = closed.and_then(|()| {
+        let own = given.iter().filter(|(kind, _)| *kind == 1);
+        let own = own.filter_map(|&(_, j)| Some((closure.independents.get(j)?.0, initial.v[j])));
+        let all: Vec<(usize, Dd)> = own.chain(dependents).collect();
+        closed_start::independent_velocities(closure, &initial.q[..in_tree], &all)
+    });
+    match closed {
+        Ok(u) => initial.v[..u.len()].copy_from_slice(&u),
+        Err(reason) => {
+            let location = |name: &str| {
+                let entry = entries.iter().find(|raw| raw.name.value == name);
+                let entry = entry.or(entries.first());
+                entry.map_or_else(Location::file, |raw| raw.name.location.clone())
+            };
+            faults.push(closed_start::fault(layout, &reason, location));
+        }
+    }
 }

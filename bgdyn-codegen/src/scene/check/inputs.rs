@@ -23,6 +23,14 @@ pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
             if !known && layout.coordinates.iter().any(own) {
                 let about = format!("effort at `{name}`");
                 layout.drive(name.clone(), &name, &name, about);
+                continue;
+            }
+            let dependent = layout
+                .dependents
+                .iter()
+                .position(|joint| joint.name == name);
+            if let Some(joint) = dependent.filter(|_| !known) {
+                layout.drive_dependent(joint, format!("effort at `{name}`"));
             }
         }
     }
@@ -86,6 +94,7 @@ pub(super) fn drives(
             let all: Vec<&str> = known
                 .into_iter()
                 .chain(efforts.map(|c| c.name.as_str()))
+                .chain(layout.dependents.iter().map(|joint| joint.name.as_str()))
                 .chain(joints)
                 .collect();
             let fault = wording::unknown_input(&raw.name.location, name, &all);

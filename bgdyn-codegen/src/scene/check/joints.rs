@@ -5,9 +5,10 @@ use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use crate::format::Dimension;
 use crate::layout::{
-    MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout, StatePosition,
+    DependentJoint, MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout,
+    StatePosition,
 };
-use crate::mechanism::{Coupling, Degrees, Joint, Mechanism, Motion};
+use crate::mechanism::{CoordinateId, Coupling, Degrees, Joint, Mechanism, Motion};
 
 /// Returns the layout of the joints' positions and velocities.
 pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
@@ -53,12 +54,37 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         layout.quasi_joints.extend(quasi_joint(joint));
     }
     layout.followers = mechanism.followers().map(follower).collect();
+    layout.dependents = dependents(mechanism);
+    let loops = mechanism.closure().into_iter().flat_map(|c| &c.loops);
+    layout.loops = loops.map(|one| one.name.clone()).collect();
     for prescribed in mechanism.prescribed() {
         let joint = mechanism.prescribed_joint(prescribed);
         let [position, ..] = dimensions(joint.kind.motion == Motion::Translation);
         layout.prescribe(&joint.name, position);
     }
     layout
+}
+
+/// Returns the joints whose velocities follow from others through loops.
+fn dependents(mechanism: &Mechanism) -> Vec<DependentJoint> {
+    let Some(closure) = mechanism.closure() else {
+        return vec![];
+    };
+    let open = mechanism.open();
+    let names = open.joint_names();
+    let joint = |j: CoordinateId| {
+        Some(DependentJoint {
+            name: names[j.0].clone(),
+            position: closure.positions[j.0]?.0,
+            velocity: j,
+            dimensions: dimensions(open.linear(j)),
+            rate_name: format!("{}_rate", names[j.0]),
+            closes: closure.loop_of(j),
+        })
+    };
+    let mut all: Vec<CoordinateId> = closure.dependents().collect();
+    all.sort();
+    all.into_iter().filter_map(joint).collect()
 }
 
 fn follower((joint, coupling, linear): (&Joint, &Coupling, bool)) -> StateFollower {

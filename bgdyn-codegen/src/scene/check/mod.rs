@@ -20,7 +20,6 @@ use crate::fault::{Faults, Location, wording};
 use crate::format::{Field, Located, SceneSpec};
 use crate::layout::StateLayout;
 use crate::machine::Machine;
-use crate::mechanism::Mechanism;
 use crate::name::is_identifier;
 
 /// The only version of the format.
@@ -124,10 +123,9 @@ fn scene(
     let scene = assembled(empty, &refused, faults);
     canonical(spec, &scene, faults);
     let moving = moving_base(spec, &scene, faults);
-    let free = velocity_constraint(spec, &whole.mechanism, faults);
     let carried = prescribed::places(&scene, faults);
     prescribed::canonical(spec, &scene, faults);
-    let drawn = sound && !moving && !free && !carried && scene.layout.repeated().is_none();
+    let drawn = sound && !moving && !carried && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
     }
@@ -158,7 +156,12 @@ pub(in crate::scene) fn assembled(
     Scene {
         parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
         drives: inputs::drives(&layout, inputs, refused, faults),
-        initial: initial::initial(&layout, &scene.written.initial, refused, faults),
+        initial: initial::initial(
+            (&scene.mechanism, &layout),
+            &scene.written.initial,
+            refused,
+            faults,
+        ),
         layout,
         ..scene
     }
@@ -209,28 +212,27 @@ fn moving_base(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) -> bool {
     moving
 }
 
-/// Refuses loops, and a constraint on velocities only: integrators assume that a position outside of joints with
-/// quasi-velocities has a velocity of its own. Returns whether there is one.
-fn velocity_constraint(spec: &SceneSpec, mechanism: &Mechanism, faults: &mut Faults) -> bool {
-    if let (Some(closure), Some(path)) = (mechanism.closure(), spec.mechanism.given()) {
-        let names: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
-        faults.push(wording::loops_in_scene(&path.location, &names));
-        return true;
-    }
-    let mut followers = mechanism.followers();
-    let found = followers.find(|(_, coupling, _)| !coupling.of_positions());
-    if let (Some((joint, coupling, _)), Some(path)) = (found, spec.mechanism.given()) {
-        let leaders = mechanism.leaders(coupling);
-        let fault = wording::velocity_constraint(&path.location, &joint.name, &leaders);
-        faults.push(fault);
-    }
-    found.is_some()
-}
-
-/// Refuses the canonical form of joints with quasi-velocities.
+/// Refuses the canonical form of joints with quasi-velocities, of loops, and of constraints on velocities.
 fn canonical(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) {
     let joint = scene.layout.quasi_joints.first();
     let method = scene.integration.method;
+    let constrained = joint.is_none() && scene.layout.needs_position_rates();
+    if let (true, true, Some(raw)) = (
+        constrained,
+        method.needs_canonical(),
+        spec.integration.value(),
+    ) {
+        let names = (method.name(), method.on_velocities().name());
+        let what = match &scene.layout.loops[..] {
+            [] => scene.layout.coupled_names(),
+            loops => loops.iter().map(String::as_str).collect(),
+        };
+        faults.push(wording::canonical_of_constraints(
+            &raw.location,
+            &what,
+            names,
+        ));
+    }
     if let (Some(joint), true, Some(raw)) =
         (joint, method.needs_canonical(), spec.integration.value())
     {

@@ -1,0 +1,38 @@
+//! Positions of mechanisms and scenes with loops: closed if they are open by rounding.
+
+use bgdyn_codegen::mechanism::closure::Closure;
+use bgdyn_runtime::Dd;
+
+use super::states::{Failure, plain};
+
+/// Largest opening of a loop that is closed, m or rad.
+const OPEN: f64 = 1e-6;
+
+/// Returns the failure at a singular position of a loop, or beyond one.
+pub(super) fn singular_loop(closure: Option<&Closure>, closes: usize) -> Failure {
+    let one = closure.and_then(|closure| closure.loops.get(closes));
+    let name = one.map_or("", |one| &one.name);
+    plain(format!(
+        "the loop `{name}` is at a singular position, or on another branch than that of the start"
+    ))
+}
+
+/// Returns positions with the dependent ones changed so that the loops close. Loops that are open by more than
+/// [`OPEN`] are refused.
+pub(super) fn closed(closure: &Closure, q: &[f64]) -> Result<Vec<f64>, Failure> {
+    let mut exact: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
+    let (residuals, _) = closure.values(&closure.rows, &exact);
+    let sizes = residuals.iter().map(|x| x.to_f64().abs());
+    let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    if let Some((row, size)) = worst.filter(|(_, size)| *size > OPEN) {
+        let row = &closure.rows[row];
+        return Err(plain(format!(
+            "the loop `{}` is open by {size} {} (row `{}`) at these positions, and at most {OPEN} is closed",
+            closure.loops[row.closes].name,
+            row.kind.unit(),
+            row.name
+        )));
+    }
+    closure.close(&mut exact);
+    Ok(exact.into_iter().map(Dd::to_f64).collect())
+}
