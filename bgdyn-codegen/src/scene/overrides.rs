@@ -182,7 +182,7 @@ impl Scene {
             };
             let given: Vec<usize> = (0..in_tree).filter(chosen).collect();
             let q = &mut scene.initial.q[..in_tree];
-            if let Err(reason) = closed_start::close_positions(closure, q, &given) {
+            if let Err(reason) = closure.reach(q, &given) {
                 faults.push(closed_start::fault(&self.layout, &reason, |_| {
                     Location::file()
                 }));

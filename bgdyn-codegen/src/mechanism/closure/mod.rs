@@ -11,11 +11,13 @@
 //! | `row.rs` | rows: value, rate, second derivative |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
+//! | `reach.rs` | closed positions and velocities with given ones |
 //! | `solve.rs` | linear equations |
 
 mod chain;
 mod closing;
 mod numeric;
+mod reach;
 mod row;
 mod solve;
 
@@ -26,8 +28,10 @@ use crate::fault::Location;
 use crate::math::Vec3;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates};
 pub use closing::{CLOSING_TYPES, ClosingType};
+pub use reach::Unreached;
 pub use row::RowKind;
-pub(crate) use solve::{eliminate, solve, solve_basic};
+use solve::solve_basic;
+pub(crate) use solve::{eliminate, solve};
 
 /// A kinematic loop of a mechanism.
 #[derive(Clone, Debug, PartialEq)]

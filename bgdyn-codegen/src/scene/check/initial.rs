@@ -18,6 +18,9 @@ use crate::mechanism::closure::Closure;
 /// its joint.
 type Poses<'a> = (Vec<&'a str>, Vec<(usize, &'a str)>);
 
+/// A part of the state by its kind (0 position, 1 velocity, 2 first-order state, 3 mode) and index.
+type ByKind = (usize, usize);
+
 /// Reads the poses of spherical and floating joints.
 fn poses<'a>(
     layout: &'a StateLayout,
@@ -187,18 +190,18 @@ fn neutral(mechanism: &Mechanism, layout: &StateLayout) -> Vec<Dd> {
 fn close(
     (closure, layout): (&Closure, &StateLayout),
     initial: &mut Initial,
-    (given, dependents): (&[(usize, usize)], Vec<(usize, Dd)>),
+    (given, dependents): (&[ByKind], Vec<(usize, Dd)>),
     (entries, faults): (&[Raw], &mut Faults),
 ) {
     let positions = given.iter().filter(|(kind, _)| *kind == 0).map(|&(_, p)| p);
     let positions: Vec<usize> = positions.collect();
     let in_tree = closure.start.len();
-    let closed = closed_start::close_positions(closure, &mut initial.q[..in_tree], &positions);
+    let closed = closure.reach(&mut initial.q[..in_tree], &positions);
     let closed = closed.and_then(|()| {
         let own = given.iter().filter(|(kind, _)| *kind == 1);
         let own = own.filter_map(|&(_, j)| Some((closure.independents.get(j)?.0, initial.v[j])));
         let all: Vec<(usize, Dd)> = own.chain(dependents).collect();
-        closed_start::independent_velocities(closure, &initial.q[..in_tree], &all)
+        closure.independent_velocities(&initial.q[..in_tree], &all)
     });
     match closed {
         Ok(u) => initial.v[..u.len()].copy_from_slice(&u),

@@ -1,0 +1,164 @@
+//! Closed positions and velocities with given ones: a start, locked joints.
+//!
+//! Given positions are reached from the closed position of the mechanism in small parts, closed after each, so that the
+//! branch stays that of the mechanism.
+
+use bgdyn_runtime::Dd;
+
+use super::{Closure, solve_basic};
+use crate::mechanism::CoordinateId;
+
+/// Parts of the way from the closed position of the mechanism to the given one.
+const PARTS: u32 = 32;
+
+/// A residual below this is that of a closed position.
+const CLOSED: f64 = 1e-25;
+
+/// Largest difference of a given dependent position or velocity from that of the closed start: rad, m, or per second.
+const AGREES: f64 = 1e-3;
+
+/// The reason why positions or velocities do not exist in closed loops.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unreached {
+    /// A loop stays open by this gap, m or rad, in this row.
+    Open {
+        /// Its name.
+        closes: String,
+        /// The row.
+        row: &'static str,
+        /// The gap.
+        gap: f64,
+        /// The part of the way from the mechanism's own position up to which the loops close, 0 to 1.
+        part: f64,
+    },
+    /// The way to the given positions leads through a singular position, to another branch.
+    OtherBranch,
+    /// The loops give a position or a velocity that differs from the given one.
+    Contradicts {
+        /// The position's index, or that of the velocity in the open tree.
+        index: usize,
+        /// Whether it is a velocity.
+        velocity: bool,
+        /// The given number.
+        given: f64,
+        /// That of the closed start.
+        closed: f64,
+    },
+}
+
+impl Closure {
+    /// Closes positions of which those with the indices `given` are given. Positions outside of loops do not change.
+    ///
+    /// # Errors
+    /// If the loops do not close at these on the branch of the mechanism.
+    pub fn reach(&self, q: &mut [Dd], given: &[usize]) -> Result<(), Unreached> {
+        let moving = self.moving();
+        let is_given = |j: &usize| self.positions[*j].is_some_and(|p| given.contains(&p.0));
+        let independent = |j: &usize| self.independents.contains(&CoordinateId(*j));
+        let freedoms = moving.iter().filter(|j| independent(j)).count();
+        // Given positions are kept, independent ones first, as many as the loops leave free.
+        let (first, second): (Vec<usize>, Vec<usize>) = moving
+            .iter()
+            .copied()
+            .filter(|j| is_given(j))
+            .partition(|j| independent(j));
+        let kept: Vec<usize> = first.into_iter().chain(second).take(freedoms).collect();
+        let free: Vec<usize> = moving
+            .iter()
+            .copied()
+            .filter(|j| !kept.contains(j))
+            .collect();
+        let target = q.to_vec();
+        let position = |j: usize| self.positions[j].map_or(0, |p| p.0);
+        for &j in &moving {
+            q[position(j)] = self.start[position(j)];
+        }
+        for part in 1..=PARTS {
+            let share = Dd::from_f64(f64::from(part) / f64::from(PARTS));
+            for &j in &kept {
+                let (from, to) = (self.start[position(j)], target[position(j)]);
+                // In the scalar of most models.
+                q[position(j)] = Dd::from_f64((from + (to - from) * share).to_f64());
+            }
+            let gap = self.assemble(&self.rows, q, &free);
+            if gap > CLOSED {
+                return Err(open(self, q, gap, f64::from(part - 1) / f64::from(PARTS)));
+            }
+        }
+        if self.signs_at(q) != self.signs {
+            return Err(Unreached::OtherBranch);
+        }
+        let given = moving.iter().filter(|j| is_given(j) && !kept.contains(j));
+        for p in given.map(|&j| position(j)) {
+            agrees(p, false, (target[p], q[p]))?;
+        }
+        Ok(())
+    }
+
+    /// Returns the independent velocities for given velocities of the open tree, by index; those that do not follow from
+    /// the given ones are 0.
+    ///
+    /// # Errors
+    /// At a singular position, and if the given ones contradict each other.
+    pub fn independent_velocities(
+        &self,
+        q: &[Dd],
+        given: &[(usize, Dd)],
+    ) -> Result<Vec<Dd>, Unreached> {
+        let n = self.independents.len();
+        let Some(map) = self.velocity_map(q) else {
+            return Err(Unreached::OtherBranch);
+        };
+        let mut u = vec![Dd::ZERO; n];
+        let mut fixed = vec![false; n];
+        let index = |j: usize| self.independents.iter().position(|i| i.0 == j);
+        for &(j, v) in given {
+            if let Some(k) = index(j) {
+                (u[k], fixed[k]) = (v, true);
+            }
+        }
+        let of_dependents = || given.iter().filter(|(j, _)| index(*j).is_none());
+        let along = |j: usize, u: &[Dd]| {
+            let terms = map[j].iter().zip(u);
+            terms.fold(Dd::ZERO, |sum, (s, u)| sum + *s * *u)
+        };
+        let free: Vec<usize> = (0..n).filter(|k| !fixed[*k]).collect();
+        let rows = of_dependents().map(|&(j, _)| free.iter().map(|&k| map[j][k]).collect());
+        let rows: Vec<Vec<Dd>> = rows.collect();
+        let sides: Vec<Dd> = of_dependents().map(|&(j, v)| v - along(j, &u)).collect();
+        let found = solve_basic(&rows, &sides, free.len());
+        for (&k, x) in free.iter().zip(found) {
+            u[k] = x;
+        }
+        for &(j, v) in of_dependents() {
+            agrees(j, true, (v, along(j, &u)))?;
+        }
+        Ok(u)
+    }
+}
+
+fn open(closure: &Closure, q: &[Dd], gap: f64, part: f64) -> Unreached {
+    let (residuals, _) = closure.values(&closure.rows, q);
+    let sizes = residuals.iter().map(|x| x.to_f64().abs());
+    let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+    let row = closure.rows[worst.map_or(0, |(row, _)| row)];
+    Unreached::Open {
+        closes: closure.loops[row.closes].name.clone(),
+        row: row.name,
+        gap,
+        part,
+    }
+}
+
+fn agrees(index: usize, velocity: bool, (given, closed): (Dd, Dd)) -> Result<(), Unreached> {
+    let (given, closed) = (given.to_f64(), closed.to_f64());
+    match (given - closed).abs() <= AGREES * f64::max(1.0, closed.abs()) {
+        true => Ok(()),
+        false => Err(Unreached::Contradicts {
+            index,
+            velocity,
+            given,
+            closed,
+        }),
+    }
+}
