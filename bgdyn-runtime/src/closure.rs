@@ -26,14 +26,27 @@ pub struct Dependent {
 pub struct Closing<Y: StateVector> {
     /// The positions, or the state that begins with them.
     pub q: Y,
-    /// The largest of the last steps that were checked; below [`CLOSED`] where the loops close.
+    /// The largest of the last steps that were checked; below [`closed`] where the loops close.
     last: Y::Scalar,
     /// The loop that does not close: the first loop's index plus its own.
     pub refused: <Y::Scalar as Scalar>::Refused,
 }
 
-/// Newton's method converges quadratically: after a step below this one more step is exact to rounding.
+/// Newton's method converges quadratically: after a step below this one more step is exact to rounding, in scalars
+/// with the digits of `f64`.
 const CLOSED: f64 = 1e-8;
+
+/// The same in scalars that do not tell 1 + [`CLOSED`] from 1.
+const CLOSED_COARSELY: f64 = 1e-4;
+
+/// Returns the step after which one more is exact to rounding.
+#[inline]
+fn closed<T: Scalar>() -> T {
+    let (one, fine) = (T::from_f64(1.0), T::from_f64(CLOSED));
+    let kept = (one + fine) - one;
+    let coarse = kept.less(fine * T::from_f64(0.5));
+    T::select(coarse, T::from_f64(CLOSED_COARSELY), fine)
+}
 
 /// Changes the dependent positions so that all loops close. `step` returns J_d⁻¹ c(q), the Newton step of the
 /// velocities of the open tree.
@@ -84,7 +97,7 @@ pub fn close_from<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
         for d in dependents {
             if let Some(&x) = change.entries().get(d.velocity) {
                 last = last.max(x.abs());
-                (number(CLOSED) - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
+                (closed::<Y::Scalar>() - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
             }
         }
         let large = number(LARGEST).less(last);
@@ -136,7 +149,7 @@ impl<Y: StateVector> Closing<Y> {
     pub fn or_nan(self, dependents: &[Dependent]) -> Y {
         let mut q = self.q;
         let number = <Y::Scalar as Scalar>::from_f64;
-        let closed = self.last.less(number(CLOSED));
+        let closed = self.last.less(closed());
         for d in dependents {
             if let Some(q) = q.entries_mut().get_mut(d.position) {
                 *q = Y::Scalar::select(closed, *q, number(f64::NAN));
@@ -178,7 +191,7 @@ pub fn towards<T: Scalar, const NQ: usize, const NT: usize>(
             }
         }
         let closing = close(next, dependents, &step);
-        let closed = closing.last.less(T::from_f64(CLOSED));
+        let closed = closing.last.less(closed());
         for (q, &next) in q.iter_mut().zip(closing.q.iter()) {
             *q = T::select(closed, next, *q);
         }

@@ -11,6 +11,7 @@ mod golden_specs;
 mod graph;
 mod import;
 mod loops;
+mod loops_scenes;
 mod messages;
 mod ops;
 mod pictures;

@@ -299,6 +299,20 @@ fn outputs<'g>(
             sums.v[j],
         );
     }
+    for joint in &layout.dependents {
+        let mut asked = system.scene.outputs.iter();
+        let rate = match asked.any(|output| output.value == joint.rate_name) {
+            true => sums.coordinate(&joint.name).rate,
+            false => sums.b.zero(),
+        };
+        let unit = joint.dimensions[1].si();
+        add(
+            &joint.rate_name,
+            unit,
+            &format!("velocity of `{}`, {unit}", joint.name),
+            rate,
+        );
+    }
     for reading in sums.readings() {
         add(&reading.name, reading.unit, &reading.about, reading.value);
     }

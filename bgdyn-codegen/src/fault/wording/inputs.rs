@@ -24,8 +24,7 @@ pub(crate) fn unknown_source(location: &Location, word: &str, known: &str) -> Fa
 // Controllers
 
 pub(crate) fn computed_torque_without_effort(location: &Location) -> Fault {
-    let message =
-        "`computed_torque` computes the effort of a joint, and this input is not such an effort";
+    let message = "`computed_torque` computes the effort of an independent joint, and this input is not such an effort";
     Fault::new(location, "drive", message)
         .with_help("use `pd`, whose gains have this input's unit, or `given`")
 }

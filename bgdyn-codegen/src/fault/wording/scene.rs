@@ -42,6 +42,16 @@ pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&s
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
+pub(crate) fn lock_with_loops(location: &Location, joint: &str, loops: &[&str]) -> Fault {
+    let message = format!(
+        "`{joint}` is locked, and the mechanism has loops ({}): scenes do not lock joints of such mechanisms yet",
+        quoted_list(loops.iter().copied())
+    );
+    Fault::new(location, "lock-with-loops", message).with_help(format!(
+        "hold `{joint}` by a stiff spring and a damper, or write a mechanism in which it is fixed"
+    ))
+}
+
 pub(crate) fn lock_of_follower(location: &Location, joint: &str, leaders: &[String]) -> Fault {
     let leaders = quoted_list(leaders.iter().map(String::as_str));
     let message = format!("`{joint}` follows {leaders}");

@@ -14,6 +14,16 @@ pub(super) fn locks(
     faults: &mut Faults,
 ) -> Vec<(LinkId, Dd)> {
     let mut locked = Vec::new();
+    if let (Some(closure), Some(raw)) = (mechanism.closure(), effects::given(&spec.lock).first()) {
+        let loops: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
+        let name = &raw.name;
+        faults.push(wording::lock_with_loops(
+            &name.location,
+            &name.value,
+            &loops,
+        ));
+        return locked;
+    }
     for raw in effects::given(&spec.lock) {
         let name = &raw.name.value;
         let links = mechanism.coordinates().iter().copied();

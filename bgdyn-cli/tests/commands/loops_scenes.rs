@@ -1,0 +1,165 @@
+//! Scenes of mechanisms with loops: runs, values, faults of the start.
+
+use serde_json::{Value, json};
+
+use crate::{bgdyn, root, scratch};
+
+/// Writes a scene of the slider-crank with these keys.
+fn scene(name: &str, keys: &str) -> String {
+    let mechanism = root().join("specs/loops/slider_crank.yaml");
+    let text = format!(
+        "scene: 1\nmechanism: {}\neffects: [gravity, inertia, velocity_products]\n{keys}\n",
+        mechanism.display()
+    );
+    scratch("loops_scenes", &format!("{name}.scene.yaml"), text)
+}
+
+const RUN: &str = "integration: { method: dop853, tolerance: 1e-12, end: 3 s }";
+
+/// The last sample of the reference motion slider_crank.json.
+#[test]
+fn a_run_ends_where_the_reference_does() {
+    let keys = format!(
+        "inputs: {{ crank_angle: 0.5 N*m }}\ninitial: {{ crank_angle: 0.3, crank_angle_rate: 4 }}\n{RUN}"
+    );
+    let file = scene("run", &keys);
+    let out = std::path::Path::new(&file).with_file_name("run");
+    let out = out.to_str().expect("a path");
+    let report = bgdyn(&["simulate", &file, "--out", out]).good();
+    let table = std::fs::read_to_string(format!("{out}/run.csv")).expect("a table");
+    let mut lines = table.lines();
+    assert_eq!(
+        lines.next(),
+        Some(
+            "t [s],crank_angle [rad],rod_angle [rad],slider_position [m],crank_angle_rate [rad/s]"
+        ),
+        "{report}"
+    );
+    let last: Vec<f64> = lines
+        .last()
+        .expect("a row")
+        .split(',')
+        .map(|x| x.parse().expect("a number"))
+        .collect();
+    let wanted = [
+        3.0,
+        0.07254320953286617,
+        -0.061534827042954425,
+        0.6994436832033417,
+        6.726659589110112,
+    ];
+    for (found, wanted) in last.iter().zip(wanted) {
+        assert!((found - wanted).abs() < 1e-9 * wanted.abs(), "{last:?}");
+    }
+}
+
+/// Starts: positions and velocities of dependent joints determine the others.
+#[test]
+fn a_start_may_be_that_of_dependent_joints() {
+    let keys = "initial: { slider_position: 0.6, slider_position_rate: -0.5 }";
+    let file = scene("slider", keys);
+    let states = scratch(
+        "loops_scenes",
+        "start.json",
+        json!({ "states": [{}] }).to_string(),
+    );
+    let run = ["eval", &file, "position_rates", "--states", &states];
+    let rates: Value = serde_json::from_str(&bgdyn(&run).good()).expect("JSON");
+    let slider = rates["results"][0][2].as_f64().expect("a number");
+    assert!((slider + 0.5).abs() < 1e-15, "{rates}");
+    let run = ["eval", &file, "closing_step", "--states", &states];
+    let steps: Value = serde_json::from_str(&bgdyn(&run).good()).expect("JSON");
+    for k in 0..3 {
+        let step = steps["results"][0][k].as_f64().expect("a number");
+        assert!(step.abs() < 1e-15, "{steps}");
+    }
+}
+
+#[test]
+fn starts_that_loops_do_not_reach_are_refused() {
+    for (name, keys, words) in [
+        (
+            "reach",
+            "initial: { slider_position: 0.8 }",
+            ["open-start", "`rod_pin` does not close", "% of the way"],
+        ),
+        (
+            "twice",
+            "initial: { crank_angle: 0.3, slider_position: 0.6 }",
+            [
+                "contradicting-start",
+                "`slider_position` is 0.6 m here",
+                "0.689536 m",
+            ],
+        ),
+        (
+            "rates",
+            "initial: { crank_angle: 0.3, crank_angle_rate: 4, slider_position_rate: 1 m/s }",
+            [
+                "contradicting-start",
+                "`slider_position_rate` is 1 m/s",
+                "-0.296372 m/s",
+            ],
+        ),
+        (
+            "held",
+            "effects: [gravity, { f: { type: coulomb, joint: slider_position, kinetic: 3 N } }]",
+            [
+                "dependent-joint",
+                "`coulomb` can hold a joint at rest",
+                "`independent:`",
+            ],
+        ),
+        (
+            "locked",
+            "lock: { crank_angle: 0 }",
+            ["lock-with-loops", "`crank_angle`", "`rod_pin`"],
+        ),
+        (
+            "torque",
+            "inputs: { slider_position: { computed_torque: { target: 0.6 m, stiffness: 1, damping: 1 } } }",
+            ["drive", "`computed_torque`", "independent"],
+        ),
+    ] {
+        let mut file = scene(name, keys);
+        if keys.starts_with("effects") {
+            let text = std::fs::read_to_string(&file).expect("the scene");
+            let text = text.replacen("effects: [gravity, inertia, velocity_products]\n", "", 1);
+            file = scratch("loops_scenes", &format!("{name}.scene.yaml"), text);
+        }
+        let said = bgdyn(&["check", &file]).bad_input();
+        for word in words {
+            assert!(said.contains(word), "{name}: {word}: {said}");
+        }
+    }
+}
+
+/// An overridden start is closed again.
+#[test]
+fn runs_from_other_starts_are_closed() {
+    let file = scene(
+        "sweep",
+        "integration: { method: rk4, step: 1 ms, end: 0.1 s }",
+    );
+    let out = std::path::Path::new(&file).with_file_name("sweep");
+    let out = out.to_str().expect("a path");
+    let run = [
+        "simulate",
+        &file,
+        "--out",
+        out,
+        "--sweep",
+        "crank_angle=-1:1:5",
+    ];
+    bgdyn(&run).good();
+    let refused = bgdyn(&[
+        "simulate",
+        &file,
+        "--out",
+        out,
+        "--initial",
+        "slider_position=0.8",
+    ]);
+    let said = format!("{}{}", refused.stdout, refused.stderr);
+    assert!(said.contains("`rod_pin` does not close"), "{said}");
+}
