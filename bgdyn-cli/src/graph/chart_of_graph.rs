@@ -21,7 +21,7 @@ impl Chart {
         let title = mechanism.label().unwrap_or(mechanism.name());
         let built = bond_graph::build(mechanism);
         let driven = built.coordinates.iter().map(|c| c.name.clone()).collect();
-        let (graph, prescribed) = (drawn(&built), mechanism.prescribed_names());
+        let (graph, prescribed) = (built.of_all_joints(), mechanism.prescribed_names());
         let mut network = BondNetwork::of_mechanism(graph, driven);
         prescribed.iter().for_each(|joint| network.prescribe(joint));
         if let Some(closed) = &built.closed {
@@ -123,16 +123,6 @@ fn depth_first(frames: &[LinkFrame]) -> Vec<LinkId> {
         waiting.extend(carried(Some(i)));
     }
     order
-}
-
-/// Returns the graph that is drawn: prescribed joints are in it, with the flow sources of their velocities; the
-/// junctions of a mechanism with loops are those of its open tree.
-pub(super) fn drawn(graph: &BondGraph) -> &BondGraph {
-    match (&graph.released, &graph.closed) {
-        (Some(released), _) => released,
-        (None, Some(closed)) => &closed.tree,
-        (None, None) => graph,
-    }
 }
 
 /// Returns the text beside the drive of a joint: its effort; for a prescribed one its flow, and the effort that it

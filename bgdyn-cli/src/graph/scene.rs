@@ -4,7 +4,7 @@ use bgdyn_codegen::bond_graph::{BondGraph, BondNetwork, GraphNode, NodePart, Pla
 use bgdyn_codegen::system::SceneEquations;
 
 use super::chart::{Chart, ChartLink, Component, Flow, Transformer};
-use super::chart_of_graph::{drawn, drive};
+use super::chart_of_graph::drive;
 use super::notation::{coordinates, subscript};
 use super::unfold::Unfolding;
 
@@ -12,7 +12,7 @@ impl Chart {
     /// Returns the drawing of a scene.
     pub(crate) fn of_scene(system: &SceneEquations) -> Self {
         let (scene, network) = (&system.scene, &system.network);
-        let graph = drawn(&system.graph);
+        let graph = system.graph.of_all_joints();
         let drive = |part: &NodePart| drive(graph, &scene.layout.prescribed, part);
         let mut unfolding = Unfolding::new(network, &drive);
         let description = scene.description.as_deref();

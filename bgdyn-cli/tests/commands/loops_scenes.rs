@@ -163,3 +163,22 @@ fn runs_from_other_starts_are_closed() {
     let said = format!("{}{}", refused.stdout, refused.stderr);
     assert!(said.contains("`rod_pin` does not close"), "{said}");
 }
+
+/// The drawing has the loop with its flow source, and the effects at dependent joints.
+#[test]
+fn the_graph_of_a_scene_has_its_loops() {
+    let keys = "inputs: { slider_position: 2 N }";
+    let mut text = std::fs::read_to_string(scene("drawn", keys)).expect("the scene");
+    text = text.replacen(
+        "velocity_products]",
+        "velocity_products, { pin: { type: viscous, joint: rod_angle, damping: 1 } }]",
+        1,
+    );
+    let file = scratch("loops_scenes", "drawn.scene.yaml", text);
+    let drawn = bgdyn(&["graph", &file, "--format", "dot"]).good();
+    for word in ["loop rod_pin", "Sf: 0, effort λ", "pin (viscous)", "Se: P₃"] {
+        assert!(drawn.contains(word), "{word}: {drawn}");
+    }
+    assert!(!drawn.contains("Se: P₁"), "the crank has no drive: {drawn}");
+    assert!(!drawn.contains("Not drawn"), "{drawn}");
+}

@@ -174,6 +174,16 @@ impl BondGraph {
         self
     }
 
+    /// Returns the graph with the junctions of all joints: prescribed ones, with the flow sources of their velocities,
+    /// and those of the open tree of a mechanism with loops.
+    pub fn of_all_joints(&self) -> &BondGraph {
+        match (&self.released, &self.closed) {
+            (Some(released), _) => released,
+            (None, Some(closed)) => &closed.tree,
+            (None, None) => self,
+        }
+    }
+
     /// Adds its weight to every link.
     pub fn add_gravity(&mut self, gravity: Vec3<Dd>) {
         self.multibody.gravity = gravity;

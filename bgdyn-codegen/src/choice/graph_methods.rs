@@ -21,6 +21,9 @@ pub struct GraphMethods {
     graph: BondGraph,
     chosen: Mutex<ChosenFunctions>,
     forward: OnceLock<Arc<[Function]>>,
+    /// Whether scenes write the rows of loops in the axes of places b: then they share expressions with functions
+    /// that do so too.
+    pub reversed_rows: bool,
 }
 
 impl GraphMethods {
@@ -30,6 +33,7 @@ impl GraphMethods {
             graph,
             chosen: Mutex::default(),
             forward: OnceLock::new(),
+            reversed_rows: false,
         }
     }
 
@@ -70,6 +74,7 @@ impl Clone for GraphMethods {
             graph: self.graph.clone(),
             chosen: Mutex::new(chosen.clone()),
             forward: self.forward.clone(),
+            reversed_rows: self.reversed_rows,
         }
     }
 }

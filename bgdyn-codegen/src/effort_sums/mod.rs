@@ -43,8 +43,6 @@ pub struct EffortSums<'g, 'a> {
     own: ActuatorEfforts,
     /// The selected formulation; `None` for the cheapest one of each method.
     pub(crate) asked: Option<&'static dyn Formulation>,
-    /// Whether rows of loops are in the axes of places b.
-    pub(crate) reversed: bool,
     /// S of the loops, once a law reads it.
     velocity_map: OnceCell<Vec<Vec<Expr<'g>>>>,
     scene: &'a Scene,
@@ -98,7 +96,6 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             t: b.leaf(Leaf::Time),
             own,
             asked,
-            reversed: false,
             velocity_map: OnceCell::new(),
             scene,
             graph,

@@ -74,7 +74,23 @@ impl SceneEquations {
         range::check(&system.scene, &sums, &mut faults);
         drop(sums);
         (system.entries, system.outputs) = (entries, outputs);
+        system.choose_rows();
         system.started(faults)
+    }
+
+    /// Chooses the axes of the rows of loops for which the derivative takes fewer operations.
+    fn choose_rows(&mut self) {
+        let closed = self.graph.closed.as_deref();
+        let loops = closed.into_iter().flat_map(|closed| &closed.closure.loops);
+        if !loops.clone().any(|one| one.reversible) {
+            return;
+        }
+        let counts = [false, true].map(|reversed| {
+            self.graph.reversed_rows = reversed;
+            let derivative = self.cheapest(SceneFunction::Derivative);
+            derivative.operations().total()
+        });
+        self.graph.reversed_rows = counts[1] < counts[0];
     }
 
     /// Returns the equations with these values, SI units, at the start and for run-time parameters. The
@@ -244,9 +260,7 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
         .filter_map(|input| input.drives_dependent);
     let dependents = dependents.map(|d| layout.dependents[d].name.clone());
     let driven = driven.chain(dependents).collect();
-    // Prescribed joints are part of the drawing.
-    let drawn = graph.released.as_deref().map_or(graph, |released| released);
-    let mut network = BondNetwork::of_mechanism(drawn, driven);
+    let mut network = BondNetwork::of_mechanism(graph.of_all_joints(), driven);
     for prescribed in graph.released.iter().flat_map(|r| &r.prescribed) {
         network.prescribe(&prescribed.name);
     }
@@ -259,6 +273,9 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
             &follower.name,
             follower.leaders.iter().map(leader).collect(),
         );
+    }
+    if let Some(closed) = &graph.closed {
+        network.close(&closed.closure);
     }
     for (at, element) in scene.elements.iter().enumerate() {
         network.begin(at);

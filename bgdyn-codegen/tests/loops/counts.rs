@@ -1,7 +1,7 @@
 //! Operations of mechanisms with loops: those of the page `docs/loops.md`.
 
 use bgdyn_codegen::expr::Operations;
-use bgdyn_codegen::method::Method;
+use bgdyn_codegen::method::{Method, SceneFunction};
 
 use super::references::{file, spec};
 use super::robot::Robot;
@@ -29,5 +29,25 @@ fn the_page_has_the_counts() {
         let counts = methods.map(|method| words(robot.function(None, method).operations()));
         let row = format!("| {title} | {} |", counts.join(" | "));
         assert!(page.contains(&row), "docs/loops.md has no row {row}");
+    }
+}
+
+/// The rates of a scene under its weights: accelerations, and the rates of all positions from the same S.
+#[test]
+fn rates_of_scenes_share_the_velocity_map_with_forward_dynamics() {
+    for (name, counts) in [
+        ("slider_crank", [36, 21, 2]),
+        ("five_bar", [88, 55, 3]),
+        ("four_bar", [51, 27, 2]),
+    ] {
+        let text = format!(
+            "scene: 1\nmechanism: {name}.yaml\neffects: [gravity, inertia, velocity_products]\n"
+        );
+        let mechanism = spec(name);
+        let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(mechanism));
+        let (system, _) = read.unwrap_or_else(|refusal| panic!("{name}: {refusal:?}"));
+        let derivative = system.function(SceneFunction::Derivative).operations();
+        let found = [derivative.mul, derivative.add, derivative.div];
+        assert_eq!(found, counts, "{name}");
     }
 }

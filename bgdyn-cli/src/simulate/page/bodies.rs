@@ -46,6 +46,7 @@ impl Bodies {
         for (i, link) in mechanism.links().iter().enumerate() {
             bodies.link(i, link, travel);
         }
+        bodies.closings(mechanism);
         for (i, link) in mechanism.links().iter().enumerate() {
             bodies.mass(i, link, scene);
         }
@@ -145,6 +146,25 @@ impl Bodies {
             from,
             ..BodyPoint::at(at)
         });
+    }
+
+    /// Adds the places at which loops close, with beams to them.
+    fn closings(&mut self, mechanism: &Mechanism) {
+        for one in mechanism.closure().into_iter().flat_map(|c| &c.loops) {
+            let ends = [&one.chain.start, &one.chain.end];
+            let names = [one.name.as_str(), ""];
+            for ((link, pose), name) in one.links.iter().zip(ends).zip(names) {
+                let (body, place) = self.carrier(*link);
+                let at = place.point(Placed::of(pose).o);
+                let from = self.all[body].nearest(at);
+                self.all[body].points.push(BodyPoint {
+                    name: name.to_owned(),
+                    beam: body != 0 && from != at,
+                    from,
+                    ..BodyPoint::at(at)
+                });
+            }
+        }
     }
 
     fn frames(&mut self, mechanism: &Mechanism) {
