@@ -245,7 +245,7 @@ fn usual(graph: &BondGraph) -> Vec<Method> {
 
 /// Returns the methods of the trait `Dynamics`, and those that it needs for a mechanism with loops.
 fn dynamics(graph: &BondGraph) -> Vec<Method> {
-    let of_loops = graph.closed.iter().flat_map(|_| Method::OF_LOOPS);
+    let of_loops = graph.closed.iter().flat_map(|closed| Method::of_closed(closed));
     Method::OF_TRAIT.into_iter().chain(of_loops).collect()
 }
 

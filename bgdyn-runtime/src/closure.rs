@@ -1,4 +1,4 @@
-//! Newton's method for the dependent positions of kinematic loops.
+//! Newton's method for the dependent positions of kinematic loops, and ways along velocities that constraints allow.
 
 use nalgebra::SVector;
 
@@ -105,6 +105,31 @@ impl<T: Scalar, const NQ: usize> Closing<T, NQ> {
         }
         q
     }
+}
+
+/// Returns the position after one second along velocities of the open tree that depend on the position: `rates` returns
+/// them, `moved` the position after constant ones. Order 4, without commutators (Celledoni, Marthinsen and Owren 2003);
+/// exact for constant velocities.
+#[inline]
+pub fn follow<T: Scalar, const NQ: usize, const NT: usize>(
+    q: &SVector<T, NQ>,
+    rates: impl Fn(&SVector<T, NQ>) -> SVector<T, NT>,
+    moved: impl Fn(&SVector<T, NQ>, &SVector<T, NT>) -> SVector<T, NQ>,
+) -> SVector<T, NQ> {
+    let half = T::from_f64(0.5);
+    let k1 = rates(q);
+    let middle = moved(q, &k1.map(|x| x * half));
+    let k2 = rates(&middle);
+    let k3 = rates(&moved(q, &k2.map(|x| x * half)));
+    let k4 = rates(&moved(&middle, &k3.zip_map(&k1, |x, y| x - y * half)));
+    let both = k2.zip_map(&k3, |x, y| x + x + y + y);
+    // (3 k₁ + 2 k₂ + 2 k₃ − k₄) / 12, then (−k₁ + 2 k₂ + 2 k₃ + 3 k₄) / 12
+    let (three, twelfth) = (T::from_f64(3.0), T::from_f64(1.0) / T::from_f64(12.0));
+    let part = |first: &SVector<T, NT>, last: &SVector<T, NT>| {
+        let ends = first.zip_map(last, |x, y| three * x - y);
+        both.zip_map(&ends, |x, y| (x + y) * twelfth)
+    };
+    moved(&moved(q, &part(&k1, &k4)), &part(&k4, &k1))
 }
 
 /// Steps of [`towards`].

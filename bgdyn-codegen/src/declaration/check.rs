@@ -194,6 +194,8 @@ fn known<'a>(
         | Reads::Input
         | Reads::Number(_)
         | Reads::Vector(_)
+        | Reads::Axis
+        | Reads::Plane
         | Reads::Coefficients(_)
         | Reads::Group(..) => return None,
     })

@@ -3,6 +3,7 @@
 mod base_access;
 mod body;
 mod closure;
+mod contacts;
 mod code;
 mod columns;
 mod constants;
