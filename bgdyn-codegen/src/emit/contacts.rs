@@ -66,11 +66,7 @@ fn closes(closed: &ClosedTree) -> bool {
     !closed.closure.position_rows().is_empty()
 }
 
-fn closing_constants(
-    closed: &ClosedTree,
-    graph: &Multibody,
-    constraints: &[&str],
-) -> TokenStream {
+fn closing_constants(closed: &ClosedTree, graph: &Multibody, constraints: &[&str]) -> TokenStream {
     let positions = graph.positions.iter().map(|p| p.name.as_str());
     let closing: Vec<&str> = positions.chain(constraints.iter().copied()).collect();
     let dependents = closed.closure.closing().map(|j| dependent(closed, j));

@@ -3,10 +3,10 @@
 mod base_access;
 mod body;
 mod closure;
-mod contacts;
 mod code;
 mod columns;
 mod constants;
+mod contacts;
 mod entries;
 mod explain;
 mod joint_access;

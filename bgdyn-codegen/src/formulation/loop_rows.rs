@@ -78,11 +78,7 @@ fn combined<'g>(
 }
 
 /// Returns the sum of expressions with constant factors.
-fn sum<'g>(
-    b: &'g Builder,
-    factors: &[Dd],
-    of: impl Iterator<Item = Expr<'g>>,
-) -> Expr<'g> {
+fn sum<'g>(b: &'g Builder, factors: &[Dd], of: impl Iterator<Item = Expr<'g>>) -> Expr<'g> {
     let terms = of.zip(factors).filter(|(_, factor)| **factor != Dd::ZERO);
     terms.fold(b.zero(), |sum, (e, &factor)| sum + e * factor)
 }
@@ -116,5 +112,7 @@ pub(super) fn loop_bias<'g>(
         return all;
     }
     let factors = closure.combined.iter();
-    factors.map(|factors| sum(b, factors, all.iter().copied())).collect()
+    factors
+        .map(|factors| sum(b, factors, all.iter().copied()))
+        .collect()
 }

@@ -145,7 +145,8 @@ impl Degrees {
             Motion::Compound(compound) => compound.columns(&self.constants(axis)),
         };
         let velocities = self.velocities.iter().copied();
-        let kept = |(k, column): (usize, Column<Dd>)| (!self.dependent.contains(&k)).then_some(column);
+        let kept =
+            |(k, column): (usize, Column<Dd>)| (!self.dependent.contains(&k)).then_some(column);
         let own: Vec<Column<Dd>> = own.into_iter().enumerate().filter_map(kept).collect();
         match (&self.coupling, own.as_slice()) {
             (Some(_), [column]) => {

@@ -272,7 +272,9 @@ impl Subject<'_> {
         if let Some(closed) = &self.literal.prepared.graph.closed {
             let moving = closed.closure.moving().into_iter().enumerate();
             let step = |(k, j)| (j, by * Dd::from_f64(1.0 + 0.3 * k as f64));
-            closed.closure.displace(&mut open.q, &moving.map(step).collect::<Vec<_>>());
+            closed
+                .closure
+                .displace(&mut open.q, &moving.map(step).collect::<Vec<_>>());
         }
         let form = self
             .form

@@ -35,10 +35,7 @@ fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
 
 /// Compares in three states.
 fn compare(text: &Text, what: &str) {
-    let (tree, robot) = (
-        Robot::read(&text.open()),
-        Robot::read(&text.constrained()),
-    );
+    let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.constrained()));
     let closure = robot.mechanism.closure().expect("constraints").clone();
     assert_eq!(robot.nv() + closure.rows.len(), tree.nv(), "{what}");
     for k in 0..3 {
@@ -68,7 +65,10 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
         .collect();
     for (row, _) in &rows {
         let off = dot(row, &rates).to_f64().abs();
-        assert!(off < 1e-24 * largest(&rates).max(1.0), "{what}: slips at {off:e} m/s");
+        assert!(
+            off < 1e-24 * largest(&rates).max(1.0),
+            "{what}: slips at {off:e} m/s"
+        );
     }
     // M q̈ − Bᵀ λ = P − h, B q̈ = γ
     let (n, m) = (tree.nv(), rows.len());
@@ -95,9 +95,27 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
     for way in WAYS {
         let value = |method| -> Vec<Dd> { state.value(&robot.function(way, method)) };
         let what = format!("{what}, {way:?}");
-        close(&value(Method::ForwardDynamics), &state.a, 1e-22, size, &what);
-        close(&value(Method::InverseDynamics), &state.u, 1e-22, forces, &what);
-        close(&value(Method::TreeAcceleration), accelerations, 1e-22, size, &what);
+        close(
+            &value(Method::ForwardDynamics),
+            &state.a,
+            1e-22,
+            size,
+            &what,
+        );
+        close(
+            &value(Method::InverseDynamics),
+            &state.u,
+            1e-22,
+            forces,
+            &what,
+        );
+        close(
+            &value(Method::TreeAcceleration),
+            accelerations,
+            1e-22,
+            size,
+            &what,
+        );
         // Bᵀ λ, whatever the directions of the rows.
         let jacobian = value(Method::ConstraintJacobian);
         let own: Vec<&[Dd]> = jacobian.chunks(n).collect();
@@ -122,15 +140,26 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
     for (row, column) in full(&found, robot.nv()).iter().zip(&columns) {
         let moved = times(&mass, column);
         let wanted: Vec<Dd> = columns.iter().map(|other| dot(other, &moved)).collect();
-        close(row, &wanted, 1e-23, largest(&wanted), &format!("{what}: mass matrix"));
+        close(
+            row,
+            &wanted,
+            1e-23,
+            largest(&wanted),
+            &format!("{what}: mass matrix"),
+        );
     }
 }
 
 #[test]
 fn knife_edges_move_as_with_multipliers() {
-    for (seed, root) in ["type: planar", "type: floating", "type: spherical", "type: continuous, axis: [1, 2, 3]"]
-        .into_iter()
-        .enumerate()
+    for (seed, root) in [
+        "type: planar",
+        "type: floating",
+        "type: spherical",
+        "type: continuous, axis: [1, 2, 3]",
+    ]
+    .into_iter()
+    .enumerate()
     {
         let mut random = Random(500 + seed as u64);
         let mut text = Text::new(&mut random, root, 4);
@@ -157,7 +186,10 @@ fn wheels_on_axles_move_as_with_multipliers() {
 /// Wheels and balls that are fixed to a body in general position.
 #[test]
 fn rims_and_balls_move_as_with_multipliers() {
-    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Ball].into_iter().enumerate() {
+    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Ball]
+        .into_iter()
+        .enumerate()
+    {
         let mut random = Random(700 + seed as u64);
         let mut text = Text::new(&mut random, "type: prismatic, axis: [1, -2, 3]", 5);
         text.touch(&mut random, 4, touch);
@@ -167,7 +199,10 @@ fn rims_and_balls_move_as_with_multipliers() {
 
 #[test]
 fn bodies_that_float_roll_as_with_multipliers() {
-    for (seed, touch) in [Touch::Wheel, Touch::Lateral, Touch::Ball].into_iter().enumerate() {
+    for (seed, touch) in [Touch::Wheel, Touch::Lateral, Touch::Ball]
+        .into_iter()
+        .enumerate()
+    {
         let mut random = Random(800 + seed as u64);
         let mut text = Text::new(&mut random, "type: floating", 2);
         text.touch(&mut random, 0, touch);

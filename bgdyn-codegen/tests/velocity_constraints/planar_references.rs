@@ -132,15 +132,27 @@ fn the_robot_accelerates_as_in_closed_form() {
         let ahead = (efforts[0] + efforts[1]) / (r * (m + 2.0 * j / (r * r)));
         let turning = b * (efforts[0] - efforts[1]) / (r * (inertia + 2.0 * j * b * b / (r * r)));
         let state = State {
-            q: ["x", "y", "theta"].map(|c| sample.at(c)).into_iter().chain([0.3, 2.0]).collect(),
+            q: ["x", "y", "theta"]
+                .map(|c| sample.at(c))
+                .into_iter()
+                .chain([0.3, 2.0])
+                .collect(),
             v: wheels.to_vec(),
-            a: [1.0, -1.0].map(|side| (ahead + side * b * turning) / r).to_vec(),
+            a: [1.0, -1.0]
+                .map(|side| (ahead + side * b * turning) / r)
+                .to_vec(),
             u: efforts.to_vec(),
         };
         for way in WAYS {
             let value = |method| -> Vec<f64> { state.value(&robot.function(way, method)) };
             let what = format!("{way:?} at {} s", sample.at("t"));
-            let tree = [sample.at("v"), 0.0, sample.at("omega"), wheels[0], wheels[1]];
+            let tree = [
+                sample.at("v"),
+                0.0,
+                sample.at("omega"),
+                wheels[0],
+                wheels[1],
+            ];
             assert_near(&value(Method::TreeVelocity), &tree, 1e-14, &what);
             assert_near(&value(Method::ForwardDynamics), &state.a, 1e-14, &what);
             assert_near(&value(Method::InverseDynamics), &state.u, 1e-14, &what);

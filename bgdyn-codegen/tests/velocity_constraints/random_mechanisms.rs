@@ -84,7 +84,8 @@ impl Text {
         };
         for i in 1..=count {
             let kind = if i == 2 { "prismatic" } else { "continuous" };
-            let [step, com] = [300, 100].map(|size| vector([0; 3].map(|_| thousandths(random, size))));
+            let [step, com] =
+                [300, 100].map(|size| vector([0; 3].map(|_| thousandths(random, size))));
             let axis = vector(noisy(random));
             text.links += &format!(
                 "  - name: body_{i}\n    parent: body_{}\n    joint: {{ name: j{i}, type: {kind}, axis: {axis}, \
@@ -100,7 +101,10 @@ impl Text {
     /// Adds a wheel with its own link: the joint is about the axle.
     pub fn wheel(&mut self, random: &mut Random, on: usize, touch: Touch) {
         let axle = noisy(random);
-        let (axis, step) = (vector(axle), vector([0; 3].map(|_| thousandths(random, 300))));
+        let (axis, step) = (
+            vector(axle),
+            vector([0; 3].map(|_| thousandths(random, 300))),
+        );
         let k = self.all.len();
         self.links += &format!(
             "  - name: wheel_{k}\n    parent: body_{on}\n    joint: {{ name: spin_{k}, type: continuous, axis: {axis}, \
@@ -143,7 +147,10 @@ impl Text {
     }
 
     pub fn open(&self) -> String {
-        format!("{}links:\n{}frames:\n{}", self.head, self.links, self.frames)
+        format!(
+            "{}links:\n{}frames:\n{}",
+            self.head, self.links, self.frames
+        )
     }
 
     pub fn constrained(&self) -> String {

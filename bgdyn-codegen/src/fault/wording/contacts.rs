@@ -5,7 +5,10 @@ use crate::fault::{Fault, Location};
 
 pub(crate) fn unknown_site(location: &Location, name: &str, known: &[&str]) -> Fault {
     let message = format!("no link and no frame has the name {}", quote(name));
-    let list = format!("links and frames are {}", quoted_list(known.iter().copied()));
+    let list = format!(
+        "links and frames are {}",
+        quoted_list(known.iter().copied())
+    );
     Fault::new(location, "unknown-place", message).with_help(suggestion(name, known, list))
 }
 
@@ -30,13 +33,21 @@ pub(crate) fn radius_not_positive(location: &Location, name: &str, radius: f64) 
 }
 
 pub(crate) fn radius_is_parameter(location: &Location, name: &str) -> Fault {
-    let message = format!("the radius of the wheel {} is a run-time parameter", quote(name));
+    let message = format!(
+        "the radius of the wheel {} is a run-time parameter",
+        quote(name)
+    );
     Fault::new(location, "parameter-not-possible", message)
         .with_help("write a number: rows of constraints are solved with numbers")
 }
 
 pub(crate) fn rows_of_ball(location: &Location) -> Fault {
-    Fault::new(location, "unused-key", "a ball has no `rows` to choose from").with_help(
+    Fault::new(
+        location,
+        "unused-key",
+        "a ball has no `rows` to choose from",
+    )
+    .with_help(
         "leave `rows` out, or give the wheel's axle with `axis`: a ball slips in no direction",
     )
 }

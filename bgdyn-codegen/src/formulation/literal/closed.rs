@@ -6,9 +6,9 @@
 
 use std::rc::Rc;
 
+use super::relative_poses::RelativePoses;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Tangent};
-use super::relative_poses::RelativePoses;
 use crate::formulation::arguments::Arguments;
 use crate::formulation::joint_motion::{along, tangents, unit_tangents};
 use crate::formulation::loop_methods::{LoopMotion, compose};

@@ -141,7 +141,13 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
     }
 
     fn unit(&self, k: usize) -> Vec3<Expr<'g>> {
-        let at = |i: usize| if i == k { self.b.constant(Dd::ONE) } else { self.b.zero() };
+        let at = |i: usize| {
+            if i == k {
+                self.b.constant(Dd::ONE)
+            } else {
+                self.b.zero()
+            }
+        };
         Vec3([at(0), at(1), at(2)])
     }
 }

@@ -247,8 +247,7 @@ impl LoopChain {
             }
             let (w, l) = (twist.angular, twist.linear);
             bias.angular = bias.angular + velocity.angular.cross(w);
-            bias.linear =
-                bias.linear + velocity.angular.cross(l) + velocity.linear.cross(w);
+            bias.linear = bias.linear + velocity.angular.cross(l) + velocity.linear.cross(w);
             velocity.angular = velocity.angular + w;
             velocity.linear = velocity.linear + l;
             origin = next;

@@ -10,10 +10,10 @@
 //! - height: z · V = z · ċ + r (z·n) t · ω, the rate of z · c − r s; or e · V = e · ċ
 //!
 //! (l, z) is (n, e) turned by the lean: both pairs together hold at the same velocities, and the second one takes
-//! fewer operations. All are in the axes of the link that carries the axle, in which n is constant: the angle of the
-//! wheel about its axle does not enter. Accelerations are those of the twist of the wheel relative to the plane at
-//! the fixed point of these axes (spatial accelerations, Featherstone 2008), so that the derivative of a row needs
-//! only those of z, e and t: with κ = t · ż / s they are ż = Ω × z, ė = κ t, ṫ = −κ e.
+//! fewer operations. Where e turns, all three rows are the components of V. All are in the axes of the link that
+//! carries the axle, in which n is constant: the angle of the wheel about its axle does not enter. Accelerations are
+//! those of the twist of the wheel relative to the plane at the fixed point of these axes (spatial accelerations,
+//! Featherstone 2008), so that the derivative of a row needs only those of z, e and t: with κ = t · ż / s they are ż = Ω × z, ė = κ t, ṫ = −κ e.
 
 use std::ops::Mul;
 
@@ -22,8 +22,8 @@ use bgdyn_runtime::Dd;
 use super::ClosingType;
 use super::chain::{RelativePlace, RelativeRates};
 use crate::math::{Ring, Vec3};
-use crate::mechanism::{CoordinateId, Pose};
 use crate::mechanism::joint::{Column, DoubleDouble, PoseNumbers};
+use crate::mechanism::{CoordinateId, Pose};
 
 /// The functions of the numbers that the directions of a contact are computed with.
 pub trait ContactNumbers<E>: PoseNumbers<E> {
@@ -92,8 +92,10 @@ pub struct Contact {
 pub enum ContactAxes {
     /// Along the plane and its normal.
     Plane,
-    /// In the axes of the wheel or ball, which takes fewer operations; with the same solutions.
-    Body,
+    /// Along t, n and e of a wheel, which takes fewer operations; with the same solutions.
+    Wheel,
+    /// The three components of V in the axes of place a: the pivots of ċ are 1, however the wheel or ball turns.
+    Link,
 }
 
 /// Rows of a knife edge.
@@ -163,7 +165,7 @@ pub struct ContactFrame<E> {
     zero: E,
     /// Whether e is constant.
     upright: bool,
-    /// Whether it is that of a ball.
+    /// Whether it is that of a ball, for which e is z.
     ball: bool,
 }
 
@@ -188,7 +190,13 @@ impl Contact {
             let angular = axle.scale(factor).map(|x| numbers.constant(x));
             match all.iter_mut().find(|(k, _)| *k == j) {
                 Some((_, column)) => column.angular = column.angular + angular,
-                None => all.push((j, Column { angular, linear: zero })),
+                None => all.push((
+                    j,
+                    Column {
+                        angular,
+                        linear: zero,
+                    },
+                )),
             }
         }
         all
@@ -219,15 +227,19 @@ impl Contact {
     /// Returns the axes in which its rows are solved: those of the body, if its rows there hold at the same
     /// velocities.
     pub fn solved_in(&self, kept: impl Fn(ContactRow) -> bool) -> ContactAxes {
-        let body = match self.shape {
-            ContactShape::Edge(_) => true,
+        let all = kept(ContactRow::Height);
+        let lateral = kept(ContactRow::Lateral);
+        match self.shape {
+            ContactShape::Edge(_) => ContactAxes::Wheel,
+            ContactShape::Disc(_)
+                if all && lateral && kept(ContactRow::Longitudinal) && self.upward.is_none() =>
+            {
+                ContactAxes::Link
+            }
             // Without the lateral row the one along e is not the rate of the height.
-            ContactShape::Disc(_) => kept(ContactRow::Lateral),
-            ContactShape::Sphere => kept(ContactRow::Height),
-        };
-        match body {
-            true => ContactAxes::Body,
-            false => ContactAxes::Plane,
+            ContactShape::Disc(_) if lateral => ContactAxes::Wheel,
+            ContactShape::Sphere if all => ContactAxes::Link,
+            ContactShape::Disc(_) | ContactShape::Sphere => ContactAxes::Plane,
         }
     }
 
@@ -307,25 +319,30 @@ impl ContactRow {
         let upward = || frame.upward.dot(v);
         match (self, axes) {
             (ContactRow::Edge, _) => frame.axle.dot(v),
+            (_, ContactAxes::Link) => {
+                let k = self.component();
+                v.0[k] - omega.cross(frame.upward).0[k] * r
+            }
             (ContactRow::Longitudinal, _) => frame.forward.dot(v) - r * frame.axle.dot(omega),
-            (ContactRow::Lateral, ContactAxes::Body) => along_axle(),
+            (ContactRow::Lateral, ContactAxes::Wheel) => along_axle(),
             (ContactRow::Lateral, ContactAxes::Plane) => {
                 frame.cosine[0] * along_axle() - frame.sine * upward()
             }
-            (ContactRow::Slip(k), ContactAxes::Plane) => {
-                frame.plane[k].dot(v - omega.cross(frame.normal).scale(r))
-            }
-            (ContactRow::Slip(k), ContactAxes::Body) => {
-                v.0[k] - omega.cross(frame.normal).0[k] * r
-            }
-            // The third component of a ball's contact in axes of the ball.
-            (ContactRow::Height, ContactAxes::Body) if frame.ball => {
-                ContactRow::Slip(2).rate(frame, twist, axes)
-            }
-            (ContactRow::Height, ContactAxes::Body) => upward(),
+            (ContactRow::Slip(k), _) => frame.plane[k].dot(v - omega.cross(frame.normal).scale(r)),
+            (ContactRow::Height, ContactAxes::Wheel) => upward(),
             (ContactRow::Height, ContactAxes::Plane) => {
                 frame.normal.dot(v) + r * (frame.sine * frame.forward.dot(omega))
             }
+        }
+    }
+
+    /// Returns the component of V in link axes for this row.
+    fn component(self) -> usize {
+        match self {
+            ContactRow::Edge | ContactRow::Longitudinal => 0,
+            ContactRow::Lateral => 1,
+            ContactRow::Slip(k) => k,
+            ContactRow::Height => 2,
         }
     }
 
@@ -344,27 +361,29 @@ impl ContactRow {
             true => frame.zero,
             false => frame.forward.dot(normal_rate) * frame.cosine[1],
         };
-        let along_axle =
-            || along(ContactRow::Lateral, ContactAxes::Body) - r * (turn * frame.upward.dot(omega));
-        let upward =
-            || along(ContactRow::Height, ContactAxes::Body) + turn * frame.forward.dot(v);
+        let along_axle = || {
+            let turned = turn * frame.upward.dot(omega);
+            along(ContactRow::Lateral, ContactAxes::Wheel) - r * turned
+        };
+        let upward = || along(ContactRow::Height, ContactAxes::Wheel) + turn * frame.forward.dot(v);
         match (self, axes) {
             (ContactRow::Edge, _) => along(self, axes),
+            (_, ContactAxes::Link) => {
+                let upward_rate = match frame.ball {
+                    true => normal_rate,
+                    false => frame.forward.scale(turn),
+                };
+                along(self, axes) - omega.cross(upward_rate).0[self.component()] * r
+            }
             (ContactRow::Longitudinal, _) => along(self, axes) - turn * frame.upward.dot(v),
-            (ContactRow::Lateral, ContactAxes::Body) => along_axle(),
+            (ContactRow::Lateral, ContactAxes::Wheel) => along_axle(),
             (ContactRow::Lateral, ContactAxes::Plane) => {
                 frame.cosine[0] * along_axle() - frame.sine * upward()
             }
-            (ContactRow::Slip(k), ContactAxes::Plane) => {
+            (ContactRow::Slip(k), _) => {
                 along(self, axes) - frame.plane[k].dot(omega.cross(normal_rate)) * r
             }
-            (ContactRow::Slip(k), ContactAxes::Body) => {
-                along(self, axes) - omega.cross(normal_rate).0[k] * r
-            }
-            (ContactRow::Height, ContactAxes::Body) if frame.ball => {
-                ContactRow::Slip(2).bias(frame, (rates, turning), axes)
-            }
-            (ContactRow::Height, ContactAxes::Body) => upward(),
+            (ContactRow::Height, ContactAxes::Wheel) => upward(),
             (ContactRow::Height, ContactAxes::Plane) => {
                 let leaning = normal_rate.dot(frame.axle) * frame.forward.dot(omega);
                 let turned = frame.sine * (turn * frame.upward.dot(omega));

@@ -154,20 +154,28 @@ impl Closure {
     /// Returns the rows that decide about positions.
     pub fn position_rows(&self) -> Vec<LoopRow> {
         let rows = self.rows.iter();
-        rows.filter(|row| row.kind.has_positions()).copied().collect()
+        rows.filter(|row| row.kind.has_positions())
+            .copied()
+            .collect()
     }
 
     /// Returns the positions of the joints in loops and contacts.
     pub fn moved_positions(&self) -> Vec<PositionId> {
         let compounds = self.compounds.iter();
         let compounds = compounds.flat_map(|joint| joint.degrees.positions.iter());
-        self.positions.iter().flatten().chain(compounds).copied().collect()
+        self.positions
+            .iter()
+            .flatten()
+            .chain(compounds)
+            .copied()
+            .collect()
     }
 
     /// Returns the dependent velocities along which positions close.
     pub fn closing(&self) -> impl Iterator<Item = CoordinateId> {
         let all = !self.nonholonomic();
-        self.dependents().filter(move |j| all || self.closers.contains(j))
+        self.dependents()
+            .filter(move |j| all || self.closers.contains(j))
     }
 
     /// Returns the dependent velocities, block by block.

@@ -50,7 +50,11 @@ impl Closure {
             return rates;
         }
         let entry = |factors: &Vec<Dd>, j: usize| dot(rates.iter().map(|row| row[j]), factors);
-        let row = |factors: &Vec<Dd>| (0..self.positions.len()).map(|j| entry(factors, j)).collect();
+        let row = |factors: &Vec<Dd>| {
+            (0..self.positions.len())
+                .map(|j| entry(factors, j))
+                .collect()
+        };
         self.combined.iter().map(row).collect()
     }
 

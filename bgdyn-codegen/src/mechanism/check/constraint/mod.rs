@@ -192,7 +192,9 @@ fn is_part(joint: &Joint, name: &str) -> bool {
     let Motion::Compound(motion) = joint.kind.motion else {
         return false;
     };
-    let part = name.strip_prefix(&joint.name).and_then(|end| end.strip_prefix('_'));
+    let part = name
+        .strip_prefix(&joint.name)
+        .and_then(|end| end.strip_prefix('_'));
     let mut velocities = motion.velocities.iter();
     velocities.any(|velocity| part == Some(velocity.suffix))
 }

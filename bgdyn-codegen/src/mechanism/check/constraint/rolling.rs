@@ -112,7 +112,9 @@ fn slip(fields: &Fields, reader: &mut RowReader<'_>, wheel: bool) -> Option<Slip
         reader.faults.push(wording::rows_of_ball(location));
         return None;
     }
-    let unknown = words.iter().find(|word| !WORDS.contains(&word.value.as_str()));
+    let unknown = words
+        .iter()
+        .find(|word| !WORDS.contains(&word.value.as_str()));
     if let Some(word) = unknown {
         let fault = wording::unknown_row(&word.location, &word.value, &WORDS);
         reader.faults.push(fault);

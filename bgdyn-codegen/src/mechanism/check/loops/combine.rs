@@ -40,7 +40,9 @@ fn unit(n: usize, r: usize) -> Vec<Dd> {
 }
 
 fn is_zero(sampled: &[Vec<Vec<Dd>>], row: usize, j: usize) -> bool {
-    sampled.iter().all(|rates| rates[row][j].to_f64().abs() < ZERO)
+    sampled
+        .iter()
+        .all(|rates| rates[row][j].to_f64().abs() < ZERO)
 }
 
 /// Returns a row that has fewer entries after a multiple of another one is subtracted.
@@ -53,7 +55,8 @@ fn better(sampled: &[Vec<Vec<Dd>>], n: usize) -> Option<(usize, usize, Dd)> {
                 let Some(factor) = constant_ratio(sampled, (row, other), j) else {
                     continue;
                 };
-                let left = |rates: &Vec<Vec<Dd>>, j: usize| rates[row][j] - factor * rates[other][j];
+                let left =
+                    |rates: &Vec<Vec<Dd>>, j: usize| rates[row][j] - factor * rates[other][j];
                 let remains = |&j: &usize| {
                     let mut all = sampled.iter();
                     all.any(|rates| left(rates, j).to_f64().abs() >= ZERO)
@@ -68,11 +71,7 @@ fn better(sampled: &[Vec<Vec<Dd>>], n: usize) -> Option<(usize, usize, Dd)> {
 }
 
 /// Returns the ratio of two entries if it is the same number at all sampled positions.
-fn constant_ratio(
-    sampled: &[Vec<Vec<Dd>>],
-    (row, other): (usize, usize),
-    j: usize,
-) -> Option<Dd> {
+fn constant_ratio(sampled: &[Vec<Vec<Dd>>], (row, other): (usize, usize), j: usize) -> Option<Dd> {
     if is_zero(sampled, row, j) || is_zero(sampled, other, j) {
         return None;
     }
@@ -90,7 +89,8 @@ fn exact(x: Dd) -> Dd {
         Dd::from_f64((x * denominator).to_f64().round()) / denominator
     };
     let mut all = (1..=12).map(fraction);
-    all.find(|near| (*near - x).to_f64().abs() < ZERO).unwrap_or(x)
+    all.find(|near| (*near - x).to_f64().abs() < ZERO)
+        .unwrap_or(x)
 }
 
 fn subtract(rows: &mut [Vec<Dd>], row: usize, other: usize, factor: Dd) {

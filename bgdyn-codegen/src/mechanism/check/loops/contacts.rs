@@ -51,7 +51,10 @@ pub(super) fn read(
         ContactKind::Rolling {
             axle, radius, slip, ..
         } => match axle {
-            None => (&SPHERE, contact(ContactShape::Sphere, *radius, SPHERE_ROWS.to_vec())),
+            None => (
+                &SPHERE,
+                contact(ContactShape::Sphere, *radius, SPHERE_ROWS.to_vec()),
+            ),
             Some(axle) => {
                 let shape = ContactShape::Disc(directions.axis(axle, faults)?);
                 (&DISC, contact(shape, *radius, rows(*slip)))
@@ -60,29 +63,30 @@ pub(super) fn read(
     };
     let (carrier, start, contact) = on_carrier(mechanism, (link, pose), contact);
     let path = path(mechanism, carrier, plane_link);
-    if path.is_empty() && contact.spin.is_empty() {
-        faults.push(wording::contact_moves_nothing(&entry.location, &entry.name));
-        return None;
-    }
     let steps = path
         .iter()
         .map(|&(link, outward)| step(mechanism, link, outward));
-    Some(ReadLoop {
-        closes: KinematicLoop {
-            name: entry.name.clone(),
-            kind,
-            links: [link, plane_link],
-            chain: LoopChain {
-                start,
-                steps: steps.collect(),
-                end: plane,
-            },
-            length: Dd::ONE,
-            axis: None,
-            reversible: false,
-            contact: Some(contact),
-            location: entry.location.clone(),
+    let closes = KinematicLoop {
+        name: entry.name.clone(),
+        kind,
+        links: [link, plane_link],
+        chain: LoopChain {
+            start,
+            steps: steps.collect(),
+            end: plane,
         },
+        length: Dd::ONE,
+        axis: None,
+        reversible: false,
+        contact: Some(contact),
+        location: entry.location.clone(),
+    };
+    if closes.velocities().next().is_none() {
+        faults.push(wording::contact_moves_nothing(&entry.location, &entry.name));
+        return None;
+    }
+    Some(ReadLoop {
+        closes,
         branch: None,
         near: Vec::new(),
     })
@@ -139,13 +143,21 @@ fn on_carrier(
     if !about_axle || !small(lever) {
         return stays(contact);
     }
-    let factors = joint.degrees.velocities.iter().zip(joint.degrees.velocity_ratios());
+    let factors = joint
+        .degrees
+        .velocities
+        .iter()
+        .zip(joint.degrees.velocity_ratios());
     let spin: Vec<(CoordinateId, Dd)> = factors.map(|(&j, ratio)| (j, ratio * along)).collect();
     let start = Pose {
         rotation: joint.origin.rotation * pose.rotation,
         translation: joint.origin.translation + joint.origin.rotation * pose.translation,
     };
-    (mechanism.links()[i].parent, start, Contact { spin, ..contact })
+    (
+        mechanism.links()[i].parent,
+        start,
+        Contact { spin, ..contact },
+    )
 }
 
 /// Finds the directions from contacts to centres that are constant in the axes of their carriers, and reports wheels
@@ -173,10 +185,19 @@ pub(super) fn find_upward(closure: &mut Closure, positions: &[Vec<Dd>], faults: 
         }
         let Some(first) = all.first() else { continue };
         let upward = first.scale(Dd::ONE / size(first));
-        let parallel = |v: &Vec3<Dd>| v.cross(upward).0.iter().all(|x| x.to_f64().abs() < ROUNDING);
+        let parallel = |v: &Vec3<Dd>| {
+            v.cross(upward)
+                .0
+                .iter()
+                .all(|x| x.to_f64().abs() < ROUNDING)
+        };
         let exact = |x: Dd| {
             let near = Dd::from_f64(x.to_f64().round());
-            if (x - near).to_f64().abs() < ROUNDING { near } else { x }
+            if (x - near).to_f64().abs() < ROUNDING {
+                near
+            } else {
+                x
+            }
         };
         if let (true, Some(contact)) = (all.iter().all(parallel), &mut one.contact) {
             contact.upward = Some(upward.map(exact));

@@ -41,7 +41,11 @@ pub(super) fn close(
     planes::check(context, faults);
     let loops = specs.iter().map(|one| read::read(one, context, faults));
     let mut read: Vec<Option<read::ReadLoop>> = loops.collect();
-    read.extend(entries.iter().map(|one| contacts::read(one, context, faults)));
+    read.extend(
+        entries
+            .iter()
+            .map(|one| contacts::read(one, context, faults)),
+    );
     let read: Vec<read::ReadLoop> = read.into_iter().collect::<Option<_>>()?;
     if faults.count() > before {
         return None;

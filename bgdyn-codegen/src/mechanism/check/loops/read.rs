@@ -146,7 +146,10 @@ fn end(
         return None;
     };
     let pose = directions.pose(&end.origin, faults)?;
-    Some((find_link(&link.value, &link.location, mechanism, faults)?, pose))
+    Some((
+        find_link(&link.value, &link.location, mechanism, faults)?,
+        pose,
+    ))
 }
 
 /// Returns the link of this name; `None` in it for the world.
@@ -166,10 +169,7 @@ pub(super) fn find_link(
         .position(|known| !known.hidden && known.name == name);
     if found.is_none() {
         let known: Vec<&str> = shown().map(|link| link.name.as_str()).collect();
-        let is_frame = mechanism
-            .frames()
-            .iter()
-            .any(|frame| frame.name == name);
+        let is_frame = mechanism.frames().iter().any(|frame| frame.name == name);
         faults.push(wording::unknown_link(
             location,
             "unknown-link",
@@ -300,7 +300,11 @@ fn branch(one: &LoopSpec, planar: bool, faults: &mut Faults) -> Option<Located<b
 }
 
 /// Returns the links whose joints lead from place a to place b, and whether each is passed outward.
-pub(super) fn path(mechanism: &Mechanism, a: Option<LinkId>, b: Option<LinkId>) -> Vec<(LinkId, bool)> {
+pub(super) fn path(
+    mechanism: &Mechanism,
+    a: Option<LinkId>,
+    b: Option<LinkId>,
+) -> Vec<(LinkId, bool)> {
     let to_base = |mut link: Option<LinkId>| {
         let mut all = Vec::new();
         while let Some(l) = link {

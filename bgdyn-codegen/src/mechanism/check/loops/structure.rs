@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::mechanism::closure::{Closure, ClosingRow, LoopRow, RowAxes, RowKind, eliminate};
+use crate::mechanism::closure::{ClosingRow, Closure, LoopRow, RowAxes, RowKind, eliminate};
 use crate::mechanism::joint::DoubleDouble;
 use crate::random::Random;
 
