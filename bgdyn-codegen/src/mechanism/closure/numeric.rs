@@ -21,11 +21,16 @@ const LARGEST_STEP: f64 = 0.5;
 const WALK: (usize, f64) = (8, 0.3);
 
 impl Closure {
-    /// Returns c(q), and B(q) row by row; c is zero for rows on velocities.
+    /// Returns c(q), and B(q) row by row; c is zero for rows on velocities. Rows of contacts are along their planes.
     pub fn values(&self, rows: &[LoopRow], q: &[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>) {
+        self.values_in(rows, q, true)
+    }
+
+    /// Returns c(q) and B(q), with rows of contacts along their planes or in the axes in which they are solved.
+    fn values_in(&self, rows: &[LoopRow], q: &[Dd], of_plane: bool) -> (Vec<Dd>, Vec<Vec<Dd>>) {
         let axes = RowAxes {
             reversed: false,
-            of_plane: false,
+            of_plane,
             closed: false,
         };
         let all = 0..self.loops.len();
@@ -45,15 +50,14 @@ impl Closure {
 
     /// Returns the rates of the rows that are solved.
     pub fn solved_rates(&self, q: &[Dd]) -> Vec<Vec<Dd>> {
-        let (_, rates) = self.values(&self.rows, q);
+        let (_, rates) = self.values_in(&self.rows, q, false);
         if self.combined.is_empty() {
             return rates;
         }
         let entry = |factors: &Vec<Dd>, j: usize| dot(rates.iter().map(|row| row[j]), factors);
         let row = |factors: &Vec<Dd>| {
-            (0..self.positions.len())
-                .map(|j| entry(factors, j))
-                .collect()
+            let all = 0..self.positions.len();
+            all.map(|j| entry(factors, j)).collect()
         };
         self.combined.iter().map(row).collect()
     }
@@ -300,6 +304,11 @@ fn square(x: &[Dd]) -> f64 {
     x.iter().map(|x| x.to_f64() * x.to_f64()).sum()
 }
 
+/// Returns the largest size; infinite if one is no number.
 fn largest(x: &[Dd]) -> f64 {
-    x.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max)
+    let size = |x: &Dd| match x.to_f64().abs() {
+        size if size.is_nan() => f64::INFINITY,
+        size => size,
+    };
+    x.iter().map(size).fold(0.0, f64::max)
 }

@@ -15,7 +15,7 @@ pub(super) fn combine(closure: &mut Closure) {
         return;
     }
     let at = closure.samples.iter();
-    let mut sampled: Vec<Vec<Vec<Dd>>> = at.map(|q| closure.values(&closure.rows, q).1).collect();
+    let mut sampled: Vec<Vec<Vec<Dd>>> = at.map(|q| closure.solved_rates(q)).collect();
     let n = closure.rows.len();
     let mut combined: Vec<Vec<Dd>> = (0..n).map(|r| unit(n, r)).collect();
     let mut rest = n * n;

@@ -123,41 +123,46 @@ fn site(
     Some((Some(LinkId(found?)), Directions::identity()))
 }
 
-/// Moves the place of a wheel to the link that carries its axle, if the wheel's joint is a rotation about it: then the
-/// angle of the wheel does not enter the rows.
+/// Moves the place of a wheel to the link that carries its axle, as long as joints are rotations about it: then their
+/// angles do not enter the rows.
 fn on_carrier(
     mechanism: &Mechanism,
-    (link, pose): (Option<LinkId>, Pose),
-    contact: Contact,
+    (mut link, mut pose): (Option<LinkId>, Pose),
+    mut contact: Contact,
 ) -> (Option<LinkId>, Pose, Contact) {
-    let stays = |contact: Contact| (link, pose, contact);
-    let (ContactShape::Disc(axle), Some(LinkId(i))) = (contact.shape, link) else {
-        return stays(contact);
-    };
-    let joint = &mechanism.links()[i].joint;
-    let axle = pose.rotation * axle;
-    let along = joint.axis.dot(axle);
-    let lever = joint.axis.cross(pose.translation);
-    let small = |v: Vec3<Dd>| v.dot(v).to_f64() <= ROUNDING * ROUNDING;
-    let about_axle = joint.kind.motion == Motion::Rotation && small(joint.axis.cross(axle));
-    if !about_axle || !small(lever) {
-        return stays(contact);
+    while let (ContactShape::Disc(axle), Some(LinkId(i))) = (contact.shape, link) {
+        let joint = &mechanism.links()[i].joint;
+        let axle = pose.rotation * axle;
+        let small = |v: Vec3<Dd>| v.dot(v).to_f64() <= ROUNDING * ROUNDING;
+        let about_axle = small(joint.axis.cross(axle)) && small(joint.axis.cross(pose.translation));
+        match joint.kind.motion {
+            Motion::None => {}
+            Motion::Rotation if about_axle => {
+                let along = joint.axis.dot(axle);
+                let ratios = joint.degrees.velocity_ratios();
+                let own = joint.degrees.velocities.iter().zip(ratios);
+                spin(&mut contact, own.map(|(&j, ratio)| (j, ratio * along)));
+            }
+            _ => break,
+        }
+        let origin = joint.origin;
+        pose = Pose {
+            rotation: origin.rotation * pose.rotation,
+            translation: origin.translation + origin.rotation * pose.translation,
+        };
+        link = mechanism.links()[i].parent;
     }
-    let factors = joint
-        .degrees
-        .velocities
-        .iter()
-        .zip(joint.degrees.velocity_ratios());
-    let spin: Vec<(CoordinateId, Dd)> = factors.map(|(&j, ratio)| (j, ratio * along)).collect();
-    let start = Pose {
-        rotation: joint.origin.rotation * pose.rotation,
-        translation: joint.origin.translation + joint.origin.rotation * pose.translation,
-    };
-    (
-        mechanism.links()[i].parent,
-        start,
-        Contact { spin, ..contact },
-    )
+    (link, pose, contact)
+}
+
+/// Adds velocities of rotations about the axle.
+fn spin(contact: &mut Contact, own: impl Iterator<Item = (CoordinateId, Dd)>) {
+    for (j, factor) in own {
+        match contact.spin.iter_mut().find(|(known, _)| *known == j) {
+            Some((_, sum)) => *sum += factor,
+            None => contact.spin.push((j, factor)),
+        }
+    }
 }
 
 /// Finds the directions from contacts to centres that are constant in the axes of their carriers, and reports wheels

@@ -55,7 +55,7 @@ pub(super) fn choose(
     let jacobians: Vec<Vec<Vec<Dd>>> = closure
         .samples
         .iter()
-        .map(|q| scaled(closure.values(&closure.rows, q).1))
+        .map(|q| scaled(closure.solved_rates(q)))
         .collect();
     let fixed: Vec<usize> = moving
         .iter()
