@@ -15,7 +15,7 @@ const LARGEST: f64 = 0.5;
 pub struct Dependent {
     /// The index of its velocity in the open tree.
     pub velocity: usize,
-    /// The index of its position.
+    /// The index of its position, or the first one of its joint.
     pub position: usize,
     /// The index of its loop.
     pub closes: usize,
@@ -47,14 +47,7 @@ pub fn close<T: Scalar, const NQ: usize, const NT: usize>(
     let (mut refused, mut last) = (T::none_refused(), zero);
     for _ in 0..STEPS {
         let change = step(&q);
-        last = zero;
-        refused = T::none_refused();
-        for d in dependents {
-            if let Some(&x) = change.get(d.velocity) {
-                last = last.max(x.abs());
-                (T::from_f64(CLOSED) - x.abs()).checked_pivot(zero, NQ + d.closes, &mut refused);
-            }
-        }
+        (last, refused) = largest(&change, dependents, NQ);
         let large = T::from_f64(LARGEST).less(last);
         let scale = T::select(large, T::from_f64(LARGEST) / last, one);
         move_by(&mut q, dependents, &change, scale);
@@ -65,6 +58,51 @@ pub fn close<T: Scalar, const NQ: usize, const NT: usize>(
     let change = step(&q);
     move_by(&mut q, dependents, &change, one);
     Closing { q, last, refused }
+}
+
+/// Changes positions so that wheels touch and loops close, where joints of several degrees of freedom are among those
+/// that move: `moved` returns the position after constant velocities of the open tree. `step` returns the Newton step
+/// of these velocities, which is zero for others than those of `dependents`.
+#[inline]
+pub fn close_along<T: Scalar, const NQ: usize, const NT: usize>(
+    mut q: SVector<T, NQ>,
+    dependents: &[Dependent],
+    step: impl Fn(&SVector<T, NQ>) -> SVector<T, NT>,
+    moved: impl Fn(&SVector<T, NQ>, &SVector<T, NT>) -> SVector<T, NQ>,
+) -> Closing<T, NQ> {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    let (mut refused, mut last) = (T::none_refused(), zero);
+    for _ in 0..STEPS {
+        let change = step(&q);
+        (last, refused) = largest(&change, dependents, NQ);
+        let large = T::from_f64(LARGEST).less(last);
+        let scale = T::select(large, T::from_f64(LARGEST) / last, one);
+        q = moved(&q, &change.map(|x| -(x * scale)));
+        if T::succeeded(&SVector::<T, 1>::from_element(zero), refused) {
+            break;
+        }
+    }
+    let change = step(&q);
+    q = moved(&q, &change.map(|x| -x));
+    Closing { q, last, refused }
+}
+
+/// Returns the largest step of the dependent velocities, and the first loop with one that is not small, at `first` +
+/// its index.
+fn largest<T: Scalar, const NT: usize>(
+    change: &SVector<T, NT>,
+    dependents: &[Dependent],
+    first: usize,
+) -> (T, T::Refused) {
+    let zero = T::from_f64(0.0);
+    let (mut last, mut refused) = (zero, T::none_refused());
+    for d in dependents {
+        if let Some(&x) = change.get(d.velocity) {
+            last = last.max(x.abs());
+            (T::from_f64(CLOSED) - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
+        }
+    }
+    (last, refused)
 }
 
 /// Subtracts the steps of the dependent velocities from their positions.

@@ -94,7 +94,10 @@ pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
         .find(|block| block.dependents.contains(&j));
     let row = block.and_then(|block| block.rows.first());
     let closes = row.map_or(0, |&r| closure.rows[r].closes);
-    let position = closure.positions[j.0].map_or(0, |p| p.0);
+    let mut compounds = closure.compounds.iter();
+    let own = compounds.find(|joint| joint.degrees.velocities.contains(&j));
+    let first = own.and_then(|joint| joint.degrees.positions.first());
+    let position = closure.positions[j.0].as_ref().or(first).map_or(0, |p| p.0);
     let [velocity, position, closes] = [j.0, position, closes].map(size);
     quote! {
         __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }

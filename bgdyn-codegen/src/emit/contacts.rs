@@ -44,6 +44,8 @@ pub(super) fn contact_access(
         #closing
     };
     let close = present.contains(&Method::ClosingStep).then(|| {
+        let [q, moved] = argument_types();
+        let body = tree_integration(closed);
         quote! {
             /// Returns `q` with positions changed so that all wheels touch and all loops close: Newton's method, at
             /// most 11 steps of at most 0.5 rad or m. The positions that change are those of [`DEPENDENTS`].
@@ -54,7 +56,9 @@ pub(super) fn contact_access(
                 &self,
                 q: &__na::SVector<T, NQ>,
             ) -> ::core::result::Result<__na::SVector<T, NQ>, T::Singular<NQ>> {
-                __rt::closure::close(*q, &DEPENDENTS, |q| self.closing_step(q)).finish(&CLOSING_NAMES)
+                let moved = |q: #q, moved: #moved| { #body };
+                __rt::closure::close_along(*q, &DEPENDENTS, |q| self.closing_step(q), moved)
+                    .finish(&CLOSING_NAMES)
             }
         }
     });
@@ -80,20 +84,35 @@ fn closing_constants(closed: &ClosedTree, graph: &Multibody, constraints: &[&str
     }
 }
 
+/// Returns the types of positions, and of velocities of the open tree.
+fn argument_types() -> [TokenStream; 2] {
+    [
+        quote! { &__na::SVector<T, NQ> },
+        quote! { &__na::SVector<T, NT> },
+    ]
+}
+
+/// Returns the position after constant velocities `moved` of the open tree.
+fn tree_integration(closed: &ClosedTree) -> TokenStream {
+    let [q, moved] = argument_types();
+    let arguments = [("q", &q, true), ("moved", &moved, false)];
+    joint_by_joint(&segments(&closed.tree), "integrate", &arguments, true)
+}
+
 /// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint.
 pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStream {
     let of_tree = segments(&closed.tree);
-    let [q, moved] = [
-        quote! { &__na::SVector<T, NQ> },
-        quote! { &__na::SVector<T, NT> },
-    ];
+    let [q, moved] = argument_types();
     let arguments = [("q", &q, true), ("moved", &moved, false)];
     let body = |arguments: &[(&str, &TokenStream, bool)], positions| {
         joint_by_joint(&of_tree, name, arguments, positions)
     };
+    let tree_integration = tree_integration(closed);
+    let moved_along = quote! { let moved = |q: #q, moved: #moved| { #tree_integration }; };
     let closed_again = closes(closed).then(|| {
         quote! {
-            let q = __rt::closure::close(q, &DEPENDENTS, |q| self.closing_step(q)).or_nan(&DEPENDENTS);
+            let q = __rt::closure::close_along(q, &DEPENDENTS, |q| self.closing_step(q), moved)
+                .or_nan(&DEPENDENTS);
         }
     });
     match name {
@@ -105,15 +124,12 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
                 #body
             }
         }
-        "integrate" => {
-            let body = body(&arguments, true);
-            quote! {
-                let moved = |q: #q, moved: #moved| { #body };
-                let q = __rt::closure::follow(q, |q| self.tree_velocity(q, dv), moved);
-                #closed_again
-                q
-            }
-        }
+        "integrate" => quote! {
+            #moved_along
+            let q = __rt::closure::follow(q, |q| self.tree_velocity(q, dv), moved);
+            #closed_again
+            q
+        },
         "sample" => {
             let body = body(&[("moved", &moved, false)], true);
             quote! {
@@ -122,6 +138,7 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
                     moved[j] = u;
                 }
                 let q = { #body };
+                #moved_along
                 #closed_again
                 q
             }

@@ -24,5 +24,5 @@ pub(super) enum ReadConstraint {
     /// The motion of a joint is given.
     Prescribed(PrescribedEntry),
     /// A place does not slip.
-    Contact(ContactEntry),
+    Contact(Box<ContactEntry>),
 }

@@ -35,11 +35,11 @@ impl ConstraintType for KnifeEdge {
         let kind = ContactKind::Edge {
             direction: reader.axis(fields, DIRECTION.name)?,
         };
-        Some(ReadConstraint::Contact(ContactEntry {
+        Some(ReadConstraint::Contact(Box::new(ContactEntry {
             name: reader.name.value.clone(),
             location: reader.location.clone(),
             at: reader.text(fields, AT.name)?,
             kind,
-        }))
+        })))
     }
 }

@@ -86,7 +86,7 @@ pub(super) fn apply(
         match read(raw, (spec, links), faults) {
             Some(ReadConstraint::Row(row)) => rows.push(row),
             Some(ReadConstraint::Prescribed(entry)) => prescribed.push(entry),
-            Some(ReadConstraint::Contact(entry)) => contacts.push(entry),
+            Some(ReadConstraint::Contact(entry)) => contacts.push(*entry),
             None => {}
         }
     }

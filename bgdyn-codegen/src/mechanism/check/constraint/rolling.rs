@@ -72,12 +72,12 @@ impl ConstraintType for Rolling {
             slip,
             on: reader.text(fields, ON.name),
         };
-        Some(ReadConstraint::Contact(ContactEntry {
+        Some(ReadConstraint::Contact(Box::new(ContactEntry {
             name: reader.name.value.clone(),
             location: reader.location.clone(),
             at,
             kind,
-        }))
+        })))
     }
 }
 
