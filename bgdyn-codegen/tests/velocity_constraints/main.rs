@@ -17,4 +17,5 @@ mod multipliers;
 mod planar_references;
 mod random_mechanisms;
 mod slip_rows;
+mod spatial_references;
 mod verified;

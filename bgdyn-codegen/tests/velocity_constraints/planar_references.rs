@@ -7,9 +7,9 @@ use super::files::{Samples, spec};
 use super::robot::{Robot, State, Way};
 
 /// The formulations of the open tree.
-const WAYS: [Way; 3] = [None, Some("subspaces"), Some("literal")];
+pub const WAYS: [Way; 3] = [None, Some("subspaces"), Some("literal")];
 
-fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+pub fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
     assert_eq!(found.len(), expected.len(), "{what}");
     let size = expected.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
     for (x, y) in found.iter().zip(expected) {
