@@ -110,21 +110,19 @@ pub struct StateFollower {
     pub dimensions: [Dimension; 3],
 }
 
-/// A joint whose velocity follows from the independent ones through a loop.
+/// A velocity of a joint that follows from the independent ones through a loop or a contact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DependentJoint {
     /// Its name.
     pub name: String,
-    /// Its position.
-    pub position: usize,
-    /// Its velocity in the open tree.
+    /// The position whose rate it is; `None` for a quasi-velocity.
+    pub position: Option<usize>,
+    /// Its index in the open tree.
     pub velocity: CoordinateId,
     /// The dimensions of its position, velocity and effort.
     pub dimensions: [Dimension; 3],
     /// Name of its velocity.
     pub rate_name: String,
-    /// The loop that it closes, by its index.
-    pub closes: usize,
 }
 
 /// The store of a coordinate's momentum.
@@ -192,8 +190,10 @@ pub struct StateLayout {
     pub followers: Vec<StateFollower>,
     /// The joints whose velocities follow from others through loops: they have no velocity in the state.
     pub dependents: Vec<DependentJoint>,
-    /// Names of the loops.
+    /// Names of the loops and contacts.
     pub loops: Vec<String>,
+    /// The positions that change where loops close and wheels touch, each with its loop or contact.
+    pub closing: Vec<(usize, usize)>,
     /// Velocities: joints, then other coordinates with positions, then currents.
     pub coordinates: Vec<StateCoordinate>,
     /// First-order states.

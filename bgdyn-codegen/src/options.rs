@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use crate::bond_graph::{BondGraph, Multibody, Site, SiteId};
+use crate::bond_graph::{BondGraph, ClosedTree, Multibody, Site, SiteId};
 pub use crate::choice::Preference;
 use crate::fault::unknown_name;
 use crate::formulation::{self, FORMULATIONS, Formulation};
@@ -106,7 +106,10 @@ impl Options {
             }
             None => {}
         }
-        if self.derivatives {
+        let slips = graph.closed.iter().find_map(|closed| first_slip(closed));
+        if let (true, Some(constraint)) = (self.derivatives, slips) {
+            unknown.push(no_derivatives(constraint));
+        } else if self.derivatives {
             wanted.insert(Method::InverseDynamicsDerivatives);
             wanted.insert(Method::ForwardDynamicsDerivatives);
         }
@@ -231,6 +234,21 @@ impl UnknownName {
     }
 }
 
+/// Returns the name of the first constraint on velocities alone.
+fn first_slip(closed: &ClosedTree) -> Option<&str> {
+    let closure = &closed.closure;
+    let mut rows = closure.rows.iter();
+    let row = rows.find(|row| !row.kind.has_positions())?;
+    Some(&closure.loops[row.closes].name)
+}
+
+fn no_derivatives(constraint: &str) -> UnknownName {
+    let message = format!(
+        "no derivatives with `{constraint}`: with a constraint on velocities alone positions change in more directions          than v has entries, and derivatives along v would not be all; differentiate the other methods with dual numbers"
+    );
+    UnknownName::whole("derivatives", message)
+}
+
 fn usual(graph: &BondGraph) -> Vec<Method> {
     let small = graph.coordinates.len() <= COMPACT;
     let coriolis = small.then_some(Method::CoriolisMatrix);
@@ -245,7 +263,10 @@ fn usual(graph: &BondGraph) -> Vec<Method> {
 
 /// Returns the methods of the trait `Dynamics`, and those that it needs for a mechanism with loops.
 fn dynamics(graph: &BondGraph) -> Vec<Method> {
-    let of_loops = graph.closed.iter().flat_map(|_| Method::OF_LOOPS);
+    let of_loops = graph
+        .closed
+        .iter()
+        .flat_map(|closed| Method::of_closed(closed));
     Method::OF_TRAIT.into_iter().chain(of_loops).collect()
 }
 

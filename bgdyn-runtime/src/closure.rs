@@ -1,4 +1,4 @@
-//! Newton's method for the dependent positions of kinematic loops.
+//! Newton's method for the dependent positions of kinematic loops, and ways along velocities that constraints allow.
 
 use nalgebra::SVector;
 
@@ -15,7 +15,7 @@ const LARGEST: f64 = 0.5;
 pub struct Dependent {
     /// The index of its velocity in the open tree.
     pub velocity: usize,
-    /// The index of its position.
+    /// The index of its position, or the first one of its joint.
     pub position: usize,
     /// The index of its loop.
     pub closes: usize,
@@ -92,18 +92,7 @@ pub fn close_from<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
     let (mut refused, mut last) = (Y::Scalar::none_refused(), zero);
     for _ in 0..STEPS {
         let change = step(&q);
-        last = zero;
-        refused = Y::Scalar::none_refused();
-        for d in dependents {
-            if let Some(&x) = change.entries().get(d.velocity) {
-                last = last.max(x.abs());
-                (closed::<Y::Scalar>() - x.abs()).checked_pivot(
-                    zero,
-                    first + d.closes,
-                    &mut refused,
-                );
-            }
-        }
+        (last, refused) = largest(&change, dependents, first);
         let large = number(LARGEST).less(last);
         let scale = Y::Scalar::select(large, number(LARGEST) / last, one);
         move_by(&mut q, dependents, &change, scale);
@@ -114,6 +103,51 @@ pub fn close_from<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
     let change = step(&q);
     move_by(&mut q, dependents, &change, one);
     Closing { q, last, refused }
+}
+
+/// Changes positions so that wheels touch and loops close, where joints of several degrees of freedom are among those
+/// that move: `moved` returns the position after constant velocities of the open tree. `step` returns the Newton step
+/// of these velocities, which is zero for others than those of `dependents`.
+#[inline]
+pub fn close_along<T: Scalar, const NQ: usize, const NT: usize>(
+    mut q: SVector<T, NQ>,
+    dependents: &[Dependent],
+    step: impl Fn(&SVector<T, NQ>) -> SVector<T, NT>,
+    moved: impl Fn(&SVector<T, NQ>, &SVector<T, NT>) -> SVector<T, NQ>,
+) -> Closing<SVector<T, NQ>> {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    let (mut refused, mut last) = (T::none_refused(), zero);
+    for _ in 0..STEPS {
+        let change = step(&q);
+        (last, refused) = largest(&change, dependents, NQ);
+        let large = T::from_f64(LARGEST).less(last);
+        let scale = T::select(large, T::from_f64(LARGEST) / last, one);
+        q = moved(&q, &change.map(|x| -(x * scale)));
+        if T::succeeded(&SVector::<T, 1>::from_element(zero), refused) {
+            break;
+        }
+    }
+    let change = step(&q);
+    q = moved(&q, &change.map(|x| -x));
+    Closing { q, last, refused }
+}
+
+/// Returns the largest step of the dependent velocities, and the first loop with one that is not small, at `first` +
+/// its index.
+fn largest<Z: StateVector>(
+    change: &Z,
+    dependents: &[Dependent],
+    first: usize,
+) -> (Z::Scalar, <Z::Scalar as Scalar>::Refused) {
+    let zero = Z::Scalar::from_f64(0.0);
+    let (mut last, mut refused) = (zero, Z::Scalar::none_refused());
+    for d in dependents {
+        if let Some(&x) = change.entries().get(d.velocity) {
+            last = last.max(x.abs());
+            (closed::<Z::Scalar>() - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
+        }
+    }
+    (last, refused)
 }
 
 /// Subtracts the steps of the dependent velocities from their positions.
@@ -161,6 +195,31 @@ impl<Y: StateVector> Closing<Y> {
         }
         q
     }
+}
+
+/// Returns the position after one second along velocities of the open tree that depend on the position: `rates` returns
+/// them, `moved` the position after constant ones. Order 4, without commutators (Celledoni, Marthinsen and Owren 2003);
+/// exact for constant velocities.
+#[inline]
+pub fn follow<T: Scalar, const NQ: usize, const NT: usize>(
+    q: &SVector<T, NQ>,
+    rates: impl Fn(&SVector<T, NQ>) -> SVector<T, NT>,
+    moved: impl Fn(&SVector<T, NQ>, &SVector<T, NT>) -> SVector<T, NQ>,
+) -> SVector<T, NQ> {
+    let half = T::from_f64(0.5);
+    let k1 = rates(q);
+    let middle = moved(q, &k1.map(|x| x * half));
+    let k2 = rates(&middle);
+    let k3 = rates(&moved(q, &k2.map(|x| x * half)));
+    let k4 = rates(&moved(&middle, &k3.zip_map(&k1, |x, y| x - y * half)));
+    let both = k2.zip_map(&k3, |x, y| x + x + y + y);
+    // (3 k₁ + 2 k₂ + 2 k₃ − k₄) / 12, then (−k₁ + 2 k₂ + 2 k₃ + 3 k₄) / 12
+    let (three, twelfth) = (T::from_f64(3.0), T::from_f64(1.0) / T::from_f64(12.0));
+    let part = |first: &SVector<T, NT>, last: &SVector<T, NT>| {
+        let ends = first.zip_map(last, |x, y| three * x - y);
+        both.zip_map(&ends, |x, y| (x + y) * twelfth)
+    };
+    moved(&moved(q, &part(&k1, &k4)), &part(&k4, &k1))
 }
 
 /// Steps of [`towards`].

@@ -32,8 +32,8 @@ pub struct Singular {
 pub enum Cause {
     /// The pivot of the joint was refused: the joint has no inertia left to accelerate.
     Pivot,
-    /// The dependent joints of a kinematic loop do not follow from the independent ones: the position is
-    /// singular, on the other side of a singular one, or does not close.
+    /// The dependent joints of a kinematic loop, a wheel or a knife edge do not follow from the independent ones: the
+    /// position is singular, on the other side of a singular one, or does not close.
     Loop,
     /// An argument of the function is NaN or infinite.
     Argument {
@@ -132,7 +132,7 @@ impl fmt::Display for Singular {
                 f,
                 "singular mass matrix: joint `{name}` (number {joint}) has {cause}"
             ),
-            Cause::Loop => write!(f, "loop `{name}` {cause}"),
+            Cause::Loop => write!(f, "loop or constraint `{name}` {cause}"),
             Cause::Argument {
                 argument: Argument::Time,
                 ..

@@ -78,16 +78,16 @@ pub trait HybridSystem<T: Scalar> {
         false
     }
 
-    /// Returns whether the scene has loops.
-    fn has_loops(&self) -> bool {
+    /// Returns whether there are positions that [`HybridSystem::close`] changes.
+    fn closes(&self) -> bool {
         false
     }
 
-    /// Changes the dependent positions of joints in loops so that the loops close: Newton's method, at most 11 steps of
-    /// at most 0.5 rad or m. Returns whether the scene has loops. Where a loop does not close, its positions are NaN.
+    /// Changes dependent positions so that loops close and wheels touch: Newton's method, at most 11 steps of at most
+    /// 0.5 rad or m. Returns whether the scene has such positions. Where a loop does not close, they are NaN.
     ///
     /// # Errors
-    /// Names the first loop that does not close.
+    /// Names the first loop or contact that does not close.
     fn close(&self, y: &mut Self::State) -> Result<bool, Self::Singular> {
         let _ = y;
         Ok(false)

@@ -80,11 +80,6 @@ pub fn position_change<T: Scalar>(
         let [rate] = part(y, v);
         set(change, q, [h * rate]);
     });
-    change_of_joints(joints, y, h, change);
-}
-
-/// Writes the change of the positions of these joints only.
-pub fn change_of_joints<T: Scalar>(joints: &[QuasiJoint], y: &[T], h: T, change: &mut [T]) {
     for joint in joints {
         let (q, v) = (joint.position, joint.velocity);
         match joint.kind {

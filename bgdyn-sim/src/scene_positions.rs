@@ -23,11 +23,10 @@ pub(crate) fn position_change<T: Scalar, S: HybridSystem<T>>(
     h: T,
 ) -> S::State {
     let mut change = *y;
-    let (joints, positions) = (scene.quasi_joints(), scene.positions());
     if scene.position_rates(y, &mut change) {
         change = change.times(h);
-        quasi_joints::change_of_joints(joints, y.entries(), h, change.entries_mut());
     } else {
+        let (joints, positions) = (scene.quasi_joints(), scene.positions());
         quasi_joints::position_change(joints, positions, y.entries(), h, change.entries_mut());
     }
     change
@@ -74,5 +73,5 @@ pub(crate) fn project_in_two<T: Scalar, S: HybridSystem<T>>(
 /// Returns whether a state is off the valid ones: quaternions by more than the rounding errors of many steps. Loops
 /// open with every step.
 pub(crate) fn strays<T: Real, S: HybridSystem<T>>(scene: &S, y: &S::State) -> bool {
-    scene.has_loops() || quasi_joints::strays(scene.quasi_joints(), y.entries())
+    scene.closes() || quasi_joints::strays(scene.quasi_joints(), y.entries())
 }

@@ -1,13 +1,13 @@
 """Plans one cycle of the Delta robot, pick and place and back, and writes delta_pick.scene.yaml.
 
-The path of the platform gives the angles of the arms in closed form; they become the tables of the scene.
-Between two points of a table the reference has no acceleration, so computed torque does not know the one of the
-plan. The tables therefore lead the plan by y, with d ẏ + k y = r̈: the law r̃̇ d + r̃ k - d q̇ - k q is then r̈ on the plan.
+The path of the platform gives the angles r of the arms in closed form. They are followed by computed torque, with the
+acceleration d (ẇ - q̇) + k (w - q): a table w has no acceleration between its points, and that of the plan would be
+missing. So the tables are not the plan but w = r + y, where d ẏ + k y = r̈. On the plan, q = r, the acceleration is r̈.
 
     python3 examples/closed_machines/plan_pick.py
 """
 
-from math import atan2, cos, hypot, pi, sin, sqrt
+from math import asin, atan2, cos, hypot, pi, sin, sqrt
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -17,7 +17,7 @@ AZIMUTHS = (0.0, 2 * pi / 3, 4 * pi / 3)
 # Two places, above which the platform turns, in m; a wait at the start, at the place and at the end, a way, in s.
 PICK, PLACE, TOP = (-0.13, -0.05, -0.6), (0.13, 0.07, -0.57), -0.5
 WAIT, WAY = 0.1, 0.5
-STIFFNESS, DAMPING = 400.0, 40.0  # 1/s², 1/s: both roots of the error are -20/s
+STIFFNESS, DAMPING = 100.0, 20.0  # 1/s², 1/s: an error e decays as (1 + 10 t) exp(-10 t)
 STEP, H = 0.002, 0.0002  # s: between points of the tables; of the integration, and of differences
 END = 3 * WAIT + 2 * WAY
 
@@ -57,6 +57,19 @@ def plan(t):
     return arms(platform(t))
 
 
+def closed(place):
+    """All joints, by their names."""
+    q = dict(zip(("px_position", "py_position", "platform_position"), place))
+    for k, (angle, azimuth) in enumerate(zip(arms(place), AZIMUTHS), 1):
+        c, s = cos(azimuth), sin(azimuth)
+        out = c * place[0] + s * place[1] + PLATFORM - BASE - ARM * cos(angle)
+        aside, up = c * place[1] - s * place[0], place[2] + ARM * sin(angle)
+        q[f"arm{k}_angle"] = angle
+        q[f"forearm{k}_pitch_angle"] = atan2(-up, out) - angle
+        q[f"forearm{k}_yaw_angle"] = asin(aside / FOREARM)
+    return q
+
+
 def acceleration(t):
     a, b, c = plan(t - H), plan(t), plan(t + H)
     return [(x - 2 * y + z) / H**2 for x, y, z in zip(a, b, c)]
@@ -66,7 +79,7 @@ def leading():
     """The tables: times, and the plan with its lead y, integrated by the trapezoidal rule."""
     y, before, rows = [0.0] * 3, acceleration(0), []
     every = round(STEP / H)
-    for n in range(round(END / H) + every + 1):
+    for n in range(round(END / H) + 2 * every + 1):
         t = n * H
         now = acceleration(t)
         fade = H * STIFFNESS / DAMPING / 2

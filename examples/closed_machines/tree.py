@@ -7,12 +7,12 @@ joints. Nothing of it comes from `bgdyn`, so that the gaps of loops are measured
 import re
 from math import cos, pi, sin, sqrt
 
-UNITS = {"m": 1.0, "mm": 1e-3, "rad": 1.0, "deg": pi / 180}
+UNITS = {"m": 1.0, "mm": 1e-3, "rad": 1.0, "deg": pi / 180, "kg": 1.0}
 AXES = {"x": [1, 0, 0], "y": [0, 1, 0], "z": [0, 0, 1]}
 
 
 def scalar(text):
-    """A number, also one with a unit of length or angle, or the text."""
+    """A number, also one with a unit of length, angle or mass, or the text."""
     found = re.fullmatch(r"([-+0-9.eE]+)(?: (\w+))?", text.strip())
     if found and found[2] in (None, *UNITS):
         return float(found[1]) * UNITS.get(found[2], 1.0)

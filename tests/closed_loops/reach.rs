@@ -20,7 +20,7 @@ fn a_position_out_of_reach_is_an_error_that_names_the_loop() {
     assert_eq!(CLOSING_NAMES[NQ], "tip_pin");
     assert_eq!(
         error.to_string(),
-        "loop `tip_pin` is singular or does not close here"
+        "loop or constraint `tip_pin` is singular or does not close here"
     );
     // What cannot report an error makes the dependent positions useless, and the next function says so.
     let far = model.integrate(&model.neutral(), &vector![1.1, -1.1]);

@@ -5,7 +5,7 @@ use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::format::{Dimension, Reads};
 use serde_json::{Value, json};
 
-use super::parts::{described, identifier, object, quantity, triple, value};
+use super::parts::{axis, described, identifier, object, quantity, triple, value};
 
 /// Returns the keys by the word of the key `type`.
 pub(super) fn effects() -> Value {
@@ -46,7 +46,12 @@ pub(super) fn reads(reads: Reads) -> Value {
     match reads {
         Reads::Number(fit) => value(fit),
         Reads::Word(words) => json!({ "enum": words }),
-        Reads::Coordinate | Reads::Joint | Reads::Site | Reads::Node | Reads::Input => identifier(),
+        Reads::Coordinate
+        | Reads::Joint
+        | Reads::Site
+        | Reads::Plane
+        | Reads::Node
+        | Reads::Input => identifier(),
         Reads::Joints => {
             json!({ "anyOf": [{ "const": "all" }, { "type": "array", "items": identifier() }] })
         }
@@ -54,6 +59,7 @@ pub(super) fn reads(reads: Reads) -> Value {
             json!({ "type": "array", "items": identifier(), "minItems": 2, "maxItems": 2 })
         }
         Reads::Vector(fit) => triple(value(fit)),
+        Reads::Axis => axis(),
         Reads::Words(words) => json!({ "type": "array", "items": { "enum": words } }),
         Reads::Group(names, fit) => group(names, fit),
         Reads::Coefficients(fit) => json!({

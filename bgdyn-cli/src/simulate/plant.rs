@@ -349,7 +349,6 @@ impl Plant for Evaluated<'_> {
                     .iter_mut()
                     .zip(own)
                     .for_each(|(x, rate)| *x = h * rate);
-                quasi_joints::change_of_joints(joints, of_y, h, of_change);
             }
             None => quasi_joints::position_change(joints, nq, of_y, h, of_change),
         }

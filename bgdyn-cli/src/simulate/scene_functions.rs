@@ -2,7 +2,6 @@
 
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
-use bgdyn_codegen::scene::DependentJoint;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::QuasiJoint;
 use bgdyn_runtime::closure::Dependent;
@@ -84,7 +83,7 @@ impl SceneFunctions {
             position_rates: if_there(SceneFunction::PositionRates),
             closing: if_there(SceneFunction::ClosingStep).map(|step| ClosedLoops {
                 step,
-                dependents: layout.dependents.iter().map(in_state).collect(),
+                dependents: layout.closing.iter().map(in_state).collect(),
             }),
             event_modes: layout.events.iter().map(|e| layout.mode_of(e)).collect(),
             mode_velocities: mode_velocities.collect(),
@@ -98,11 +97,11 @@ impl SceneFunctions {
     }
 }
 
-/// Returns a dependent joint by its component in the state.
-fn in_state(joint: &DependentJoint) -> Dependent {
+/// Returns a position that changes where loops close, by its component in the state.
+fn in_state(&(position, closes): &(usize, usize)) -> Dependent {
     Dependent {
-        velocity: joint.position,
-        position: joint.position,
-        closes: joint.closes,
+        velocity: position,
+        position,
+        closes,
     }
 }

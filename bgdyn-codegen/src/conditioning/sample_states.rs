@@ -158,7 +158,7 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
     normalize(graph, &mut q);
     if let Some(closed) = &graph.closed {
         let closed_position = closed_position(&closed.closure, seed);
-        for p in closed.closure.positions.iter().flatten() {
+        for p in closed.closure.moved_positions() {
             q[p.0] = closed_position[p.0].to_f64();
         }
     }
@@ -193,7 +193,7 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
 fn closed_position(closure: &Closure, seed: u64) -> Vec<Dd> {
     let near = &closure.samples[seed as usize % closure.samples.len()];
     let mut q = near.clone();
-    closure.walk(&closure.rows, &mut q, &mut Random(seed));
+    closure.walk(&closure.position_rows(), &mut q, &mut Random(seed));
     q
 }
 

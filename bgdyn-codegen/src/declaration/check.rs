@@ -197,6 +197,8 @@ fn known<'a>(
         | Reads::Input
         | Reads::Number(_)
         | Reads::Vector(_)
+        | Reads::Axis
+        | Reads::Plane
         | Reads::Coefficients(_)
         | Reads::Group(..) => return None,
     })

@@ -4,7 +4,8 @@ use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
 use crate::format::{Key, ParsedValue};
 use crate::mechanism::{
-    CoordinateId, Coupling, Joint, Limits, LinkId, Mechanism, Motion, SiteOrigins,
+    CoordinateId, Coupling, DependentVelocity, Joint, Limits, LinkId, Mechanism, Motion,
+    SiteOrigins,
 };
 
 /// The names that an effect may refer to.
@@ -61,18 +62,25 @@ impl NameScope {
             let joint = &mechanism.links()[link.0].joint;
             (joint.name.clone(), joint.limits)
         };
-        let of_loops = || joints().filter(|joint| joint.degrees.dependent);
-        let dependent = |joint: &Joint| {
-            let linear = joint.kind.motion == Motion::Translation;
-            (joint.name.clone(), motion(linear))
-        };
+        let of_loops = || joints().filter(|joint| !joint.degrees.dependent.is_empty());
+        let dependents = mechanism.dependent_velocities();
         let of_followers = mechanism.followers();
         let of_followers = of_followers.map(|(joint, ..)| (joint.name.clone(), joint.limits));
+        let quasi = |own: &DependentVelocity| (own.name.clone(), own.kind);
         NameScope {
             coordinates: names.iter().enumerate().map(coordinate).collect(),
-            quasi_velocities: names.iter().enumerate().filter_map(kind).collect(),
+            quasi_velocities: (names.iter().enumerate().filter_map(kind))
+                .chain(
+                    dependents
+                        .iter()
+                        .filter(|own| own.position.is_none())
+                        .map(quasi),
+                )
+                .collect(),
             followers: mechanism.followers().map(follower).collect(),
-            dependents: of_loops().map(dependent).collect(),
+            dependents: (dependents.iter())
+                .map(|own| (own.name.clone(), motion(own.linear)))
+                .collect(),
             limits: (mechanism.coordinates().iter().map(limits))
                 .chain(of_followers)
                 .chain(of_loops().map(|joint| (joint.name.clone(), joint.limits)))

@@ -48,7 +48,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         let transformers: Vec<(usize, Expr<'g>)> = moving.collect();
         let rate = transformers.iter();
         Port {
-            displacement: self.q[joint.position],
+            displacement: joint.position.map_or(self.b.zero(), |p| self.q[p]),
             rate: rate.fold(self.b.zero(), |sum, &(k, s)| sum + s * self.v[k]),
             transformers,
         }
@@ -141,7 +141,8 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// Returns the Newton steps that close the loops, by position; 0 for those that do not change.
     pub(crate) fn closing_steps(&self) -> Vec<Expr<'g>> {
         let mut steps = vec![self.b.zero(); self.q.len()];
-        let Some(closed) = &self.graph.closed else {
+        let closing = !self.scene.layout.closing.is_empty();
+        let Some(closed) = self.graph.closed.as_ref().filter(|_| closing) else {
             return steps;
         };
         let of_velocities = self.method(crate::method::Method::ClosingStep);

@@ -6,6 +6,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::size;
+use super::contacts::{contact_access, contact_docs, contact_position_body};
 use super::joint_segments::{JointSegment, joint_by_joint, segments};
 use super::tokens::number;
 use crate::bond_graph::{ClosedTree, Multibody};
@@ -19,6 +20,9 @@ pub(super) fn closure_access(
     graph: &Multibody,
     present: &[Method],
 ) -> (TokenStream, TokenStream) {
+    if closed.closure.nonholonomic() {
+        return contact_access(closed, graph, present);
+    }
     let (tree, closure) = (&closed.tree, &closed.closure);
     let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
     let rows: Vec<String> = closure
@@ -82,9 +86,12 @@ pub(super) fn closure_access(
 }
 
 /// Returns a dependent joint with its position and its loop.
-fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
+pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
     let closure = &closed.closure;
-    let position = closure.positions[j.0].map_or(0, |p| p.0);
+    let mut compounds = closure.compounds.iter();
+    let own = compounds.find(|joint| joint.degrees.velocities.contains(&j));
+    let first = own.and_then(|joint| joint.degrees.positions.first());
+    let position = closure.positions[j.0].as_ref().or(first).map_or(0, |p| p.0);
     let [velocity, position, closes] = [j.0, position, closure.loop_of(j)].map(size);
     quote! {
         __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }
@@ -99,6 +106,9 @@ pub(super) fn position_body(
     name: &str,
     arguments: &[(&str, &TokenStream, bool)],
 ) -> TokenStream {
+    if closed.closure.nonholonomic() {
+        return contact_position_body(closed, name);
+    }
     let of_tree = segments(&closed.tree);
     let q = quote! { &__na::SVector<T, NQ> };
     let moved = quote! { &__na::SVector<T, NT> };
@@ -135,7 +145,7 @@ pub(super) fn position_body(
 }
 
 /// Returns the closed position of the start.
-fn start(closed: &ClosedTree) -> TokenStream {
+pub(super) fn start(closed: &ClosedTree) -> TokenStream {
     let part = |x: &Dd| {
         let [hi, lo] = [x.hi(), x.lo()].map(|part| {
             let size = number(part.abs());
@@ -153,6 +163,9 @@ fn start(closed: &ClosedTree) -> TokenStream {
 
 /// Returns the lines of documentation about the loops: which rows hold at every position, which joints follow.
 pub(super) fn loop_docs(closed: &ClosedTree) -> Vec<String> {
+    if closed.closure.nonholonomic() {
+        return contact_docs(closed);
+    }
     let (tree, closure) = (&closed.tree, &closed.closure);
     let quoted = |name: String| format!("`{name}`");
     let rows = |rows: &[LoopRow]| {

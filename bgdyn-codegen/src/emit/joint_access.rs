@@ -51,11 +51,17 @@ fn ranges(link: &Link, motion: &CompoundMotion) -> TokenStream {
     let doc = |what: &str, of: &str| format!(" {what} of the joint `{}`: {of}.", joint.name);
     let [q_doc, v_doc] = [doc("Positions", &positions), doc("Velocities", &velocities)];
     let [q_name, v_name] = ["Q", "V"].map(|part| format_ident!("{upper}_{part}"));
+    // Velocities that follow from others leave gaps.
+    let in_v = (!joint.degrees.partly_dependent()).then(|| {
+        quote! {
+            #[doc = #v_doc]
+            pub const #v_name: ::core::ops::Range<usize> = #v..#v_end;
+        }
+    });
     quote! {
         #[doc = #q_doc]
         pub const #q_name: ::core::ops::Range<usize> = #q..#q_end;
-        #[doc = #v_doc]
-        pub const #v_name: ::core::ops::Range<usize> = #v..#v_end;
+        #in_v
     }
 }
 

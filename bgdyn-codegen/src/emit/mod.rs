@@ -6,6 +6,7 @@ mod closure;
 mod code;
 mod columns;
 mod constants;
+mod contacts;
 mod entries;
 mod explain;
 mod joint_access;

@@ -214,7 +214,11 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             " Names the joint whose pivot vanishes where the mass matrix is singular, or the argument".into(),
             " that is NaN or infinite.".into(),
         ]);
-        if model.bond_graph.closed.is_some() {
+        let closed = model.bond_graph.closed.as_deref();
+        let slips = closed.is_some_and(|closed| closed.closure.nonholonomic());
+        if slips {
+            docs.push(" Names the constraint at a singular position, and beyond one.".into());
+        } else if closed.is_some() {
             docs.push(" Names the loop at a singular position, and on another branch than that of the start.".into());
         }
     }

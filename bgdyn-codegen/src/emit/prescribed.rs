@@ -52,9 +52,34 @@ pub(super) fn joint_list(method: Method) -> &'static str {
     }
 }
 
+/// Describes a method's result where wheels or knife edges are among the constraints.
+fn summary_with_contacts(method: Method, usual: String) -> String {
+    match method {
+        Method::ConstraintResidual => {
+            "By how much wheels are above their planes and loops are open, as in [`CONSTRAINT_NAMES`]; zero for rows on velocities.".into()
+        }
+        Method::ConstraintJacobian => {
+            "Rates of the rows of the constraints for the velocities of the open tree: B S = 0.".into()
+        }
+        Method::Multipliers => {
+            "Forces on the wheels and edges along the directions of the rows, and of loops on place b, for the accelerations `a`, if all other efforts are those of the independent joints."
+                .into()
+        }
+        Method::ClosingStep => {
+            "Step of Newton's method: the change of the positions that makes wheels touch and loops close, with the opposite sign; `close` repeats it."
+                .into()
+        }
+        _ => usual,
+    }
+}
+
 /// Describes a method's result: one line of documentation.
 pub(super) fn summary_of(method: Method, model: &Model) -> String {
     let usual = method.summary(&model.bond_graph.sites);
+    let closed = model.bond_graph.closed.as_deref();
+    if closed.is_some_and(|closed| closed.closure.nonholonomic()) {
+        return summary_with_contacts(method, usual);
+    }
     if model.mechanism.prescribed().is_empty() {
         return usual;
     }

@@ -28,11 +28,8 @@ impl Traits<'_> {
     /// code never runs.
     pub(super) fn tokens(&self) -> TokenStream {
         let has = |m: &Method| self.methods.contains(m);
-        let loops: &[Method] = match self.closed {
-            Some(_) => &Method::OF_LOOPS,
-            None => &[],
-        };
-        let whole = Method::OF_TRAIT.iter().chain(loops).all(has);
+        let loops = self.closed.map_or_else(Vec::new, Method::of_closed);
+        let whole = Method::OF_TRAIT.iter().chain(&loops).all(has);
         let dynamics = whole.then(|| self.dynamics());
         let description = self.description();
         let coriolis = has(&Method::CoriolisMatrix)

@@ -2,6 +2,7 @@
 
 mod checking;
 mod constraints;
+mod contacts;
 mod effect_rules;
 mod effects;
 mod inertia;
@@ -18,6 +19,7 @@ pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use checking::*;
 pub(crate) use constraints::*;
+pub(crate) use contacts::*;
 pub(crate) use effect_rules::*;
 pub(crate) use effects::*;
 pub(crate) use inertia::*;

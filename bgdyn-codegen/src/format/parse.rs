@@ -33,6 +33,7 @@ impl Reader {
             "links",
             "frames",
             "constraints",
+            "planes",
             "loops",
             "independent",
             "effects",
@@ -78,6 +79,10 @@ impl Reader {
             }),
             constraints: self.field(&map, "constraints", |r, at| {
                 r.table(at, ("constraints by name", "`name: { type: gear, … }`"))
+            }),
+            planes: self.field(&map, "planes", |r, at| {
+                let what = ("planes by name", "`ground: { normal: z, offset: 0 m }`");
+                r.table(at, what)
             }),
             loops: self.field(&map, "loops", |r, at| {
                 let what = (

@@ -46,6 +46,10 @@ pub enum Reads {
     Input,
     /// Three numbers.
     Vector(&'static [Dimension]),
+    /// A direction: `x`, `-z`, or three numbers.
+    Axis,
+    /// The name of a plane.
+    Plane,
     /// Some of these words.
     Words(&'static [&'static str]),
     /// Names of joints, each with a number of one of these dimensions.

@@ -1,9 +1,9 @@
 //! The rows of loops as expressions: rates, values, second derivatives.
 
-use std::borrow::Cow;
+use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr};
-use crate::mechanism::closure::{Closure, KinematicLoop, LoopChain, LoopRow, RelativePlace};
+use crate::mechanism::closure::{Closure, LoopRow, RowAxes, RowsAt};
 
 /// The way in which the rows of the loops are written and solved.
 #[derive(Clone, Copy, Debug, Default)]
@@ -12,13 +12,22 @@ pub(super) struct LoopForm {
     pub(super) reversed: bool,
     /// For the vectors S u and Sᵀ f alone, without the matrix S.
     pub(super) by_vectors: bool,
+    /// Those of contacts along their planes and the normals: the directions of the multipliers.
+    pub(super) of_plane: bool,
 }
 
-/// Returns the chain of a loop in this form.
-fn chain(one: &KinematicLoop, form: LoopForm) -> Cow<'_, LoopChain> {
-    match form.reversed && one.reversible {
-        true => Cow::Owned(one.chain.reversed()),
-        false => Cow::Borrowed(&one.chain),
+impl LoopForm {
+    fn axes(self) -> RowAxes {
+        RowAxes {
+            reversed: self.reversed,
+            of_plane: self.of_plane,
+            closed: true,
+        }
+    }
+
+    /// Returns whether the rows are those that are solved, not those of the file.
+    fn combines(self, closure: &Closure) -> bool {
+        !self.of_plane && !closure.combined.is_empty()
     }
 }
 
@@ -35,38 +44,54 @@ pub(super) fn loop_rows<'g>(
     q: &[Expr<'g>],
     form: LoopForm,
 ) -> LoopRows<'g> {
-    let places: Vec<RelativePlace<Expr<'g>>> = closure
-        .loops
-        .iter()
-        .map(|one| {
-            let chain = chain(one, form);
-            chain.place(&chain.frames(q, &b), one.kind.coincident, &b)
-        })
-        .collect();
+    let at = |closes: usize| closure.rows_at(closes, form.axes(), (q, &b));
+    let loops: Vec<RowsAt<'_, Expr<'g>>> = (0..closure.loops.len()).map(at).collect();
     let rates = closure.rows.iter().map(|row| {
-        let (place, length) = (&places[row.closes], closure.loops[row.closes].length);
         let mut rates = vec![b.zero(); closure.positions.len()];
-        for (j, column) in &place.columns {
-            rates[j.0] = row.kind.rate(place, column, length);
+        for (j, rate) in loops[row.closes].rates(row.kind) {
+            rates[j.0] = rate;
         }
         rates
     });
+    let rates = rates.collect();
     LoopRows {
-        rates: rates.collect(),
+        rates: match form.combines(closure) {
+            true => combined(b, closure, &rates),
+            false => rates,
+        },
     }
 }
 
-/// Returns c(q), row by row.
+/// Returns the rates of the rows that are solved.
+fn combined<'g>(
+    b: &'g Builder,
+    closure: &Closure,
+    rates: &Vec<Vec<Expr<'g>>>,
+) -> Vec<Vec<Expr<'g>>> {
+    let entry = |(r, j): (usize, usize)| match closure.zeros[r][j] {
+        true => b.zero(),
+        false => sum(b, &closure.combined[r], rates.iter().map(|row| row[j])),
+    };
+    let all = 0..closure.positions.len();
+    let row = |r: usize| all.clone().map(|j| entry((r, j))).collect();
+    (0..rates.len()).map(row).collect()
+}
+
+/// Returns the sum of expressions with constant factors.
+fn sum<'g>(b: &'g Builder, factors: &[Dd], of: impl Iterator<Item = Expr<'g>>) -> Expr<'g> {
+    let terms = of.zip(factors).filter(|(_, factor)| **factor != Dd::ZERO);
+    terms.fold(b.zero(), |sum, (e, &factor)| sum + e * factor)
+}
+
+/// Returns c(q), row by row; zero for rows on velocities.
 pub(super) fn loop_residuals<'g>(
     b: &'g Builder,
     closure: &Closure,
     q: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
     let row = |row: &LoopRow| {
-        let one = &closure.loops[row.closes];
-        let frames = one.chain.frames(q, &b);
-        let place = one.chain.place(&frames, one.kind.coincident, &b);
-        row.kind.residual(&place, one.length, |x| b.constant(x))
+        let at = closure.rows_at(row.closes, LoopForm::default().axes(), (q, &b));
+        at.residual(row.kind, &b)
     };
     closure.rows.iter().map(row).collect()
 }
@@ -79,12 +104,15 @@ pub(super) fn loop_bias<'g>(
     form: LoopForm,
 ) -> Vec<Expr<'g>> {
     let row = |row: &LoopRow| {
-        let one = &closure.loops[row.closes];
-        let chain = chain(one, form);
-        let frames = chain.frames(q, &b);
-        let place = chain.place(&frames, one.kind.coincident, &b);
-        let rates = chain.rates(&frames, v, &b);
-        row.kind.bias(&place, &rates, one.length)
+        let at = closure.rows_at(row.closes, form.axes(), (q, &b));
+        at.bias(row.kind, v, &b)
     };
-    closure.rows.iter().map(row).collect()
+    let all: Vec<Expr<'g>> = closure.rows.iter().map(row).collect();
+    if !form.combines(closure) {
+        return all;
+    }
+    let factors = closure.combined.iter();
+    factors
+        .map(|factors| sum(b, factors, all.iter().copied()))
+        .collect()
 }

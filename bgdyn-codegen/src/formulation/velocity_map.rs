@@ -24,6 +24,7 @@ pub(crate) fn velocity_map<'g>(
     let form = LoopForm {
         reversed,
         by_vectors: false,
+        of_plane: false,
     };
     let rows = loop_rows(b, closure, q, form);
     VelocityMap::new(b, closure, (rows, form), first).map
@@ -49,8 +50,9 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
         first: FirstPivot,
     ) -> Self {
         b.section(|| "dependent velocities of the loops".into());
-        // The blocks are those of the rows in the axes of places a.
-        let blocks = match form.reversed {
+        // The blocks are those of the rows in the axes of places a, and of contacts in the axes of the body.
+        let turned = form.of_plane && closure.nonholonomic();
+        let blocks = match form.reversed || turned {
             false => closure.blocks.clone(),
             true => vec![ClosureBlock {
                 rows: closure
@@ -180,9 +182,28 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
         found
     }
 
-    /// Returns J_d⁻¹ c, by velocity of the tree.
+    /// Returns J_d⁻¹ c, by velocity of the tree; beside rows on velocities those of the rows with positions alone.
     pub(super) fn steps(&self, residuals: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        if self.closure.nonholonomic() {
+            return self.steps_of_positions(residuals);
+        }
         let opposite: Vec<Expr<'g>> = residuals.iter().map(|&c| -c).collect();
         self.solve(&[], Some(&opposite))
+    }
+
+    fn steps_of_positions(&self, residuals: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let closure = self.closure;
+        let closers: Vec<CoordinateId> = closure.closing().collect();
+        let rows = (0..closure.rows.len()).filter(|&r| closure.rows[r].kind.has_positions());
+        let rows: Vec<usize> = rows.collect();
+        let row = |&r: &usize| closers.iter().map(|j| self.rows.rates[r][j.0]).collect();
+        let matrix = rows.iter().map(row).collect();
+        let elimination = EliminatedMatrix::new(self.b, matrix, &closure.samples, None);
+        let found = elimination.solve(rows.iter().map(|&r| residuals[r]).collect());
+        let mut all = vec![self.b.zero(); closure.positions.len()];
+        for (j, x) in closers.iter().zip(found) {
+            all[j.0] = x;
+        }
+        all
     }
 }

@@ -1,10 +1,10 @@
-//! Joints whose velocities follow from others through loops, in a scene's state: their positions are part of it,
+//! Joints whose velocities follow from others through loops and contacts, in a scene's state: their positions are part of it,
 //! their velocities are not.
 
 use super::{DependentJoint, StateLayout};
 
 impl StateLayout {
-    /// Returns the joint of this name whose velocity follows from others through a loop.
+    /// Returns the joint of this name whose velocity follows from others.
     pub fn dependent_named(&self, name: &str) -> Option<&DependentJoint> {
         self.dependents.iter().find(|joint| joint.name == name)
     }
@@ -22,6 +22,6 @@ impl StateLayout {
             let mut joints = self.quasi_joints.iter();
             joints.any(|joint| joint.positions.contains(p))
         };
-        self.coupled().iter().any(|p| !of_quasi_joint(p))
+        !self.dependents.is_empty() || self.coupled().iter().any(|p| !of_quasi_joint(p))
     }
 }

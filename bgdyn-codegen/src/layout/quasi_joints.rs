@@ -80,6 +80,11 @@ fn length(quaternion: &[Dd]) -> Dd {
 }
 
 impl QuasiJoint {
+    /// Returns whether all its velocities are part of the state: none follows from others.
+    pub fn is_independent(&self, layout: &StateLayout) -> bool {
+        self.coordinates.len() == self.in_state(layout).velocities()
+    }
+
     /// Returns it by its components in the state: positions first, then velocities.
     pub fn in_state(&self, layout: &StateLayout) -> runtime::QuasiJoint {
         runtime::QuasiJoint {

@@ -65,7 +65,7 @@ pub(crate) fn check(
     let given = base_is_given(spec, &parameters, faults);
     let whole = || {
         let (mut links, places) = assemble(bodies, &tree, given, faults)?;
-        let prescribed = constraint::apply(spec, &mut links, &parameters, faults)?;
+        let constraints = constraint::apply(spec, &mut links, &parameters, faults)?;
         let mut frames = all(frames)?;
         for frame in &mut frames {
             frame.link = frame.link.and_then(|LinkId(i)| places.get(i).copied());
@@ -77,7 +77,7 @@ pub(crate) fn check(
             parameters.extend(at_rest(gravity));
             motion
         });
-        let prescribed = prescribed::numbered(&prescribed, &links, &mut parameters);
+        let prescribed = prescribed::numbered(&constraints.prescribed, &links, &mut parameters);
         let mut mechanism = Mechanism {
             name: name?,
             label: text(&spec.label),
@@ -94,7 +94,8 @@ pub(crate) fn check(
             closure: None,
         };
         mechanism.number();
-        loops::close(spec, &mut mechanism, &directions, faults)?;
+        let contacts = &constraints.contacts;
+        loops::close((spec, contacts), &mut mechanism, &directions, faults)?;
         mechanism.snapped = directions.into_snapped();
         Some(mechanism)
     };

@@ -15,8 +15,9 @@ pub struct Degrees {
     pub velocities: Vec<CoordinateId>,
     /// Its relation to other joints: `mimic`, or a constraint with constant coefficients.
     pub coupling: Option<Coupling>,
-    /// Whether its velocity follows from those of other joints through a loop.
-    pub dependent: bool,
+    /// Those of its velocities, by their index in its motion, that follow from those of other joints through loops or
+    /// contacts.
+    pub dependent: Vec<usize>,
     /// Advance along the axis of a helical joint, m/rad.
     pub advance: Dd,
     /// Whether its quaternion may have any length.
@@ -75,9 +76,21 @@ impl Degrees {
         !self.coupling.as_ref().is_some_and(Coupling::of_positions)
     }
 
-    /// Returns whether it has velocities of its own.
+    /// Returns whether it has velocities of its own, at least one.
     pub fn own_velocities(&self) -> bool {
-        self.coupling.is_none() && !self.dependent
+        self.coupling.is_none() && (self.dependent.is_empty() || !self.velocities.is_empty())
+    }
+
+    /// Returns whether some of its velocities are its own, and others follow from those of other joints.
+    pub fn partly_dependent(&self) -> bool {
+        !self.dependent.is_empty() && !self.velocities.is_empty()
+    }
+
+    /// Returns the index in its motion of a velocity of its own.
+    pub fn part(&self, j: CoordinateId) -> Option<usize> {
+        let own = self.velocities.iter().position(|known| *known == j)?;
+        let all = 0..own + 1 + self.dependent.len();
+        all.filter(|k| !self.dependent.contains(k)).nth(own)
     }
 
     /// Returns the factors from [`Degrees::positions`] to the position of a joint with one.
@@ -132,6 +145,9 @@ impl Degrees {
             Motion::Compound(compound) => compound.columns(&self.constants(axis)),
         };
         let velocities = self.velocities.iter().copied();
+        let kept =
+            |(k, column): (usize, Column<Dd>)| (!self.dependent.contains(&k)).then_some(column);
+        let own: Vec<Column<Dd>> = own.into_iter().enumerate().filter_map(kept).collect();
         match (&self.coupling, own.as_slice()) {
             (Some(_), [column]) => {
                 let scaled = self.velocity_ratios().into_iter().map(|ratio| Column {

@@ -26,13 +26,18 @@ impl Mechanism {
                 joint.degrees.positions.push(PositionId(positions.len()));
                 positions.push(LinkId(i));
             }
-            if !joint.degrees.own_velocities() {
+            if joint.degrees.coupling.is_some() {
+                continue;
+            }
+            let own = (0..motion.nv()).filter(|k| !joint.degrees.dependent.contains(k));
+            let own = own.count();
+            if own == 0 {
                 continue;
             }
             if matches!(motion, Motion::Rotation | Motion::Translation) {
                 joint.coordinate = Some(CoordinateId(coordinates.len()));
             }
-            for _ in 0..motion.nv() {
+            for _ in 0..own {
                 joint
                     .degrees
                     .velocities
@@ -58,11 +63,13 @@ impl Mechanism {
         (self.positions, self.coordinates) = (positions, coordinates);
     }
 
-    /// Sets the loops of a numbered tree: their dependent joints have no velocity any more.
+    /// Sets the loops of a numbered tree: their dependent velocities are not numbered any more.
     pub(super) fn close(&mut self, closure: Closure) {
         for j in closure.dependents() {
             let LinkId(i) = self.coordinates[j.0];
-            self.links[i].joint.degrees.dependent = true;
+            let degrees = &mut self.links[i].joint.degrees;
+            let first = degrees.velocities.first().map_or(0, |first| first.0);
+            degrees.dependent.push(j.0 - first);
         }
         self.closure = Some(closure);
         self.number();
@@ -73,7 +80,7 @@ impl Mechanism {
         let mut open = self.clone();
         open.closure = None;
         for link in &mut open.links {
-            link.joint.degrees.dependent = false;
+            link.joint.degrees.dependent.clear();
         }
         open.number();
         open
@@ -125,14 +132,15 @@ impl Mechanism {
     /// Returns whether a coordinate's velocity is not the rate of a position.
     pub fn is_quasi_velocity(&self, coordinate: CoordinateId) -> bool {
         let joint = self.joint(coordinate);
-        let velocities = joint.degrees.velocities.iter();
-        let mut own = velocities.zip(joint.kind.motion.velocity_positions());
-        own.any(|(j, position)| *j == coordinate && position.is_none())
+        let part = joint.degrees.part(coordinate);
+        let positions = joint.kind.motion.velocity_positions();
+        part.and_then(|part| positions.into_iter().nth(part))
+            .is_some_and(|position| position.is_none())
     }
 
     /// Returns the names of the joints with one velocity, in the order of the velocities.
     pub fn one_degree_names(&self) -> Vec<String> {
-        let single = |j: &usize| self.joint(CoordinateId(*j)).degrees.velocities.len() == 1;
+        let single = |j: &usize| self.joint(CoordinateId(*j)).kind.motion.nv() == 1;
         let names = self.joint_names();
         let kept = (0..names.len()).filter(single);
         kept.map(|j| names[j].clone()).collect()
@@ -149,7 +157,7 @@ impl Mechanism {
     /// joint with several.
     pub fn joint_names(&self) -> Vec<String> {
         let of = |joint: &Joint, j: usize| {
-            let own = joint.degrees.velocities.iter().position(|v| v.0 == j)?;
+            let own = joint.degrees.part(CoordinateId(j))?;
             match joint.kind.motion {
                 Motion::Compound(motion) => Some(motion.velocities[own].suffix),
                 _ => None,

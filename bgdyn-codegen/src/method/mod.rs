@@ -6,7 +6,7 @@ mod argument;
 mod scene_function;
 mod shape;
 
-use crate::bond_graph::{BondGraph, Site, SiteId};
+use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
 pub use argument::Argument;
 pub use scene_function::SceneFunction;
@@ -95,6 +95,18 @@ impl Method {
         Method::ClosingStep,
     ];
 
+    /// Returns the methods of a mechanism with loops or contacts: without those of closing if nothing closes.
+    pub fn of_closed(closed: &ClosedTree) -> Vec<Method> {
+        let closes = closed
+            .closure
+            .rows
+            .iter()
+            .any(|row| row.kind.has_positions());
+        let closing = |m: &Method| matches!(m, Method::ConstraintResidual | Method::ClosingStep);
+        let all = Method::OF_LOOPS.into_iter();
+        all.filter(|method| closes || !closing(method)).collect()
+    }
+
     /// Returns the four methods of a site.
     pub fn of_site(site: SiteId) -> [Method; 4] {
         [
@@ -113,9 +125,24 @@ impl Method {
             .into_iter()
             .partition(|method| method.site().is_none());
         let mut all: Vec<Method> = own.into_iter().chain(drives).chain(of_sites).collect();
-        if graph.closed.is_some() {
-            all.extend(Method::OF_LOOPS);
+        // Positions change in more directions than v has entries.
+        let slips = graph
+            .closed
+            .iter()
+            .any(|closed| closed.closure.nonholonomic());
+        if slips {
+            let derivatives = [
+                Method::InverseDynamicsDerivatives,
+                Method::ForwardDynamicsDerivatives,
+            ];
+            all.retain(|method| !derivatives.contains(method));
         }
+        all.extend(
+            graph
+                .closed
+                .iter()
+                .flat_map(|closed| Method::of_closed(closed)),
+        );
         all
     }
 

@@ -19,7 +19,7 @@ pub(super) fn motion_of(
     let map = mechanism.closure()?.velocity_map(q)?;
     let terms = map[joint.velocity.0].iter().zip(v);
     let velocity = terms.fold(Dd::ZERO, |sum, (s, u)| sum + *s * *u);
-    Some((Some(q[joint.position]), velocity))
+    Some((joint.position.map(|p| q[p]), velocity))
 }
 
 /// Returns the fault of a start that does not exist; `location` is that of an entry of the file.

@@ -171,7 +171,7 @@ impl SceneEquations {
                 natural && (canonical || method.needs_canonical())
             }
             SceneFunction::PositionRates => layout.needs_position_rates(),
-            SceneFunction::ClosingStep => self.graph.closed.is_some(),
+            SceneFunction::ClosingStep => !layout.closing.is_empty(),
         };
         SceneFunction::ALL.into_iter().filter(has).collect()
     }

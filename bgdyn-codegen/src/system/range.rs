@@ -81,7 +81,10 @@ fn limits_of(scene: &Scene, p: usize) -> Option<(Limits, &str)> {
             MomentumStore::Own(_) => None,
         };
     }
-    let dependent = layout.dependents.iter().find(|joint| joint.position == p)?;
+    let dependent = layout
+        .dependents
+        .iter()
+        .find(|joint| joint.position == Some(p))?;
     let mut joints = mechanism.links().iter().map(|link| &link.joint);
     let joint = joints.find(|joint| joint.name == dependent.name)?;
     Some((joint.limits, &joint.name))

@@ -269,10 +269,12 @@ impl Subject<'_> {
     /// Compares with the literal form where the loops are open by about this size.
     fn open_loops(&self, at: &Inputs<Dd>, by: Dd, allowed: f64) -> Sides {
         let mut open = at.clone();
-        let closed = self.literal.prepared.graph.closed.iter();
-        let joints = closed.flat_map(|closed| closed.closure.positions.iter().flatten());
-        for (k, p) in joints.enumerate() {
-            open.q[p.0] += by * Dd::from_f64(1.0 + 0.3 * k as f64);
+        if let Some(closed) = &self.literal.prepared.graph.closed {
+            let moving = closed.closure.moving().into_iter().enumerate();
+            let step = |(k, j)| (j, by * Dd::from_f64(1.0 + 0.3 * k as f64));
+            closed
+                .closure
+                .displace(&mut open.q, &moving.map(step).collect::<Vec<_>>());
         }
         let form = self
             .form

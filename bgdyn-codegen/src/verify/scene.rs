@@ -142,6 +142,7 @@ impl CheckedScene<'_> {
                 for (p, rate) in layout
                     .quasi_joints
                     .iter()
+                    .filter(|joint| joint.is_independent(layout))
                     .flat_map(|joint| coupled_rates(joint, at))
                 {
                     expected[p] = rate;
@@ -163,12 +164,14 @@ impl CheckedScene<'_> {
         let closure = self.system.scene.mechanism.closure()?;
         let mut opened = at.clone();
         let mut random = Random(23);
-        for p in closure.dependents().filter_map(|j| closure.positions[j.0]) {
-            opened.q[p.0] += signed(&mut random) * Dd::from_f64(OPENING);
+        let layout = &self.system.scene.layout;
+        for &(p, _) in &layout.closing {
+            opened.q[p] += signed(&mut random) * Dd::from_f64(OPENING);
         }
+        layout.normalize(&mut opened.q);
         let steps = function.evaluate(opened.clone()).0;
         let stepped = minus(&opened.q, &steps);
-        let (left, _) = closure.values(&closure.rows, &stepped);
+        let (left, _) = closure.values(&closure.position_rows(), &stepped);
         let closed = vec![Dd::ZERO; left.len()];
         let law = ("loops closed after a step, to its square", OPENING);
         self.compare(function, law, (&left, &closed), OPENING, at)

@@ -219,6 +219,8 @@ fn reads(key: &Key) -> String {
             }
         }
         Reads::Vector(fit) => format!("three numbers, {}", fit[0].si()),
+        Reads::Axis => "a direction".into(),
+        Reads::Plane => "a plane".into(),
         Reads::Word(words) => words.join(" or "),
         Reads::Words(words) => format!("list of {}", words.join(", ")),
         Reads::Coordinate => "a coordinate".into(),

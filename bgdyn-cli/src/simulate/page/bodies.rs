@@ -150,7 +150,8 @@ impl Bodies {
 
     /// Adds the places at which loops close, with beams to them.
     fn closings(&mut self, mechanism: &Mechanism) {
-        for one in mechanism.closure().into_iter().flat_map(|c| &c.loops) {
+        let all = mechanism.closure().into_iter().flat_map(|c| &c.loops);
+        for one in all.filter(|one| one.contact.is_none()) {
             let ends = [&one.chain.start, &one.chain.end];
             let names = [one.name.as_str(), ""];
             for ((link, pose), name) in one.links.iter().zip(ends).zip(names) {

@@ -92,17 +92,17 @@ fn loops(layout: &StateLayout, rate_names: &[&String]) -> TokenStream {
     }
     let loops = &layout.loops;
     let names = size(rate_names.len() + loops.len());
-    let dependents = layout.dependents.iter().map(|joint| {
-        let [position, closes] = [joint.position, joint.closes].map(size);
+    let dependents = layout.closing.iter().map(|&(position, closes)| {
+        let [position, closes] = [position, closes].map(size);
         quote! {
             __rt::closure::Dependent { velocity: #position, position: #position, closes: #closes }
         }
     });
-    let count = size(layout.dependents.len());
+    let count = size(layout.closing.len());
     quote! {
-        /// Names in errors: those of [`RATE_NAMES`], then of the loops.
+        /// Names in errors: those of [`RATE_NAMES`], then of the loops and contacts.
         pub const PIVOT_NAMES: [&str; #names] = [#(#rate_names,)* #(#loops),*];
-        /// The dependent joints of the loops, by their positions.
+        /// The positions that change where loops close and wheels touch.
         const DEPENDENTS: [__rt::closure::Dependent; #count] = [#(#dependents),*];
     }
 }

@@ -171,9 +171,9 @@ fn constrained_positions(layout: &StateLayout) -> TokenStream {
     if !layout.needs_position_rates() {
         return TokenStream::new();
     }
-    let close = (!layout.loops.is_empty()).then(|| {
+    let close = (!layout.closing.is_empty()).then(|| {
         quote! {
-            fn has_loops(&self) -> bool { true }
+            fn closes(&self) -> bool { true }
             fn close(
                 &self,
                 y: &mut __na::SVector<T, N>,

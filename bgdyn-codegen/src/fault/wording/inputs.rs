@@ -35,6 +35,14 @@ pub(crate) fn controller_without_joint(location: &Location, word: &str) -> Fault
         .with_help("use `constant`, `harmonic`, `table` or `given`")
 }
 
+pub(crate) fn hold_of_constrained(location: &Location, joint: &str) -> Fault {
+    let message = format!(
+        "some velocities of `{joint}` follow from others through constraints: a controller cannot hold its pose"
+    );
+    Fault::new(location, "drive", message)
+        .with_help("drive the efforts of single velocities, by their names in `JOINT_NAMES`")
+}
+
 /// `joint` is the joint of the velocity.
 pub(crate) fn controller_of_quasi_velocity(
     location: &Location,

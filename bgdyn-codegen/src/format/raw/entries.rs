@@ -29,11 +29,13 @@ impl Reader {
             | Reads::Coordinate
             | Reads::Joint
             | Reads::Site
+            | Reads::Plane
             | Reads::Node
             | Reads::Input => self.text(at).map(ParsedValue::Text),
             Reads::Vector(fit) => self
                 .vector(at, fit)
                 .map(|v| ParsedValue::Vector(Box::new(v))),
+            Reads::Axis => self.axis(at).map(|v| ParsedValue::Vector(Box::new(v))),
             Reads::Joints if !matches!(at.tree.data, Data::List(_)) => {
                 self.text(at).map(ParsedValue::Text)
             }

@@ -1,24 +1,21 @@
 //! The literal sum of a mechanism with loops: Sᵀ (6), with B by differentiating the conditions.
 //!
 //! The conditions c(q) are those of the poses of both places in fixed axes; B = ∂c/∂q and Ḃ q̇ are their
-//! derivatives. Nothing is shared with the chains of the generated code but the elimination.
+//! derivatives. Rows on velocities are those of [`RelativePoses::slip`]. Nothing is shared with the chains of the
+//! generated code but the elimination.
 
 use std::rc::Rc;
 
-use bgdyn_runtime::Dd;
-
+use super::relative_poses::RelativePoses;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Tangent};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::joint_motion::{along, tangents, unit_tangents};
 use crate::formulation::loop_methods::{LoopMotion, compose};
 use crate::formulation::loop_rows::{LoopForm, LoopRows};
-use crate::formulation::placement::Placement;
 use crate::formulation::velocity_map::VelocityMap;
 use crate::formulation::{Formulation, Prepared};
-use crate::math::{Mat3, Vec3};
-use crate::mechanism::closure::RelativePlace;
-use crate::mechanism::{LinkId, Pose};
+use crate::mechanism::closure::RowKind;
 use crate::method::Method;
 
 /// Returns the expressions of a method; `literal` computes those of the open tree.
@@ -29,13 +26,21 @@ pub(super) fn outputs<'g>(
     method: Method,
 ) -> Option<Vec<Expr<'g>>> {
     let x = Arguments::new(b, graph, method);
-    let conditions = conditions(b, closed, &x.q);
-    let mut rates = vec![vec![b.zero(); closed.tree.coordinates.len()]; conditions.len()];
+    let places = RelativePoses::new(b, closed, &x.q);
+    let closure = &closed.closure;
+    let tangent = |j: usize| Tangent::new(along(unit_tangents(b, &closed.tree, j)));
+    let mut rates = vec![vec![b.zero(); closed.tree.coordinates.len()]; closure.rows.len()];
     for j in 0..closed.tree.coordinates.len() {
-        let mut along_j = Tangent::new(along(unit_tangents(b, &closed.tree, j)));
-        for (row, condition) in rates.iter_mut().zip(&conditions) {
-            let condition = condition.signed();
-            row[j] = b.expr(b.with_graph(|g| along_j.of(g, condition)));
+        let mut along_j = tangent(j);
+        let mut rate_of = |e: Expr<'g>| {
+            let e = e.signed();
+            b.expr(b.with_graph(|g| along_j.of(g, e)))
+        };
+        for (rates, row) in rates.iter_mut().zip(&closure.rows) {
+            rates[j] = match (row.kind.has_positions(), row.kind) {
+                (false, RowKind::Contact(kind)) => places.slip(row.closes, kind, &mut rate_of),
+                _ => rate_of(places.condition(row)),
+            };
         }
     }
     let bias = |v: &[Expr<'g>]| {
@@ -52,39 +57,15 @@ pub(super) fn outputs<'g>(
     let rows = LoopRows {
         rates: rates.clone(),
     };
-    let rows = (rows, LoopForm::default());
+    let form = LoopForm {
+        of_plane: true,
+        ..LoopForm::default()
+    };
+    let rows = (rows, form);
     let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows, None), &x, bias);
     let prepared = Prepared::new(&closed.tree);
     let read = |method: Method| literal.function(&prepared, method).map(Rc::new);
+    let rows = closure.rows.iter();
+    let conditions: Vec<Expr<'g>> = rows.map(|row| places.condition(row)).collect();
     compose(b, closed, method, (&x, &motion), (&read, &conditions))
-}
-
-/// Returns c(q), row by row.
-fn conditions<'g>(b: &'g Builder, closed: &ClosedTree, q: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    let placement = Placement::new(b, &closed.tree, q);
-    let place = |link: Option<LinkId>, pose: Pose| {
-        let rotation = pose.rotation.map(|x| b.constant(x));
-        let origin = b.vector(pose.translation);
-        match link {
-            None => (rotation, origin),
-            Some(LinkId(i)) => (
-                placement.rotations[i] * rotation,
-                placement.point(i, origin),
-            ),
-        }
-    };
-    let closure = &closed.closure;
-    let condition = |row: &crate::mechanism::closure::LoopRow| {
-        let one = &closure.loops[row.closes];
-        let a: (Mat3<Expr<'g>>, Vec3<Expr<'g>>) = place(one.links[0], one.chain.start);
-        let other = place(one.links[1], one.chain.end);
-        let relative = RelativePlace {
-            rotation: a.0.transpose() * other.0,
-            position: a.0.transpose() * (other.1 - a.1),
-            columns: Vec::new(),
-        };
-        row.kind
-            .residual(&relative, one.length, |x: Dd| b.constant(x))
-    };
-    closure.rows.iter().map(condition).collect()
 }

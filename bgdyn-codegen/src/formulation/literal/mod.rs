@@ -7,6 +7,7 @@
 
 mod closed;
 mod coriolis;
+mod relative_poses;
 mod sum;
 
 use super::arguments::Arguments;

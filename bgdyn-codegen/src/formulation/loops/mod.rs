@@ -91,6 +91,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
         each.map(move |&by_vectors| LoopForm {
             reversed,
             by_vectors,
+            of_plane: in_axes_of_a,
         })
     };
     choices(reversible).iter().flat_map(with).collect()

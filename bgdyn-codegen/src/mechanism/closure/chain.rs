@@ -45,6 +45,17 @@ pub struct LoopChain {
     pub end: Pose,
 }
 
+/// The point of place b at which its twists are given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TwistPoint {
+    /// The one at the origin of place a.
+    A,
+    /// Its origin.
+    B,
+    /// Its origin, which coincides with that of place a: levers on the side of a are those to place a.
+    Both,
+}
+
 /// The frames of a chain's links at one position, in the axes of place a.
 pub struct ChainFrames<E> {
     /// Link axes: that of the first link, then after each step.
@@ -160,12 +171,11 @@ impl LoopChain {
         }
     }
 
-    /// Returns the motion of place b. If the places of a closed loop coincide (`coincident`), the levers of
-    /// the joints on the side of a are those to place a.
+    /// Returns the motion of place b, with its twists at one of its points.
     pub fn place<E: Ring + Mul<Dd, Output = E>>(
         &self,
         frames: &ChainFrames<E>,
-        coincident: bool,
+        point: TwistPoint,
         numbers: &impl PoseNumbers<E>,
     ) -> RelativePlace<E> {
         let last = frames.rotations[self.steps.len()];
@@ -180,10 +190,11 @@ impl LoopChain {
                 continue;
             }
             // The column is that of the link's origin.
-            let lever = match (step.outward, coincident) {
+            let lever = match (step.outward, point) {
+                (true, TwistPoint::A) => -sum(&frames.segments[..=k + 1]),
                 (true, _) => sum(&frames.segments[k + 2..]),
-                (false, true) => -sum(&frames.segments[..=k]),
-                (false, false) => sum(&frames.segments[k + 1..]),
+                (false, TwistPoint::B) => sum(&frames.segments[k + 1..]),
+                (false, _) => -sum(&frames.segments[..=k]),
             };
             for (j, column) in own {
                 let linear = column.linear + column.angular.cross(lever);
@@ -207,6 +218,41 @@ impl LoopChain {
             position: sum(&frames.segments),
             columns,
         }
+    }
+
+    /// Returns the twist of place b at the fixed point of the axes of a that is their origin, and its derivative in
+    /// these axes without accelerations of joints: the spatial acceleration. The columns of a joint turn and move
+    /// with the links before it: their derivative is the product V × S (Featherstone 2008).
+    pub fn spatial_rates<E: Ring + Mul<Dd, Output = E>>(
+        &self,
+        frames: &ChainFrames<E>,
+        v: &[E],
+        numbers: &impl PoseNumbers<E>,
+    ) -> RelativeRates<E> {
+        let zero = Vec3([frames.zero; 3]);
+        let still = || Column {
+            angular: zero,
+            linear: zero,
+        };
+        let (mut velocity, mut bias) = (still(), still());
+        let mut origin = frames.segments[0];
+        for (k, step) in self.steps.iter().enumerate() {
+            let next = origin + frames.segments[k + 1];
+            let lever = if step.outward { -next } else { -origin };
+            let mut twist = still();
+            for (j, column) in step.columns(&frames.rotations[k..=k + 1], numbers) {
+                let linear = column.linear + column.angular.cross(lever);
+                twist.angular = twist.angular + column.angular.scale(v[j.0]);
+                twist.linear = twist.linear + linear.scale(v[j.0]);
+            }
+            let (w, l) = (twist.angular, twist.linear);
+            bias.angular = bias.angular + velocity.angular.cross(w);
+            bias.linear = bias.linear + velocity.angular.cross(l) + velocity.linear.cross(w);
+            velocity.angular = velocity.angular + w;
+            velocity.linear = velocity.linear + l;
+            origin = next;
+        }
+        RelativeRates { velocity, bias }
     }
 
     /// Returns the velocity of place b and its acceleration without accelerations of joints; `v` are the
@@ -293,6 +339,11 @@ impl<E: Ring> ChainFrames<E> {
         let last = self.segments.len() - 1;
         let end = self.segments[..last].iter().fold(zero, |sum, s| sum + *s);
         [self.segments[0], end]
+    }
+
+    /// Returns the axes of the last link.
+    pub fn last_axes(&self) -> Mat3<E> {
+        self.rotations[self.rotations.len() - 1]
     }
 
     /// Returns the axes of the first link.

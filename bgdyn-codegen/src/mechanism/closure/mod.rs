@@ -1,14 +1,20 @@
-//! Closed kinematic loops: which velocities of the open tree follow from which others.
+//! Closed kinematic loops, and wheels and knife edges: which velocities of the open tree follow from which others.
 //!
 //! A loop connects two places of the tree. Each row of its type is a condition c(q) = 0; its rate is a row of
 //! B(q) q̇ = 0, with the velocities q̇ of the open tree. In the bond graph it is a 0-junction that adds flows,
 //! with a flow source 0; the effort of that bond is the multiplier λ. As many velocities as there are rows are
 //! dependent: q̇ = S(q) u and q̈ = S u̇ + z with B S = 0 and B z = γ = −Ḃ q̇, where u are the independent ones.
 //!
+//! A wheel or a knife edge is a loop between its place and a plane, whose rows are conditions B(q) q̇ = 0 on velocities
+//! (linear nonholonomic constraints). They decide nothing about positions: only rows with a position equation c(q)
+//! close.
+//!
 //! | file | has |
 //! |---|---|
 //! | `chain.rs` | the joints of a loop in series, and the motion from place to place |
-//! | `row.rs` | rows: value, rate, second derivative |
+//! | `row.rs` | rows of loops: value, rate, second derivative |
+//! | `contact.rs` | rows of wheels, balls and knife edges |
+//! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
 //! | `reach.rs` | closed positions and velocities with given ones |
@@ -16,20 +22,27 @@
 
 mod chain;
 mod closing;
+mod contact;
 mod numeric;
 mod reach;
 mod row;
+mod rows_at;
 mod solve;
 
 use bgdyn_runtime::Dd;
 
-use super::{CoordinateId, LinkId, PositionId};
+use super::{CoordinateId, Joint, LinkId, PositionId};
 use crate::fault::Location;
 use crate::math::Vec3;
-pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates};
+pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates, TwistPoint};
 pub use closing::{CLOSING_TYPES, ClosingType};
+pub use contact::{
+    Contact, ContactAxes, ContactNumbers, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS,
+    KNIFE_EDGE, SPHERE, SPHERE_ROWS,
+};
 pub use reach::Unreached;
-pub use row::RowKind;
+pub use row::{ClosingRow, RowKind};
+pub use rows_at::{RowAxes, RowsAt};
 use solve::solve_basic;
 pub(crate) use solve::{eliminate, solve};
 
@@ -50,8 +63,29 @@ pub struct KinematicLoop {
     pub axis: Option<Vec3<Dd>>,
     /// Whether the same rows hold in the axes of place b: those of the chain from b to a.
     pub reversible: bool,
+    /// What touches at place a, if it is no loop but a contact.
+    pub contact: Option<Contact>,
     /// The location of its entry in the file.
     pub location: Location,
+}
+
+impl KinematicLoop {
+    /// Returns its rows with their names.
+    pub fn rows(&self) -> Vec<(&'static str, RowKind)> {
+        let closing = self.kind.rows.iter();
+        let closing = closing.map(|&(name, row)| (name, RowKind::Closing(row)));
+        let own = self.contact.iter().flat_map(|contact| &contact.rows);
+        let own = own.map(|&(name, row)| (name, RowKind::Contact(row)));
+        closing.chain(own).collect()
+    }
+
+    /// Returns the velocities of the open tree that move place b relative to place a, and those of a wheel's axle.
+    pub fn velocities(&self) -> impl Iterator<Item = CoordinateId> {
+        let steps = self.chain.steps.iter();
+        let spin = self.contact.iter().flat_map(|contact| &contact.spin);
+        let of_steps = steps.flat_map(|step| step.degrees.velocities.iter().copied());
+        of_steps.chain(spin.map(|(j, _)| *j))
+    }
 }
 
 /// A row of a loop.
@@ -87,8 +121,20 @@ pub struct Closure {
     pub independents: Vec<CoordinateId>,
     /// The other velocities, block by block.
     pub blocks: Vec<ClosureBlock>,
-    /// For each velocity of the open tree, the position whose rate it is, if a loop contains its joint.
+    /// For each velocity of the open tree, the position whose rate it is, if a loop contains its joint; `None` for
+    /// those of [`Closure::compounds`].
     pub positions: Vec<Option<PositionId>>,
+    /// The joints of several degrees of freedom that contacts contain.
+    pub compounds: Vec<Joint>,
+    /// The dependent velocities along which positions close, as many as there are rows with positions, if there are
+    /// rows without; otherwise all dependent ones do.
+    pub closers: Vec<CoordinateId>,
+    /// With rows on velocities: the rows that are solved, as sums of [`Closure::rows`] with these constant factors;
+    /// otherwise empty.
+    pub combined: Vec<Vec<Dd>>,
+    /// For each row that is solved and each velocity of the open tree whether its rate is zero at every position; empty
+    /// like [`Closure::combined`].
+    pub zeros: Vec<Vec<bool>>,
     /// A closed position.
     pub start: Vec<Dd>,
     /// Closed positions at random, on the branch of the start.
@@ -110,6 +156,38 @@ impl Closure {
         let block = blocks.find(|block| block.dependents.contains(&dependent));
         let row = block.and_then(|block| block.rows.first());
         row.map_or(0, |&r| self.rows[r].closes)
+    }
+
+    /// Returns whether a row is one on velocities alone.
+    pub fn nonholonomic(&self) -> bool {
+        self.rows.iter().any(|row| !row.kind.has_positions())
+    }
+
+    /// Returns the rows that decide about positions.
+    pub fn position_rows(&self) -> Vec<LoopRow> {
+        let rows = self.rows.iter();
+        rows.filter(|row| row.kind.has_positions())
+            .copied()
+            .collect()
+    }
+
+    /// Returns the positions of the joints in loops and contacts.
+    pub fn moved_positions(&self) -> Vec<PositionId> {
+        let compounds = self.compounds.iter();
+        let compounds = compounds.flat_map(|joint| joint.degrees.positions.iter());
+        self.positions
+            .iter()
+            .flatten()
+            .chain(compounds)
+            .copied()
+            .collect()
+    }
+
+    /// Returns the dependent velocities along which positions close.
+    pub fn closing(&self) -> impl Iterator<Item = CoordinateId> {
+        let all = !self.nonholonomic();
+        self.dependents()
+            .filter(move |j| all || self.closers.contains(j))
     }
 
     /// Returns the dependent velocities, block by block.

@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use super::solve::is_positive;
-use super::{Closure, ClosureBlock, LoopRow, RelativePlace, solve};
+use super::{Closure, ClosureBlock, LoopRow, RowAxes, TwistPoint, solve};
+use crate::mechanism::Motion;
 use crate::mechanism::joint::DoubleDouble;
 use crate::random::Random;
 
@@ -20,25 +21,45 @@ const LARGEST_STEP: f64 = 0.5;
 const WALK: (usize, f64) = (8, 0.3);
 
 impl Closure {
-    /// Returns c(q), and B(q) row by row.
+    /// Returns c(q), and B(q) row by row; c is zero for rows on velocities. Rows of contacts are along their planes.
     pub fn values(&self, rows: &[LoopRow], q: &[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>) {
-        let places: Vec<RelativePlace<Dd>> = self
-            .loops
-            .iter()
-            .map(|one| {
-                let frames = one.chain.frames(q, &DoubleDouble);
-                one.chain.place(&frames, false, &DoubleDouble)
-            })
+        self.values_in(rows, q, true)
+    }
+
+    /// Returns c(q) and B(q), with rows of contacts along their planes or in the axes in which they are solved.
+    fn values_in(&self, rows: &[LoopRow], q: &[Dd], of_plane: bool) -> (Vec<Dd>, Vec<Vec<Dd>>) {
+        let axes = RowAxes {
+            reversed: false,
+            of_plane,
+            closed: false,
+        };
+        let all = 0..self.loops.len();
+        let all: Vec<_> = all
+            .map(|closes| self.rows_at(closes, axes, (q, &DoubleDouble)))
             .collect();
         let value = |row: &LoopRow| {
-            let (place, length) = (&places[row.closes], self.loops[row.closes].length);
             let mut rates = vec![Dd::ZERO; self.positions.len()];
-            for (j, column) in &place.columns {
-                rates[j.0] = row.kind.rate(place, column, length);
+            for (j, rate) in all[row.closes].rates(row.kind) {
+                rates[j.0] = rate;
             }
-            (row.kind.residual(place, length, |x| x), rates)
+            let residual = all[row.closes].residual(row.kind, &DoubleDouble);
+            (residual, rates)
         };
         rows.iter().map(value).unzip()
+    }
+
+    /// Returns the rates of the rows that are solved.
+    pub fn solved_rates(&self, q: &[Dd]) -> Vec<Vec<Dd>> {
+        let (_, rates) = self.values_in(&self.rows, q, false);
+        if self.combined.is_empty() {
+            return rates;
+        }
+        let entry = |factors: &Vec<Dd>, j: usize| dot(rates.iter().map(|row| row[j]), factors);
+        let row = |factors: &Vec<Dd>| {
+            let all = 0..self.positions.len();
+            all.map(|j| entry(factors, j)).collect()
+        };
+        self.combined.iter().map(row).collect()
     }
 
     /// Returns S, row by row for the velocities of the open tree; `None` at a singular position.
@@ -64,9 +85,10 @@ impl Closure {
 
     /// Changes the dependent positions so that the loops close. Returns whether they do.
     pub fn close(&self, q: &mut [Dd]) -> bool {
-        let dependents: Vec<usize> = self.dependents().map(|j| j.0).collect();
+        let dependents: Vec<usize> = self.closing().map(|j| j.0).collect();
+        let rows = self.position_rows();
         for _ in 0..STEPS {
-            let (residuals, jacobian) = self.values(&self.rows, q);
+            let (residuals, jacobian) = self.values(&rows, q);
             if largest(&residuals) <= CLOSED {
                 return true;
             }
@@ -145,7 +167,7 @@ impl Closure {
     /// Returns for each block whether the determinant of its columns is positive; none before the signs of the start
     /// are known.
     pub fn signs_at(&self, q: &[Dd]) -> Vec<bool> {
-        let (_, jacobian) = self.values(&self.rows, q);
+        let jacobian = self.solved_rates(q);
         let positive = |block: &ClosureBlock| {
             let rows = block.rows.iter();
             let columns = |&r: &usize| block.dependents.iter().map(|j| jacobian[r][j.0]).collect();
@@ -154,10 +176,15 @@ impl Closure {
         self.blocks.iter().map(positive).collect()
     }
 
-    /// Returns the velocities of the joints in loops.
+    /// Returns the velocities of the joints in loops and contacts.
     pub fn moving(&self) -> Vec<usize> {
+        let compounds = self.compounds.iter();
+        let of_compounds: Vec<usize> = compounds
+            .flat_map(|joint| joint.degrees.velocities.iter().map(|j| j.0))
+            .collect();
         let all = 0..self.positions.len();
-        all.filter(|&j| self.positions[j].is_some()).collect()
+        all.filter(|j| self.positions[*j].is_some() || of_compounds.contains(j))
+            .collect()
     }
 
     /// Returns on which side of the line from the first link's joint to the last link's the places of a planar
@@ -174,7 +201,8 @@ impl Closure {
     pub fn flipped(&self, closes: usize, q: &[Dd]) -> bool {
         let one = &self.loops[closes];
         let frames = one.chain.frames(q, &DoubleDouble);
-        let turned = one.chain.place(&frames, false, &DoubleDouble).rotation.0;
+        let place = one.chain.place(&frames, TwistPoint::B, &DoubleDouble);
+        let turned = place.rotation.0;
         let names = one.kind.rows.iter().map(|(name, _)| *name);
         let held = |axis: &str| names.clone().any(|name| name.starts_with(axis));
         let against = |k: usize| turned[k][k] < Dd::ZERO;
@@ -188,10 +216,47 @@ impl Closure {
             .map(|(_, x)| x.to_f64().abs())
             .fold(0.0, f64::max);
         let scale = Dd::from_f64(f64::min(1.0, LARGEST_STEP / largest));
+        let scaled = steps.iter().map(|&(j, step)| (j, step * scale));
+        self.displace(q, &scaled.collect::<Vec<_>>());
+    }
+
+    /// Adds the steps to the positions: q + N(q) v, with quaternions of length 1.
+    pub fn displace(&self, q: &mut [Dd], steps: &[(usize, Dd)]) {
         for &(j, step) in steps {
             if let Some(p) = self.positions[j] {
-                q[p.0] += step * scale;
+                q[p.0] += step;
             }
+        }
+        for joint in &self.compounds {
+            let Motion::Compound(motion) = joint.kind.motion else {
+                continue;
+            };
+            let of = |j: &usize| steps.iter().find(|(k, _)| k == j).map(|(_, x)| *x);
+            let velocities = joint.degrees.velocities.iter();
+            let own: Vec<Dd> = velocities.map(|j| of(&j.0).unwrap_or(Dd::ZERO)).collect();
+            let positions = &joint.degrees.positions;
+            let at: Vec<Dd> = positions.iter().map(|p| q[p.0]).collect();
+            let rates = motion.position_rates(&joint.constants(), (&at, &own), &DoubleDouble);
+            for (p, rate) in positions.iter().zip(rates) {
+                q[p.0] += rate;
+            }
+        }
+        self.normalize(q);
+    }
+
+    /// Scales the quaternions of the contacts' joints to length 1.
+    pub fn normalize(&self, q: &mut [Dd]) {
+        for joint in &self.compounds {
+            let Motion::Compound(motion) = joint.kind.motion else {
+                continue;
+            };
+            let Some(first) = motion.quaternion() else {
+                continue;
+            };
+            let own = &joint.degrees.positions[first..first + 4];
+            let square = own.iter().fold(Dd::ZERO, |sum, p| sum + q[p.0] * q[p.0]);
+            let length = square.sqrt();
+            own.iter().for_each(|p| q[p.0] /= length);
         }
     }
 }
@@ -220,6 +285,9 @@ fn least_step(
     for (k, row) in normal.iter_mut().enumerate() {
         row[k] += Dd::from_f64(damping * f64::max(trace, 1e-12));
     }
+    if normal.is_empty() {
+        return Some(free.iter().map(|&j| (j, Dd::ZERO)).collect());
+    }
     let multipliers = solve(normal, &[residuals.to_vec()], 0.0)?.remove(0);
     let step = free.iter().enumerate().map(|(k, &j)| {
         let sum = dot(columns.iter().map(|row| row[k]), &multipliers);
@@ -236,6 +304,11 @@ fn square(x: &[Dd]) -> f64 {
     x.iter().map(|x| x.to_f64() * x.to_f64()).sum()
 }
 
+/// Returns the largest size; infinite if one is no number.
 fn largest(x: &[Dd]) -> f64 {
-    x.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max)
+    let size = |x: &Dd| match x.to_f64().abs() {
+        size if size.is_nan() => f64::INFINITY,
+        size => size,
+    };
+    x.iter().map(size).fold(0.0, f64::max)
 }

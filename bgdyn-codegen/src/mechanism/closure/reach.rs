@@ -6,7 +6,6 @@
 use bgdyn_runtime::Dd;
 
 use super::{Closure, solve_basic};
-use crate::mechanism::CoordinateId;
 
 /// Parts of the way from the closed position of the mechanism to the given one.
 const PARTS: u32 = 32;
@@ -52,11 +51,19 @@ impl Closure {
     /// # Errors
     /// If the loops do not close at these on the branch of the mechanism.
     pub fn reach(&self, q: &mut [Dd], given: &[usize]) -> Result<(), Unreached> {
-        let moving = self.moving();
+        let rows = self.position_rows();
+        let closers: Vec<usize> = self.closing().map(|j| j.0).collect();
+        let (moving, of_several): (Vec<usize>, Vec<usize>) = self
+            .moving()
+            .into_iter()
+            .partition(|j| self.positions[*j].is_some());
+        let closers_of_several = of_several.into_iter().filter(|j| closers.contains(j));
+        let closers_of_several: Vec<usize> = closers_of_several.collect();
         let is_given = |j: &usize| self.positions[*j].is_some_and(|p| given.contains(&p.0));
-        let independent = |j: &usize| self.independents.contains(&CoordinateId(*j));
-        let freedoms = moving.iter().filter(|j| independent(j)).count();
-        // Given positions are kept, independent ones first, as many as the loops leave free.
+        let independent = |j: &usize| !closers.contains(j);
+        let freedoms = moving.len() + closers_of_several.len() - rows.len();
+        // Given positions are kept, independent ones first, as many as the loops leave free. Those of joints with
+        // several velocities change along the velocities by which wheels touch, and not otherwise.
         let (first, second): (Vec<usize>, Vec<usize>) = moving
             .iter()
             .copied()
@@ -67,6 +74,7 @@ impl Closure {
             .iter()
             .copied()
             .filter(|j| !kept.contains(j))
+            .chain(closers_of_several)
             .collect();
         let target = q.to_vec();
         let position = |j: usize| self.positions[j].map_or(0, |p| p.0);
@@ -80,7 +88,7 @@ impl Closure {
                 // In the scalar of most models.
                 q[position(j)] = Dd::from_f64((from + (to - from) * share).to_f64());
             }
-            let gap = self.assemble(&self.rows, q, &free);
+            let gap = self.assemble(&rows, q, &free);
             if gap > CLOSED {
                 return Err(open(self, q, gap, f64::from(part - 1) / f64::from(PARTS)));
             }
@@ -138,10 +146,10 @@ impl Closure {
 }
 
 fn open(closure: &Closure, q: &[Dd], gap: f64, part: f64) -> Unreached {
-    let (residuals, _) = closure.values(&closure.rows, q);
+    let (residuals, _) = closure.values(&closure.position_rows(), q);
     let sizes = residuals.iter().map(|x| x.to_f64().abs());
     let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    let row = closure.rows[worst.map_or(0, |(row, _)| row)];
+    let row = closure.position_rows()[worst.map_or(0, |(row, _)| row)];
     Unreached::Open {
         closes: closure.loops[row.closes].name.clone(),
         row: row.name,

@@ -34,12 +34,9 @@ pub(super) fn elements(
     let free = reduced.joint_names();
     let free: Vec<&str> = free.iter().map(String::as_str).collect();
     let mut single = reduced.one_degree_names();
-    single.extend(
-        super::joints::layout(reduced)
-            .dependents
-            .into_iter()
-            .map(|d| d.name),
-    );
+    let dependents = reduced.dependent_velocities().into_iter();
+    let of_one = dependents.filter(|own| own.position.is_some());
+    single.extend(of_one.map(|own| own.name));
     let single: Vec<&str> = single.iter().map(String::as_str).collect();
     let wanted = wanted(spec, (whole, kinds, &single), &mut refused, faults);
     let all = whole.mechanism.joint_names();
@@ -111,10 +108,8 @@ fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faul
             }
         }
     }
-    let dependent = |name: &str| {
-        let mut joints = mechanism.links().iter().map(|link| &link.joint);
-        joints.any(|joint| joint.degrees.dependent && joint.name == name)
-    };
+    let dependents = mechanism.dependent_velocities();
+    let dependent = |name: &str| dependents.iter().any(|own| own.name == name);
     for element in elements {
         let joint = element.name("joint").filter(|joint| dependent(joint));
         if let Some(joint) = joint.filter(|_| can_hold(element, mechanism)) {

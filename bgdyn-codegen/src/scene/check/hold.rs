@@ -64,7 +64,10 @@ fn example(joint: &QuasiJoint) -> &'static str {
 }
 
 /// Returns the coordinates whose efforts an entry of this joint drives; mistakes are reported by [`read`].
-pub(super) fn driven(raw: &Raw, joint: &QuasiJoint) -> Vec<usize> {
+pub(super) fn driven(raw: &Raw, joint: &QuasiJoint, layout: &StateLayout) -> Vec<usize> {
+    if !joint.is_independent(layout) {
+        return vec![];
+    }
     let mut unread = Faults::default();
     let entries = raw.entries(("", ""), &mut unread).into_iter();
     let holds = entries.filter(|entry| entry.name.value == HOLD);
@@ -84,6 +87,11 @@ pub(super) fn read(
     layout: &StateLayout,
     faults: &mut Faults,
 ) -> Vec<Driven> {
+    if !joint.is_independent(layout) {
+        let location = &raw.name.location;
+        faults.push(wording::hold_of_constrained(location, &joint.name));
+        return vec![];
+    }
     let example = example(joint);
     let entries = match raw.is_mapping() {
         true => raw.entries(("what drives the joint", example), faults),

@@ -12,7 +12,7 @@ pub(super) fn add_efforts(layout: &mut StateLayout, inputs: &[Raw]) {
     for raw in inputs {
         let names = match joint_of(layout, raw) {
             Some(joint) => {
-                let driven = hold::driven(raw, joint).into_iter();
+                let driven = hold::driven(raw, joint, layout).into_iter();
                 driven.map(|j| layout.coordinates[j].name.clone()).collect()
             }
             None => vec![raw.name.value.clone()],

@@ -8,7 +8,10 @@ use crate::layout::{
     DependentJoint, MomentumStore, QuasiJoint, StateCoordinate, StateFollower, StateLayout,
     StatePosition,
 };
-use crate::mechanism::{CoordinateId, Coupling, Degrees, Joint, Mechanism, Motion};
+use crate::mechanism::closure::Closure;
+use crate::mechanism::{
+    CoordinateId, Coupling, Degrees, DependentVelocity, Joint, Mechanism, Motion, PositionId,
+};
 
 /// Returns the layout of the joints' positions and velocities.
 pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
@@ -24,19 +27,19 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         } = &joint.degrees;
         let own_rates = joint.kind.motion.velocity_positions();
         for (k, p) in positions.iter().enumerate() {
-            let own = joint.degrees.own_velocities();
-            let rate = own_rates.iter().position(|rate| own && *rate == Some(k));
+            let own = velocities.iter().filter(|_| joint.degrees.own_velocities());
+            let mut rates = own.filter(|j| rate_of(joint, **j, &own_rates) == Some(k));
             layout.positions.push(StatePosition {
                 name: position_names[p.0].clone(),
                 dimension: position_dimension(joint.kind.motion, k),
-                coordinate: rate.map(|j| velocities[j].0),
+                coordinate: rates.next().map(|j| j.0),
                 neutral: neutral(joint.kind.motion, k),
             });
         }
         let own = velocities.iter().filter(|_| joint.degrees.own_velocities());
-        for (k, j) in own.enumerate() {
+        for j in own {
             let name = coordinate_names[j.0].clone();
-            let position = own_rates[k].map(|own| positions[own].0);
+            let position = rate_of(joint, *j, &own_rates).map(|own| positions[own].0);
             let ending = if position.is_some() {
                 "rate"
             } else {
@@ -54,7 +57,12 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
         layout.quasi_joints.extend(quasi_joint(joint));
     }
     layout.followers = mechanism.followers().map(follower).collect();
-    layout.dependents = dependents(mechanism);
+    layout.dependents = mechanism
+        .dependent_velocities()
+        .into_iter()
+        .map(dependent)
+        .collect();
+    layout.closing = mechanism.closure().map_or(vec![], closing);
     let loops = mechanism.closure().into_iter().flat_map(|c| &c.loops);
     layout.loops = loops.map(|one| one.name.clone()).collect();
     for prescribed in mechanism.prescribed() {
@@ -65,26 +73,40 @@ pub(super) fn layout(mechanism: &Mechanism) -> StateLayout {
     layout
 }
 
-/// Returns the joints whose velocities follow from others through loops.
-fn dependents(mechanism: &Mechanism) -> Vec<DependentJoint> {
-    let Some(closure) = mechanism.closure() else {
-        return vec![];
+fn dependent(own: DependentVelocity) -> DependentJoint {
+    let ending = if own.position.is_some() {
+        "rate"
+    } else {
+        "velocity"
     };
-    let open = mechanism.open();
-    let names = open.joint_names();
-    let joint = |j: CoordinateId| {
-        Some(DependentJoint {
-            name: names[j.0].clone(),
-            position: closure.positions[j.0]?.0,
-            velocity: j,
-            dimensions: dimensions(open.linear(j)),
-            rate_name: format!("{}_rate", names[j.0]),
-            closes: closure.loop_of(j),
-        })
-    };
-    let mut all: Vec<CoordinateId> = closure.dependents().collect();
-    all.sort();
-    all.into_iter().filter_map(joint).collect()
+    DependentJoint {
+        rate_name: format!("{}_{ending}", own.name),
+        name: own.name,
+        position: own.position.map(|p| p.0),
+        velocity: own.velocity,
+        dimensions: dimensions(own.linear),
+    }
+}
+
+/// Returns the positions that change where loops close and wheels touch, each with its loop or contact.
+fn closing(closure: &Closure) -> Vec<(usize, usize)> {
+    let mut all: Vec<(usize, usize)> = Vec::new();
+    for j in closure.closing() {
+        let own: Vec<PositionId> = match closure.positions[j.0] {
+            Some(p) => vec![p],
+            None => {
+                let mut joints = closure.compounds.iter();
+                let joint = joints.find(|joint| joint.degrees.velocities.contains(&j));
+                joint.map_or(vec![], |joint| joint.degrees.positions.clone())
+            }
+        };
+        for PositionId(p) in own {
+            if all.iter().all(|(known, _)| *known != p) {
+                all.push((p, closure.loop_of(j)));
+            }
+        }
+    }
+    all
 }
 
 fn follower((joint, coupling, linear): (&Joint, &Coupling, bool)) -> StateFollower {
@@ -100,20 +122,24 @@ fn follower((joint, coupling, linear): (&Joint, &Coupling, bool)) -> StateFollow
     }
 }
 
+/// Returns which of the joint's positions has one of its velocities as its rate.
+fn rate_of(joint: &Joint, j: CoordinateId, own_rates: &[Option<usize>]) -> Option<usize> {
+    let part = joint.degrees.part(j)?;
+    own_rates.get(part).copied().flatten()
+}
+
 /// Returns the joint as one with quasi-velocities, if it is one.
 fn quasi_joint(joint: &Joint) -> Option<QuasiJoint> {
     let Motion::Compound(motion) = joint.kind.motion else {
         return None;
     };
-    let (q, v) = (
-        joint.degrees.positions.first()?.0,
-        joint.degrees.velocities.first()?.0,
-    );
+    let q = joint.degrees.positions.first()?.0;
+    let v = joint.degrees.velocities.first().map_or(0, |v| v.0);
     QuasiJointKind::of_module(motion.manifold).map(|kind| QuasiJoint {
         name: joint.name.clone(),
         kind,
         positions: q..q + motion.positions.len(),
-        coordinates: v..v + motion.velocities.len(),
+        coordinates: v..v + joint.degrees.velocities.len(),
         quaternion: motion.quaternion().map(|first| q + first),
         any_length: joint.degrees.any_length,
     })

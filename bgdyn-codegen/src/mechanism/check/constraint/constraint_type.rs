@@ -1,5 +1,6 @@
 //! The trait of the types of constraints.
 
+use super::contact::ContactEntry;
 use super::row::{PrescribedEntry, Row, RowReader};
 use crate::format::{Fields, Key};
 
@@ -22,4 +23,6 @@ pub(super) enum ReadConstraint {
     Row(Row),
     /// The motion of a joint is given.
     Prescribed(PrescribedEntry),
+    /// A place does not slip.
+    Contact(Box<ContactEntry>),
 }

@@ -1,6 +1,8 @@
 //! Constraints with constant coefficients: which joints follow which, and whose motion is given, before any
 //! formulation sees them.
 //!
+//! Wheels and knife edges are read here as well; their rows are those of `closure`.
+//!
 //! A row is Σ k q = offset (`gear`) or Σ k v = 0 (`linear`). Each row makes one joint dependent: the last one
 //! in the order of the links that is not among the `independent` ones. The rows on positions are solved first
 //! (Gauss–Jordan), then those on velocities among the joints that are left. A type is a file and a line in
@@ -11,29 +13,40 @@
 //! | `constraint_type.rs` | the trait of the types |
 //! | `gear.rs`, `linear.rs` | types that relate joints: keys, and their row |
 //! | `prescribed.rs` | the type that gives the motion of a joint: its keys and rules |
+//! | `knife_edge.rs`, `rolling.rs` | types on the velocities of places: keys and rules |
+//! | `contact.rs` | what they say |
 //! | `row.rs` | a row from the coefficients in the file: names, units |
 //! | `elimination.rs` | solves rows for dependent joints |
 //! | `couple.rs` | sets the couplings of the joints, those with `mimic` included |
 
 mod constraint_type;
+mod contact;
 mod couple;
 mod elimination;
 mod gear;
+mod knife_edge;
 mod linear;
 mod prescribed;
+mod rolling;
 mod row;
 
 use crate::fault::{Faults, wording};
 use crate::format::{Key, Raw, Reads, Spec};
 use crate::mechanism::check::parameters::Parameters;
-use crate::mechanism::{Leader, Link, LinkId};
+use crate::mechanism::{Joint, Leader, Link, LinkId, Motion};
 use crate::name::is_identifier;
 use constraint_type::{ConstraintType, ReadConstraint};
+pub(super) use contact::{ContactEntry, ContactKind, Slip};
 use row::{RowReader, one_degree, unknown};
 
 /// All types of constraints.
-static CONSTRAINT_TYPES: [&dyn ConstraintType; 3] =
-    [&gear::Gear, &linear::Linear, &prescribed::Prescribed];
+static CONSTRAINT_TYPES: [&dyn ConstraintType; 5] = [
+    &gear::Gear,
+    &linear::Linear,
+    &prescribed::Prescribed,
+    &knife_edge::KnifeEdge,
+    &rolling::Rolling,
+];
 
 /// Returns the words for the types of constraints, with their keys.
 pub fn constraint_types() -> impl Iterator<Item = (&'static str, &'static [Key])> {
@@ -50,34 +63,47 @@ const TYPE: Key = Key {
     about: "what it is",
 };
 
-/// Reads the constraints, couples the joints that they make dependent, and returns the links of those whose
-/// motion is given. `None` if a rule is broken.
+/// What constraints say that is not in the joints.
+pub(super) struct AppliedConstraints {
+    /// The links of the joints whose motion is given.
+    pub(super) prescribed: Vec<LinkId>,
+    /// Wheels and knife edges.
+    pub(super) contacts: Vec<ContactEntry>,
+}
+
+/// Reads the constraints, couples the joints that they make dependent, and returns the rest. `None` if a rule is
+/// broken.
 pub(super) fn apply(
     spec: &Spec,
     links: &mut [Link],
     parameters: &Parameters<'_>,
     faults: &mut Faults,
-) -> Option<Vec<LinkId>> {
+) -> Option<AppliedConstraints> {
     let before = faults.count();
     let raws = spec.constraints.value().map_or(&[][..], Vec::as_slice);
-    let (mut rows, mut prescribed) = (Vec::new(), Vec::new());
+    let (mut rows, mut prescribed, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
     for raw in raws {
         match read(raw, (spec, links), faults) {
             Some(ReadConstraint::Row(row)) => rows.push(row),
             Some(ReadConstraint::Prescribed(entry)) => prescribed.push(entry),
+            Some(ReadConstraint::Contact(entry)) => contacts.push(*entry),
             None => {}
         }
     }
-    let kept = independent(spec, links, faults);
+    let kept = independent(spec, links, !contacts.is_empty(), faults);
     let others = (&*links, &rows[..], &kept[..]);
     prescribed::check(&prescribed, others, parameters, faults);
-    prescribed::check_loops(&prescribed, spec, (links, faults));
+    let closed = !contacts.is_empty() || spec.loops.value().is_some_and(|l| !l.is_empty());
+    prescribed::check_loops(&prescribed, closed, (links, faults));
     if faults.count() > before {
         return None;
     }
     couple::couple(links, &rows, &kept, faults);
-    let given = prescribed.iter().map(|entry| entry.link).collect();
-    (faults.count() == before).then_some(given)
+    let prescribed = prescribed.iter().map(|entry| entry.link).collect();
+    (faults.count() == before).then_some(AppliedConstraints {
+        prescribed,
+        contacts,
+    })
 }
 
 fn read(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Option<ReadConstraint> {
@@ -137,10 +163,14 @@ fn is_taken(spec: &Spec, links: &[Link], name: &str) -> bool {
         || effects.any(|effect| effect.name.value == name)
 }
 
-/// Returns the links of the joints that the file lists as `independent`; none has `mimic`.
-fn independent(spec: &Spec, links: &[Link], faults: &mut Faults) -> Vec<LinkId> {
+/// Returns the links of the joints that the file lists as `independent`; none has `mimic`. With `contacts`
+/// velocities of joints with several may be listed.
+fn independent(spec: &Spec, links: &[Link], contacts: bool, faults: &mut Faults) -> Vec<LinkId> {
     let mut kept = Vec::new();
     for name in spec.independent.value().into_iter().flatten() {
+        if contacts && links.iter().any(|link| is_part(&link.joint, &name.value)) {
+            continue;
+        }
         let found = one_degree(links).find(|(_, link)| link.joint.name == name.value);
         let Some((link, own)) = found else {
             faults.push(unknown(name, links));
@@ -155,4 +185,16 @@ fn independent(spec: &Spec, links: &[Link], faults: &mut Faults) -> Vec<LinkId> 
         kept.push(link);
     }
     kept
+}
+
+/// Returns whether a velocity of a joint with several has this name.
+fn is_part(joint: &Joint, name: &str) -> bool {
+    let Motion::Compound(motion) = joint.kind.motion else {
+        return false;
+    };
+    let part = name
+        .strip_prefix(&joint.name)
+        .and_then(|end| end.strip_prefix('_'));
+    let mut velocities = motion.velocities.iter();
+    velocities.any(|velocity| part == Some(velocity.suffix))
 }

@@ -3,7 +3,7 @@
 use super::constraint_type::{ConstraintType, ReadConstraint};
 use super::row::{PrescribedEntry, Row, RowReader};
 use crate::fault::{Faults, wording};
-use crate::format::{Fields, Key, Reads, Spec};
+use crate::format::{Fields, Key, Reads};
 use crate::mechanism::check::parameters::Parameters;
 use crate::mechanism::{Leader, Link, LinkId, prescribed_parameter_names};
 
@@ -79,13 +79,12 @@ pub(super) fn check(
     }
 }
 
-/// Refuses prescribed joints in a mechanism with loops.
+/// Refuses prescribed joints in a mechanism with loops, wheels or knife edges.
 pub(super) fn check_loops(
     entries: &[PrescribedEntry],
-    spec: &Spec,
+    closed: bool,
     (links, faults): (&[Link], &mut Faults),
 ) {
-    let closed = spec.loops.value().is_some_and(|loops| !loops.is_empty());
     if let (true, Some(entry)) = (closed, entries.first()) {
         let joint = &links[entry.link.0].joint.name;
         faults.push(wording::prescribed_with_loops(&entry.location, joint));

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Fault, Faults, Location, wording};
-use crate::format::{Dimension, Fields, Located, Number, ParsedValue, check_unit};
+use crate::format::{Dimension, Fields, Located, Number, ParsedValue, Vector, check_unit};
 use crate::mechanism::{Leader, Link, LinkId, Motion};
 
 /// The dimensions of coefficients.
@@ -101,6 +101,30 @@ impl RowReader<'_> {
             return None;
         };
         Some((link, entry.location.clone()))
+    }
+
+    /// Returns the direction of a key.
+    pub(super) fn axis(&self, fields: &Fields, key: &str) -> Option<Located<Vector>> {
+        let entry = fields.get(key)?;
+        let ParsedValue::Vector(vector) = &entry.value else {
+            return None;
+        };
+        Some(Located {
+            value: (**vector).clone(),
+            location: entry.location.clone(),
+        })
+    }
+
+    /// Returns the name of a key.
+    pub(super) fn text(&self, fields: &Fields, key: &str) -> Option<Located<String>> {
+        let entry = fields.get(key)?;
+        let ParsedValue::Text(name) = &entry.value else {
+            return None;
+        };
+        Some(Located {
+            value: name.clone(),
+            location: entry.location.clone(),
+        })
     }
 
     /// Returns the link of a joint, its coefficient, and the dimension of their product.

@@ -32,6 +32,7 @@ pub(super) fn assemble(
     for (position, value) in read.iter().flat_map(|one| &one.near) {
         given[position.0] = *value;
     }
+    let rows = closure.position_rows();
     let moving = closure.moving();
     let others: Vec<usize> = moving
         .iter()
@@ -45,14 +46,13 @@ pub(super) fn assemble(
         let mut random = Random(seed);
         let spread = if seed < STARTS / 2 { 0.5 } else { 3.0 };
         let changed = if seed % 2 == 0 { &others } else { &moving };
-        for p in changed.iter().filter_map(|&j| closure.positions[j]) {
-            if seed > 0 {
-                q[p.0] += Dd::from_f64(spread * random.signed());
-            }
+        if seed > 0 {
+            let step = |&j: &usize| (j, Dd::from_f64(spread * random.signed()));
+            closure.displace(&mut q, &changed.iter().map(step).collect::<Vec<_>>());
         }
-        let mut left = closure.assemble(&closure.rows, &mut q, &others);
+        let mut left = closure.assemble(&rows, &mut q, &others);
         if left > CLOSED {
-            left = closure.assemble(&closure.rows, &mut q, &moving);
+            left = closure.assemble(&rows, &mut q, &moving);
         }
         if left > CLOSED {
             if left < best.0 {
@@ -94,11 +94,12 @@ fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usi
 
 /// Reports the loop with the largest gap at the best position.
 fn report_gap(closure: &Closure, (left, q): (f64, Vec<Dd>), faults: &mut Faults) {
-    let (residuals, _) = closure.values(&closure.rows, &q);
+    let rows = closure.position_rows();
+    let (residuals, _) = closure.values(&rows, &q);
     let sizes = residuals.iter().map(|x| x.to_f64().abs());
     let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((row, _)) = worst else { return };
-    let row = &closure.rows[row];
+    let row = &rows[row];
     let one = &closure.loops[row.closes];
     let names = (one.name.as_str(), row.name);
     faults.push(match left < ROUNDED {
@@ -111,8 +112,9 @@ fn report_gap(closure: &Closure, (left, q): (f64, Vec<Dd>), faults: &mut Faults)
 pub(super) fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
     let mut q = closure.start.clone();
     let mut random = Random(17);
+    let rows = closure.position_rows();
     let next = |_| {
-        closure.walk(&closure.rows, &mut q, &mut random);
+        closure.walk(&rows, &mut q, &mut random);
         q.clone()
     };
     (0..SAMPLES).map(next).collect()

@@ -13,7 +13,7 @@ pub(super) fn arrange(closure: &mut Closure) {
     let n = dependents.len();
     let mut reads = vec![vec![false; n]; n];
     for q in &closure.samples {
-        let (_, jacobian) = closure.values(&closure.rows, q);
+        let jacobian = closure.solved_rates(q);
         for (row, entries) in jacobian.iter().enumerate() {
             for (d, &j) in dependents.iter().enumerate() {
                 reads[row][d] |= entries[j].to_f64().abs() > ZERO;

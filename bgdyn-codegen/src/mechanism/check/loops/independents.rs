@@ -44,10 +44,9 @@ pub(super) fn choose(
 ) -> Option<()> {
     let moving = closure.moving();
     let rows = closure.rows.len();
-    let location = spec
-        .loops
-        .given()
-        .map_or(&spec.location, |loops| &loops.location);
+    let loops = spec.loops.given().map(|given| &given.location);
+    let constraints = spec.constraints.given().map(|given| &given.location);
+    let location = loops.or(constraints).unwrap_or(&spec.location);
     let names = mechanism.joint_names();
     if rows >= moving.len() && mechanism.nv() == moving.len() {
         faults.push(wording::nothing_left_to_move(location, rows, moving.len()));
@@ -56,7 +55,7 @@ pub(super) fn choose(
     let jacobians: Vec<Vec<Vec<Dd>>> = closure
         .samples
         .iter()
-        .map(|q| scaled(closure.values(&closure.rows, q).1))
+        .map(|q| scaled(closure.solved_rates(q)))
         .collect();
     let fixed: Vec<usize> = moving
         .iter()
@@ -94,11 +93,27 @@ pub(super) fn choose(
         .filter(|j| !dependents.contains(j))
         .map(CoordinateId)
         .collect();
+    choose_closers(closure, &dependents);
     closure.blocks = vec![ClosureBlock {
         rows: (0..rows).collect(),
         dependents: dependents.into_iter().map(CoordinateId).collect(),
     }];
     Some(())
+}
+
+/// Sets the dependent velocities along which positions close: those of the largest pivots of the rows with positions,
+/// at the start.
+fn choose_closers(closure: &mut Closure, dependents: &[usize]) {
+    if !closure.nonholonomic() {
+        return;
+    }
+    let (_, jacobian) = closure.values(&closure.position_rows(), &closure.start);
+    let columns = |row: &Vec<Dd>| dependents.iter().map(|&j| row[j]).collect();
+    let mut part: Vec<Vec<Dd>> = jacobian.iter().map(columns).collect();
+    let (pivots, _) = eliminate(&mut part, dependents.len());
+    let mut closers: Vec<usize> = pivots.iter().map(|&(_, k)| dependents[k]).collect();
+    closers.sort_unstable();
+    closure.closers = closers.into_iter().map(CoordinateId).collect();
 }
 
 /// Returns the first `count` velocities that can be independent: each, in the order of the links, whose removal leaves

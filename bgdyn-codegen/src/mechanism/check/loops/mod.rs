@@ -1,48 +1,64 @@
 //! Loops: reads their places, assembles them, and chooses which velocities are dependent.
 //!
-//! 1. `read.rs`: the entries of the file, and the chain of joints between the places.
+//! 1. `read.rs`: the entries of the file, and the chain of joints between the places; `contacts.rs`, `planes.rs`:
+//!    the same for wheels and knife edges.
 //! 2. `structure.rs`: a row that holds at every position of the tree is dropped; one that holds at none is a
 //!    fault.
 //! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; closed positions at
 //!    random from there.
 //! 4. `structure.rs`: rows that follow from others at all of these are a fault.
+//!    `combine.rs`: rows of contacts are combined so that fewer velocities appear in each.
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
 //! 6. `blocks.rs`: the order in which blocks of rows are solved.
 
 mod assembly;
 mod blocks;
+mod combine;
+mod contacts;
 mod independents;
+mod planes;
 mod read;
 mod structure;
 
+use super::constraint::ContactEntry;
 use super::direction::Directions;
 use crate::fault::Faults;
 use crate::format::Spec;
-use crate::mechanism::closure::Closure;
-use crate::mechanism::{CoordinateId, Mechanism, Motion, PositionId};
+use crate::mechanism::closure::{Closure, KinematicLoop};
+use crate::mechanism::{CoordinateId, Joint, Mechanism, Motion, PositionId};
 
 /// Closes the loops of a numbered open tree. `None` if a rule is broken.
 pub(super) fn close(
-    spec: &Spec,
+    (spec, entries): (&Spec, &[ContactEntry]),
     mechanism: &mut Mechanism,
     directions: &Directions,
     faults: &mut Faults,
 ) -> Option<()> {
-    let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
-    if specs.is_empty() {
-        return Some(());
-    }
     let before = faults.count();
-    let read = specs
-        .iter()
-        .map(|one| read::read(one, (spec, mechanism, directions), faults));
-    let read: Vec<Option<read::ReadLoop>> = read.collect();
+    let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
+    let context = (spec, &*mechanism, directions);
+    planes::check(context, faults);
+    let loops = specs.iter().map(|one| read::read(one, context, faults));
+    let mut read: Vec<Option<read::ReadLoop>> = loops.collect();
+    read.extend(
+        entries
+            .iter()
+            .map(|one| contacts::read(one, context, faults)),
+    );
     let read: Vec<read::ReadLoop> = read.into_iter().collect::<Option<_>>()?;
     if faults.count() > before {
         return None;
     }
+    if read.is_empty() {
+        return Some(());
+    }
     let mut closure = unsolved(mechanism, &read);
+    let positions = structure::positions(&closure);
+    contacts::find_upward(&mut closure, &positions, faults);
+    if faults.count() > before {
+        return None;
+    }
     structure::drop_rows(&mut closure, faults);
     if faults.count() > before {
         return None;
@@ -50,6 +66,7 @@ pub(super) fn close(
     let kept = independents::named(spec, mechanism, faults)?;
     assembly::assemble(&mut closure, &read, &kept, faults)?;
     structure::check_rank(&closure, faults)?;
+    combine::combine(&mut closure);
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
@@ -62,15 +79,19 @@ pub(super) fn close(
 fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
     let loops: Vec<_> = read.iter().map(|one| one.closes.clone()).collect();
     let rows = loops.iter().enumerate().flat_map(|(closes, one)| {
-        let row = move |&(name, kind)| crate::mechanism::closure::LoopRow { closes, name, kind };
-        one.kind.rows.iter().map(row)
+        let row = move |(name, kind)| crate::mechanism::closure::LoopRow { closes, name, kind };
+        one.rows().into_iter().map(row)
     });
     let rows = rows.collect();
     let mut positions: Vec<Option<PositionId>> = vec![None; mechanism.nv()];
-    let steps = loops.iter().flat_map(|one| &one.chain.steps);
-    for CoordinateId(j) in steps.flat_map(|step| step.degrees.velocities.clone()) {
+    let mut compounds: Vec<Joint> = Vec::new();
+    for CoordinateId(j) in loops.iter().flat_map(KinematicLoop::velocities) {
         let joint = mechanism.joint(CoordinateId(j));
-        positions[j] = joint.degrees.positions.first().copied();
+        if joint.kind.motion.nv() == 1 {
+            positions[j] = joint.degrees.positions.first().copied();
+        } else if compounds.iter().all(|known| known.name != joint.name) {
+            compounds.push(joint.clone());
+        }
     }
     Closure {
         rows,
@@ -78,6 +99,10 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
         independents: Vec::new(),
         blocks: Vec::new(),
         positions,
+        compounds,
+        closers: Vec::new(),
+        combined: Vec::new(),
+        zeros: Vec::new(),
         start: neutral(mechanism),
         samples: Vec::new(),
         signs: Vec::new(),

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Field, Located, LoopEndSpec, LoopSpec, Spec, check_unit};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::check::direction::Directions;
@@ -20,7 +20,7 @@ pub(super) struct ReadLoop {
 }
 
 /// What the entries of `loops` refer to.
-type Context<'a> = (&'a Spec, &'a Mechanism, &'a Directions);
+pub(super) type Context<'a> = (&'a Spec, &'a Mechanism, &'a Directions);
 
 /// Reads a loop. `None` if a rule is broken.
 pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) -> Option<ReadLoop> {
@@ -79,6 +79,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
             length,
             axis,
             reversible: false,
+            contact: None,
             location: one.location.clone(),
         },
         branch,
@@ -145,29 +146,39 @@ fn end(
         return None;
     };
     let pose = directions.pose(&end.origin, faults)?;
-    if link.value == WORLD {
-        return Some((None, pose));
+    Some((
+        find_link(&link.value, &link.location, mechanism, faults)?,
+        pose,
+    ))
+}
+
+/// Returns the link of this name; `None` in it for the world.
+pub(super) fn find_link(
+    name: &str,
+    location: &Location,
+    mechanism: &Mechanism,
+    faults: &mut Faults,
+) -> Option<Option<LinkId>> {
+    if name == WORLD {
+        return Some(None);
     }
     let shown = || mechanism.links().iter().filter(|link| !link.hidden);
     let found = mechanism
         .links()
         .iter()
-        .position(|known| !known.hidden && known.name == link.value);
+        .position(|known| !known.hidden && known.name == name);
     if found.is_none() {
         let known: Vec<&str> = shown().map(|link| link.name.as_str()).collect();
-        let is_frame = mechanism
-            .frames()
-            .iter()
-            .any(|frame| frame.name == link.value);
+        let is_frame = mechanism.frames().iter().any(|frame| frame.name == name);
         faults.push(wording::unknown_link(
-            &link.location,
+            location,
             "unknown-link",
-            &link.value,
+            name,
             &known,
             is_frame,
         ));
     }
-    Some((Some(LinkId(found?)), pose))
+    Some(Some(LinkId(found?)))
 }
 
 /// Returns the length of a rod; 1 for other types.
@@ -220,10 +231,15 @@ fn axis(
         ));
         return None;
     }
-    let axis = directions.axis(given, faults)?;
+    Some(turn_to_axis(directions.axis(given, faults)?))
+}
+
+/// Returns a rotation that turns z to an axis.
+pub(super) fn turn_to_axis(axis: Vec3<Dd>) -> Mat3<Dd> {
     // The component nearest to zero gives a perpendicular direction; exact for x, y and z.
     let sizes = axis.0.map(|x| x.to_f64().abs());
-    let least = (0..3).min_by(|&i, &j| sizes[i].total_cmp(&sizes[j]))?;
+    let smaller = |i: usize, j: usize| if sizes[j] < sizes[i] { j } else { i };
+    let least = smaller(smaller(0, 1), 2);
     let mut e = Vec3([Dd::ZERO; 3]);
     e.0[least] = Dd::ONE;
     let across = e.cross(axis);
@@ -234,7 +250,7 @@ fn axis(
         across.scale(Dd::ONE / size.sqrt())
     };
     let second = axis.cross(first);
-    Some(Mat3::from_fn(|i, j| [first, second, axis][j].0[i]))
+    Mat3::from_fn(|i, j| [first, second, axis][j].0[i])
 }
 
 /// Reads the positions to start from.
@@ -284,7 +300,11 @@ fn branch(one: &LoopSpec, planar: bool, faults: &mut Faults) -> Option<Located<b
 }
 
 /// Returns the links whose joints lead from place a to place b, and whether each is passed outward.
-fn path(mechanism: &Mechanism, a: Option<LinkId>, b: Option<LinkId>) -> Vec<(LinkId, bool)> {
+pub(super) fn path(
+    mechanism: &Mechanism,
+    a: Option<LinkId>,
+    b: Option<LinkId>,
+) -> Vec<(LinkId, bool)> {
     let to_base = |mut link: Option<LinkId>| {
         let mut all = Vec::new();
         while let Some(l) = link {
@@ -306,7 +326,7 @@ fn path(mechanism: &Mechanism, a: Option<LinkId>, b: Option<LinkId>) -> Vec<(Lin
     inward.chain(outward).collect()
 }
 
-fn step(mechanism: &Mechanism, link: LinkId, outward: bool) -> ChainStep {
+pub(super) fn step(mechanism: &Mechanism, link: LinkId, outward: bool) -> ChainStep {
     let joint = &mechanism.links()[link.0].joint;
     ChainStep {
         link,

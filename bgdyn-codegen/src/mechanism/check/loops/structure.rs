@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::mechanism::closure::{Closure, LoopRow, RowKind, eliminate};
+use crate::mechanism::closure::{ClosingRow, Closure, LoopRow, RowAxes, RowKind, eliminate};
 use crate::mechanism::joint::DoubleDouble;
 use crate::random::Random;
 
@@ -15,22 +15,30 @@ const ROUNDING: f64 = 1e-24;
 
 /// Drops the rows that hold at every position; reports those with a constant value that is not zero.
 pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
-    let values: Vec<Vec<Dd>> = (0..POSITIONS)
-        .map(|seed| {
-            closure
-                .values(&closure.rows, &random_position(closure, seed))
-                .0
-        })
+    let values: Vec<(Vec<Dd>, Vec<Vec<Dd>>)> = positions(closure)
+        .iter()
+        .map(|q| closure.values(&closure.rows, q))
         .collect();
-    let of_row = |r: usize| values.iter().map(move |at| at[r]);
+    let of_row = |r: usize| values.iter().map(move |(at, _)| at[r]);
+    let moves = |r: usize| {
+        let rates = values.iter().flat_map(|(_, rates)| &rates[r]);
+        rates.map(|x| x.to_f64().abs()).fold(0.0, f64::max) > ROUNDING
+    };
     let spread = |r: usize| {
-        let first = values[0][r];
+        let first = values[0].0[r];
         of_row(r)
             .map(|x| (x - first).to_f64().abs())
             .fold(0.0, f64::max)
     };
     let (mut kept, mut dropped) = (Vec::new(), Vec::new());
     for (r, row) in closure.rows.iter().enumerate() {
+        if !row.kind.has_positions() {
+            match moves(r) {
+                true => kept.push(*row),
+                false => dropped.push(*row),
+            }
+            continue;
+        }
         let largest = of_row(r).map(|x| x.to_f64().abs()).fold(0.0, f64::max);
         if largest <= ROUNDING {
             dropped.push(*row);
@@ -38,12 +46,18 @@ pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
         }
         if spread(r) <= ROUNDING {
             let one = &closure.loops[row.closes];
-            let value = (values[0][r].to_f64(), row.kind.unit());
-            faults.push(wording::loop_row_never_holds(
-                &one.location,
-                (&one.name, row.name),
-                value,
-            ));
+            let value = values[0].0[r].to_f64();
+            faults.push(match &one.contact {
+                Some(contact) => {
+                    let radius = contact.radius.to_f64();
+                    wording::wheel_never_touches(&one.location, &one.name, (value, radius))
+                }
+                None => wording::loop_row_never_holds(
+                    &one.location,
+                    (&one.name, row.name),
+                    (value, row.kind.unit()),
+                ),
+            });
         }
         kept.push(*row);
     }
@@ -59,34 +73,47 @@ pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
 /// too.
 fn is_reversible(closure: &Closure, closes: usize) -> bool {
     let one = &closure.loops[closes];
-    let symmetric = |row: &(&str, RowKind)| {
+    let symmetric = |row: &(&str, ClosingRow)| {
         matches!(
             row.1,
-            RowKind::Place(_) | RowKind::Tilt(_) | RowKind::Turn(_)
+            ClosingRow::Place(_) | ClosingRow::Tilt(_) | ClosingRow::Turn(_)
         )
     };
     if !one.kind.coincident || !one.kind.rows.iter().all(symmetric) {
         return false;
     }
-    let chain = one.chain.reversed();
+    let axes = RowAxes {
+        reversed: true,
+        of_plane: false,
+        closed: false,
+    };
+    let mut turned = closure.clone();
+    turned.loops[closes].reversible = true;
     let dropped = closure.dropped.iter().filter(|row| row.closes == closes);
     let dropped: Vec<RowKind> = dropped.map(|row| row.kind).collect();
     (0..POSITIONS).all(|seed| {
-        let frames = chain.frames(&random_position(closure, seed), &DoubleDouble);
-        let place = chain.place(&frames, false, &DoubleDouble);
-        let zero =
-            |kind: &RowKind| kind.residual(&place, one.length, |x| x).to_f64().abs() <= ROUNDING;
+        let q = random_position(closure, seed);
+        let at = turned.rows_at(closes, axes, (&q, &DoubleDouble));
+        let zero = |kind: &RowKind| at.residual(*kind, &DoubleDouble).to_f64().abs() <= ROUNDING;
         dropped.iter().all(zero)
     })
+}
+
+/// Returns positions of the tree at which rows are tested.
+pub(super) fn positions(closure: &Closure) -> Vec<Vec<Dd>> {
+    (0..POSITIONS)
+        .map(|seed| random_position(closure, seed))
+        .collect()
 }
 
 /// Returns the neutral position with the loops' joints anywhere.
 fn random_position(closure: &Closure, seed: u64) -> Vec<Dd> {
     let mut random = Random(seed);
     let mut q = closure.start.clone();
-    for p in closure.positions.iter().flatten() {
+    for p in closure.moved_positions() {
         q[p.0] = Dd::from_f64(3.0 * random.signed());
     }
+    closure.normalize(&mut q);
     q
 }
 
@@ -116,11 +143,11 @@ pub(super) fn check_rank(closure: &Closure, faults: &mut Faults) -> Option<()> {
         let terms: Vec<(String, f64)> = terms
             .map(|(&k, f)| (closure.row_name(&closure.rows[k]), f))
             .collect();
-        faults.push(wording::dependent_loop_row(
-            &one.location,
-            (&one.name, row.name),
-            &terms,
-        ));
+        let (location, names) = (&one.location, (one.name.as_str(), row.name));
+        faults.push(match one.contact {
+            Some(_) => wording::dependent_contact_row(location, names, &terms),
+            None => wording::dependent_loop_row(location, names, &terms),
+        });
     }
     (faults.count() == before).then_some(())
 }

@@ -1,6 +1,6 @@
 //! The type of a loop: its word in the spec, and its rows.
 
-use crate::mechanism::closure::row::RowKind;
+use crate::mechanism::closure::row::ClosingRow;
 
 /// A word for a loop's `type` in the spec, with the rows that it imposes.
 #[derive(Debug, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub struct ClosingType {
     /// Its meaning: one line of documentation.
     pub about: &'static str,
     /// Its rows, with their names.
-    pub rows: &'static [(&'static str, RowKind)],
+    pub rows: &'static [(&'static str, ClosingRow)],
     /// Whether it has an axis.
     pub axial: bool,
     /// Whether it has a length.

@@ -1,7 +1,7 @@
 //! The closing rod.
 
 use super::closing_type::ClosingType;
-use crate::mechanism::closure::row::RowKind::Length;
+use crate::mechanism::closure::row::ClosingRow::Length;
 
 /// The places are connected by a massless rod with a ball at both ends.
 pub(super) static DISTANCE: ClosingType = ClosingType {

@@ -1,7 +1,7 @@
 //! The closing hinge.
 
 use super::closing_type::ClosingType;
-use crate::mechanism::closure::row::RowKind::{Place, Tilt};
+use crate::mechanism::closure::row::ClosingRow::{Place, Tilt};
 
 /// The places coincide, and their axes are parallel: rotation about the axis is free.
 pub(super) static HINGE: ClosingType = ClosingType {

@@ -1,7 +1,7 @@
 //! The closing point: a spherical joint.
 
 use super::closing_type::ClosingType;
-use crate::mechanism::closure::row::RowKind::Place;
+use crate::mechanism::closure::row::ClosingRow::Place;
 
 /// The places coincide: every rotation is free.
 pub(super) static POINT: ClosingType = ClosingType {

@@ -1,7 +1,7 @@
 //! The closing slider: a prismatic joint.
 
 use super::closing_type::ClosingType;
-use crate::mechanism::closure::row::RowKind::{Place, Turn};
+use crate::mechanism::closure::row::ClosingRow::{Place, Turn};
 
 /// Place b moves along the axis of place a, without rotation.
 pub(super) static SLIDER: ClosingType = ClosingType {

@@ -1,7 +1,7 @@
 //! The closing universal joint.
 
 use super::closing_type::ClosingType;
-use crate::mechanism::closure::row::RowKind::{Angle, Place};
+use crate::mechanism::closure::row::ClosingRow::{Angle, Place};
 
 /// The places coincide, and axis z of a is perpendicular to axis x of b.
 pub(super) static UNIVERSAL_CLOSING: ClosingType = ClosingType {

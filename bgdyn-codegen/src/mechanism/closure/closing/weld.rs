@@ -1,7 +1,7 @@
 //! The closing weld.
 
 use super::closing_type::ClosingType;
-use crate::mechanism::closure::row::RowKind::{Place, Turn};
+use crate::mechanism::closure::row::ClosingRow::{Place, Turn};
 
 /// The places coincide, and nothing moves: a link that is cut in two.
 pub(super) static WELD: ClosingType = ClosingType {

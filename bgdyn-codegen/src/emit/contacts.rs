@@ -1,0 +1,193 @@
+//! Emits what only mechanisms with wheels or knife edges have: names of the open tree and of the rows, and the functions
+//! of positions of the trait `Dynamics`. All positions of the open tree are in q, and each may have any value: the
+//! velocities decide how they change together.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::closure::{dependent, start};
+use super::constants::size;
+use super::joint_segments::{joint_by_joint, segments};
+use crate::bond_graph::{ClosedTree, Multibody};
+use crate::mechanism::closure::LoopRow;
+use crate::method::Method;
+
+/// Returns the constants of the module, and the functions of the struct.
+pub(super) fn contact_access(
+    closed: &ClosedTree,
+    graph: &Multibody,
+    present: &[Method],
+) -> (TokenStream, TokenStream) {
+    let (tree, closure) = (&closed.tree, &closed.closure);
+    let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
+    let rows = closure.rows.iter().map(|row| closure.row_name(row));
+    let rows: Vec<String> = rows.collect();
+    let constraints: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
+    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
+    let pivots: Vec<&str> = joints.chain(constraints.iter().copied()).collect();
+    let independents = closure.independents.iter().map(|j| size(j.0));
+    let [nt, nc, np] = [of_tree.len(), rows.len(), pivots.len()].map(size);
+    let closing = closes(closed).then(|| closing_constants(closed, graph, &constraints));
+    let constants = quote! {
+        /// Number of velocities of the open tree.
+        pub const NT: usize = #nt;
+        /// Number of rows of the constraints.
+        pub const NC: usize = #nc;
+        /// Names of the joints of the open tree, in the order of its velocities.
+        pub const TREE_JOINT_NAMES: [&str; NT] = [#(#of_tree),*];
+        /// Names of the rows of the constraints: the constraint, and the direction.
+        pub const CONSTRAINT_NAMES: [&str; NC] = [#(#rows),*];
+        /// Names of the joints, and of the constraints after them: the causes of missing accelerations.
+        pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
+        /// The independent velocities among those of the open tree.
+        const INDEPENDENTS: [usize; NV] = [#(#independents),*];
+        #closing
+    };
+    let close = present.contains(&Method::ClosingStep).then(|| {
+        let [q, moved] = argument_types();
+        let body = tree_integration(closed);
+        quote! {
+            /// Returns `q` with positions changed so that all wheels touch and all loops close: Newton's method, at
+            /// most 11 steps of at most 0.5 rad or m. The positions that change are those of [`DEPENDENTS`].
+            ///
+            /// # Errors
+            /// Names the first constraint that does not hold: it is out of reach, or at a singular position.
+            pub fn close(
+                &self,
+                q: &__na::SVector<T, NQ>,
+            ) -> ::core::result::Result<__na::SVector<T, NQ>, T::Singular<NQ>> {
+                let moved = |q: #q, moved: #moved| { #body };
+                __rt::closure::close_along(*q, &DEPENDENTS, |q| self.closing_step(q), moved)
+                    .finish(&CLOSING_NAMES)
+            }
+        }
+    });
+    (constants, quote! { #close })
+}
+
+/// Returns whether rows decide about positions.
+fn closes(closed: &ClosedTree) -> bool {
+    !closed.closure.position_rows().is_empty()
+}
+
+fn closing_constants(closed: &ClosedTree, graph: &Multibody, constraints: &[&str]) -> TokenStream {
+    let positions = graph.positions.iter().map(|p| p.name.as_str());
+    let closing: Vec<&str> = positions.chain(constraints.iter().copied()).collect();
+    let dependents = closed.closure.closing().map(|j| dependent(closed, j));
+    let dependents: Vec<TokenStream> = dependents.collect();
+    let [nl, nd] = [closing.len(), dependents.len()].map(size);
+    quote! {
+        /// Names of the positions, and of the constraints after them: the causes of positions that do not close.
+        pub const CLOSING_NAMES: [&str; #nl] = [#(#closing),*];
+        /// The joints whose positions close.
+        pub const DEPENDENTS: [__rt::closure::Dependent; #nd] = [#(#dependents),*];
+    }
+}
+
+/// Returns the types of positions, and of velocities of the open tree.
+fn argument_types() -> [TokenStream; 2] {
+    [
+        quote! { &__na::SVector<T, NQ> },
+        quote! { &__na::SVector<T, NT> },
+    ]
+}
+
+/// Returns the position after constant velocities `moved` of the open tree.
+fn tree_integration(closed: &ClosedTree) -> TokenStream {
+    let [q, moved] = argument_types();
+    let arguments = [("q", &q, true), ("moved", &moved, false)];
+    joint_by_joint(&segments(&closed.tree), "integrate", &arguments, true)
+}
+
+/// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint.
+pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStream {
+    let of_tree = segments(&closed.tree);
+    let [q, moved] = argument_types();
+    let arguments = [("q", &q, true), ("moved", &moved, false)];
+    let body = |arguments: &[(&str, &TokenStream, bool)], positions| {
+        joint_by_joint(&of_tree, name, arguments, positions)
+    };
+    let tree_integration = tree_integration(closed);
+    let moved_along = quote! { let moved = |q: #q, moved: #moved| { #tree_integration }; };
+    let closed_again = closes(closed).then(|| {
+        quote! {
+            let q = __rt::closure::close_along(q, &DEPENDENTS, |q| self.closing_step(q), moved)
+                .or_nan(&DEPENDENTS);
+        }
+    });
+    match name {
+        "neutral" => start(closed),
+        "position_rates" => {
+            let body = body(&arguments, true);
+            quote! {
+                let moved = self.tree_velocity(q, v);
+                #body
+            }
+        }
+        "integrate" => quote! {
+            #moved_along
+            let q = __rt::closure::follow(q, |q| self.tree_velocity(q, dv), moved);
+            #closed_again
+            q
+        },
+        "sample" => {
+            let body = body(&[("moved", &moved, false)], true);
+            quote! {
+                let mut moved = __na::SVector::<T, NT>::from_element(T::from_f64(0.5));
+                for (&j, &u) in INDEPENDENTS.iter().zip(u.iter()) {
+                    moved[j] = u;
+                }
+                let q = { #body };
+                #moved_along
+                #closed_again
+                q
+            }
+        }
+        "difference" => {
+            let body = body(&[("q1", &q, true), ("q0", &q, true)], false);
+            quote! {
+                let moved = { #body };
+                __na::SVector::from_fn(|j, _| moved[INDEPENDENTS[j]])
+            }
+        }
+        _ => body(&[("q", &q, true)], true),
+    }
+}
+
+/// Returns the lines of documentation about the constraints.
+pub(super) fn contact_docs(closed: &ClosedTree) -> Vec<String> {
+    let (tree, closure) = (&closed.tree, &closed.closure);
+    let quoted = |name: String| format!("`{name}`");
+    let rows = |rows: &[LoopRow]| {
+        let names = rows.iter().map(|row| quoted(closure.row_name(row)));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let dependents = closure
+        .dependents()
+        .map(|j| quoted(tree.coordinates[j.0].name.clone()));
+    let dependents: Vec<String> = dependents.collect();
+    let mut docs = vec![
+        String::new(),
+        format!(
+            " Constraints: the velocities of {} follow from the others.",
+            dependents.join(", ")
+        ),
+        format!(" Rows: {}.", rows(&closure.rows)),
+    ];
+    if !closure.dropped.is_empty() {
+        let dropped = rows(&closure.dropped);
+        docs.push(format!(
+            " Left out, because they hold at every position of the joints: {dropped}."
+        ));
+    }
+    docs.extend(
+        [
+            "",
+            " `integrate` follows the constraints at constant independent velocities, to fourth order in their size.",
+            " `difference` has the independent velocities of the way in the open tree: it is the inverse of `integrate`",
+            " to second order, and exact where the other velocities are constant multiples of them.",
+        ]
+        .map(String::from),
+    );
+    docs
+}

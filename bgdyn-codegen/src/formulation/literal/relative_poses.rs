@@ -1,0 +1,153 @@
+//! The rows of loops and contacts from the poses of both places in fixed axes.
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::ClosedTree;
+use crate::expr::{Builder, Expr};
+use crate::formulation::placement::Placement;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::closure::{
+    Closure, Contact, ContactRow, ContactShape, LoopRow, RelativePlace, RowKind,
+};
+use crate::mechanism::{LinkId, Pose};
+
+/// A rotation and an origin.
+type Placed<'g> = (Mat3<Expr<'g>>, Vec3<Expr<'g>>);
+
+/// The places of the loops: b in the axes of a; of contacts, the wheel in the axes of its plane.
+pub(super) struct RelativePoses<'a, 'g> {
+    b: &'g Builder,
+    closure: &'a Closure,
+    places: Vec<Placed<'g>>,
+}
+
+/// The directions of a contact in the axes of its plane.
+struct ContactDirections<'g> {
+    /// Of the rows.
+    longitudinal: Vec3<Expr<'g>>,
+    lateral: Vec3<Expr<'g>>,
+    /// From the contact to the centre.
+    upward: Vec3<Expr<'g>>,
+    /// The cosine of the lean.
+    cosine: Expr<'g>,
+}
+
+impl<'a, 'g> RelativePoses<'a, 'g> {
+    pub(super) fn new(b: &'g Builder, closed: &'a ClosedTree, q: &[Expr<'g>]) -> Self {
+        let placement = Placement::new(b, &closed.tree, q);
+        let place = |link: Option<LinkId>, pose: Pose| -> Placed<'g> {
+            let rotation = pose.rotation.map(|x| b.constant(x));
+            let origin = b.vector(pose.translation);
+            match link {
+                None => (rotation, origin),
+                Some(LinkId(i)) => (
+                    placement.rotations[i] * rotation,
+                    placement.point(i, origin),
+                ),
+            }
+        };
+        let places = closed.closure.loops.iter().map(|one| {
+            let end = place(one.links[1], one.chain.end);
+            let (from, to) = match &one.contact {
+                None => (place(one.links[0], one.chain.start), end),
+                Some(contact) => (end, place(one.links[0], contact.place)),
+            };
+            let inverse = from.0.transpose();
+            (inverse * to.0, inverse * (to.1 - from.1))
+        });
+        RelativePoses {
+            b,
+            closure: &closed.closure,
+            places: places.collect(),
+        }
+    }
+
+    /// Returns c(q) of a row; zero for one on velocities.
+    pub(super) fn condition(&self, row: &LoopRow) -> Expr<'g> {
+        let one = &self.closure.loops[row.closes];
+        let (rotation, position) = self.places[row.closes];
+        let relative = RelativePlace {
+            rotation,
+            position,
+            columns: Vec::new(),
+        };
+        match (row.kind, &one.contact) {
+            (RowKind::Closing(kind), _) => {
+                kind.residual(&relative, one.length, |x: Dd| self.b.constant(x))
+            }
+            (RowKind::Contact(ContactRow::Height), Some(contact)) => {
+                let cosine = self.directions(row.closes, contact).cosine;
+                position.0[2] - cosine * self.b.constant(contact.radius)
+            }
+            (RowKind::Contact(_), _) => self.b.zero(),
+        }
+    }
+
+    /// Returns the rate of a row on velocities along the motion for which `rate_of` returns the rates of expressions:
+    /// that of the material point at the contact, which is fixed in the axes of the wheel.
+    pub(super) fn slip(
+        &self,
+        closes: usize,
+        row: ContactRow,
+        rate_of: &mut impl FnMut(Expr<'g>) -> Expr<'g>,
+    ) -> Expr<'g> {
+        let Some(contact) = &self.closure.loops[closes].contact else {
+            return self.b.zero();
+        };
+        let (rotation, centre) = self.places[closes];
+        let directions = self.directions(closes, contact);
+        let radius = self.b.constant(contact.radius);
+        let fixed = rotation.transpose() * -directions.upward.scale(radius);
+        let along = match row {
+            ContactRow::Edge | ContactRow::Lateral => directions.lateral,
+            ContactRow::Longitudinal => directions.longitudinal,
+            ContactRow::Slip(k) => self.unit(k),
+            ContactRow::Height => self.unit(2),
+        };
+        let velocity = centre.map(&mut *rate_of) + rotation.map(rate_of) * fixed;
+        along.dot(velocity)
+    }
+
+    fn directions(&self, closes: usize, contact: &Contact) -> ContactDirections<'g> {
+        let (rotation, _) = self.places[closes];
+        let (b, up) = (self.b, self.unit(2));
+        match contact.shape {
+            ContactShape::Edge(direction) => ContactDirections {
+                longitudinal: up,
+                lateral: rotation * b.vector(direction),
+                upward: up,
+                cosine: b.constant(Dd::ONE),
+            },
+            ContactShape::Sphere => ContactDirections {
+                longitudinal: self.unit(0),
+                lateral: self.unit(1),
+                upward: up,
+                cosine: b.constant(Dd::ONE),
+            },
+            ContactShape::Disc(axle) => {
+                let axle = rotation * b.vector(axle);
+                let [x, y, z] = axle.0;
+                let cosine = (x * x + y * y).sqrt();
+                let inverse = b.constant(Dd::ONE) / cosine;
+                let longitudinal = axle.cross(up).scale(inverse);
+                ContactDirections {
+                    longitudinal,
+                    lateral: up.cross(longitudinal),
+                    upward: (up - axle.scale(z)).scale(inverse),
+                    cosine,
+                }
+            }
+        }
+    }
+
+    fn unit(&self, k: usize) -> Vec3<Expr<'g>> {
+        let at = |i: usize| {
+            if i == k {
+                self.b.constant(Dd::ONE)
+            } else {
+                self.b.zero()
+            }
+        };
+        Vec3([at(0), at(1), at(2)])
+    }
+}

@@ -1,0 +1,211 @@
+//! Wheels, balls and knife edges: their places and the chain of joints from there to their plane.
+
+use bgdyn_runtime::Dd;
+
+use super::planes;
+use super::read::{Context, ReadLoop, path, step};
+use crate::fault::{Faults, wording};
+use crate::format::Located;
+use crate::math::Vec3;
+use crate::mechanism::check::constraint::{ContactEntry, ContactKind, Slip};
+use crate::mechanism::check::direction::Directions;
+use crate::mechanism::closure::{
+    Closure, Contact, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS, KNIFE_EDGE,
+    KinematicLoop, LoopChain, SPHERE, SPHERE_ROWS,
+};
+use crate::mechanism::joint::DoubleDouble;
+use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose};
+
+/// Components of constant directions deviate by less.
+const ROUNDING: f64 = 1e-24;
+
+/// The least cosine of a wheel's lean at which it has a lowest point.
+const FLAT: f64 = 1e-6;
+
+/// Reads a wheel, a ball or a knife edge. `None` if a rule is broken.
+pub(super) fn read(
+    entry: &ContactEntry,
+    context: Context<'_>,
+    faults: &mut Faults,
+) -> Option<ReadLoop> {
+    let (_, mechanism, directions) = context;
+    let (link, pose) = site(&entry.at, mechanism, faults)?;
+    let on = match &entry.kind {
+        ContactKind::Edge { .. } => None,
+        ContactKind::Rolling { on, .. } => on.as_ref(),
+    };
+    let (plane_link, plane) = planes::plane(on, context, faults)?;
+    let contact = |shape, radius, rows| Contact {
+        shape,
+        radius,
+        spin: Vec::new(),
+        rows,
+        upward: None,
+        place: pose,
+    };
+    let (kind, contact) = match &entry.kind {
+        ContactKind::Edge { direction } => {
+            let shape = ContactShape::Edge(directions.axis(direction, faults)?);
+            (&KNIFE_EDGE, contact(shape, Dd::ZERO, EDGE_ROWS.to_vec()))
+        }
+        ContactKind::Rolling {
+            axle, radius, slip, ..
+        } => match axle {
+            None => (
+                &SPHERE,
+                contact(ContactShape::Sphere, *radius, SPHERE_ROWS.to_vec()),
+            ),
+            Some(axle) => {
+                let shape = ContactShape::Disc(directions.axis(axle, faults)?);
+                (&DISC, contact(shape, *radius, rows(*slip)))
+            }
+        },
+    };
+    let (carrier, start, contact) = on_carrier(mechanism, (link, pose), contact);
+    let path = path(mechanism, carrier, plane_link);
+    let steps = path
+        .iter()
+        .map(|&(link, outward)| step(mechanism, link, outward));
+    let closes = KinematicLoop {
+        name: entry.name.clone(),
+        kind,
+        links: [link, plane_link],
+        chain: LoopChain {
+            start,
+            steps: steps.collect(),
+            end: plane,
+        },
+        length: Dd::ONE,
+        axis: None,
+        reversible: false,
+        contact: Some(contact),
+        location: entry.location.clone(),
+    };
+    if closes.velocities().next().is_none() {
+        faults.push(wording::contact_moves_nothing(&entry.location, &entry.name));
+        return None;
+    }
+    Some(ReadLoop {
+        closes,
+        branch: None,
+        near: Vec::new(),
+    })
+}
+
+fn rows(slip: Slip) -> Vec<(&'static str, ContactRow)> {
+    let kept = |(_, row): &(&str, ContactRow)| match row {
+        ContactRow::Longitudinal => !slip.longitudinal,
+        ContactRow::Lateral => !slip.lateral,
+        _ => true,
+    };
+    DISC_ROWS.into_iter().filter(kept).collect()
+}
+
+/// Returns link and pose of a link or a frame.
+fn site(
+    name: &Located<String>,
+    mechanism: &Mechanism,
+    faults: &mut Faults,
+) -> Option<(Option<LinkId>, Pose)> {
+    let mut frames = mechanism.frames().iter();
+    if let Some(frame) = frames.find(|frame| frame.name == name.value) {
+        return Some((frame.link, frame.origin));
+    }
+    let mut links = mechanism.links().iter();
+    let found = links.position(|link| !link.hidden && link.name == name.value);
+    if found.is_none() {
+        let links = mechanism.links().iter().filter(|link| !link.hidden);
+        let links = links.map(|link| link.name.as_str());
+        let frames = mechanism.frames().iter().map(|frame| frame.name.as_str());
+        let known: Vec<&str> = links.chain(frames).collect();
+        faults.push(wording::unknown_site(&name.location, &name.value, &known));
+    }
+    Some((Some(LinkId(found?)), Directions::identity()))
+}
+
+/// Moves the place of a wheel to the link that carries its axle, as long as joints are rotations about it: then their
+/// angles do not enter the rows.
+fn on_carrier(
+    mechanism: &Mechanism,
+    (mut link, mut pose): (Option<LinkId>, Pose),
+    mut contact: Contact,
+) -> (Option<LinkId>, Pose, Contact) {
+    while let (ContactShape::Disc(axle), Some(LinkId(i))) = (contact.shape, link) {
+        let joint = &mechanism.links()[i].joint;
+        let axle = pose.rotation * axle;
+        let small = |v: Vec3<Dd>| v.dot(v).to_f64() <= ROUNDING * ROUNDING;
+        let about_axle = small(joint.axis.cross(axle)) && small(joint.axis.cross(pose.translation));
+        match joint.kind.motion {
+            Motion::None => {}
+            Motion::Rotation if about_axle => {
+                let along = joint.axis.dot(axle);
+                let ratios = joint.degrees.velocity_ratios();
+                let own = joint.degrees.velocities.iter().zip(ratios);
+                spin(&mut contact, own.map(|(&j, ratio)| (j, ratio * along)));
+            }
+            _ => break,
+        }
+        let origin = joint.origin;
+        pose = Pose {
+            rotation: origin.rotation * pose.rotation,
+            translation: origin.translation + origin.rotation * pose.translation,
+        };
+        link = mechanism.links()[i].parent;
+    }
+    (link, pose, contact)
+}
+
+/// Adds velocities of rotations about the axle.
+fn spin(contact: &mut Contact, own: impl Iterator<Item = (CoordinateId, Dd)>) {
+    for (j, factor) in own {
+        match contact.spin.iter_mut().find(|(known, _)| *known == j) {
+            Some((_, sum)) => *sum += factor,
+            None => contact.spin.push((j, factor)),
+        }
+    }
+}
+
+/// Finds the directions from contacts to centres that are constant in the axes of their carriers, and reports wheels
+/// whose axle is normal to their plane. `positions` are some of the open tree.
+pub(super) fn find_upward(closure: &mut Closure, positions: &[Vec<Dd>], faults: &mut Faults) {
+    for one in &mut closure.loops {
+        let Some(Contact {
+            shape: ContactShape::Disc(axle),
+            ..
+        }) = one.contact
+        else {
+            continue;
+        };
+        let across = |q: &Vec<Dd>| {
+            let normal = one.chain.frames(q, &DoubleDouble).last_axes();
+            let normal = (normal * one.chain.end.rotation).column(2);
+            normal - axle.scale(axle.dot(normal))
+        };
+        let all: Vec<Vec3<Dd>> = positions.iter().map(across).collect();
+        let size = |v: &Vec3<Dd>| v.dot(*v).sqrt();
+        let largest = all.iter().map(|v| size(v).to_f64()).fold(0.0, f64::max);
+        if largest < FLAT {
+            faults.push(wording::wheel_lies_flat(&one.location, &one.name));
+            continue;
+        }
+        let Some(first) = all.first() else { continue };
+        let upward = first.scale(Dd::ONE / size(first));
+        let parallel = |v: &Vec3<Dd>| {
+            v.cross(upward)
+                .0
+                .iter()
+                .all(|x| x.to_f64().abs() < ROUNDING)
+        };
+        let exact = |x: Dd| {
+            let near = Dd::from_f64(x.to_f64().round());
+            if (x - near).to_f64().abs() < ROUNDING {
+                near
+            } else {
+                x
+            }
+        };
+        if let (true, Some(contact)) = (all.iter().all(parallel), &mut one.contact) {
+            contact.upward = Some(upward.map(exact));
+        }
+    }
+}

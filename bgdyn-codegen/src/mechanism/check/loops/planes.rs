@@ -1,0 +1,119 @@
+//! Reads the planes that wheels touch.
+
+use bgdyn_runtime::Dd;
+
+use super::read::{Context, find_link, turn_to_axis};
+use crate::fault::{Faults, Location, wording};
+use crate::format::{Dimension, Key, Located, ParsedValue, Raw, Reads, check_unit};
+use crate::math::Vec3;
+use crate::mechanism::check::direction::Directions;
+use crate::mechanism::{LinkId, Pose};
+
+/// The keys of a plane.
+pub(in crate::mechanism) const PLANE_KEYS: [Key; 3] = [
+    Key {
+        name: "normal",
+        reads: Reads::Axis,
+        needed: false,
+        about: "its normal in the link's axes, towards what touches it; z without it",
+    },
+    Key {
+        name: "offset",
+        reads: Reads::Number(&[Dimension::Length]),
+        needed: false,
+        about: "its distance from the link's origin along the normal; 0 without it",
+    },
+    Key {
+        name: "link",
+        reads: Reads::Site,
+        needed: false,
+        about: "the link that it is fixed to; the world without it",
+    },
+];
+
+/// A plane: its link, and a place on it with z along its normal.
+pub(super) type Plane = (Option<LinkId>, Pose);
+
+/// Returns the plane of this name; the world's x–y plane for none.
+pub(super) fn plane(
+    name: Option<&Located<String>>,
+    context: Context<'_>,
+    faults: &mut Faults,
+) -> Option<Plane> {
+    let Some(name) = name else {
+        return Some((None, Directions::identity()));
+    };
+    let raws = context.0.planes.value().map_or(&[][..], Vec::as_slice);
+    match raws.iter().find(|raw| raw.name.value == name.value) {
+        Some(raw) => read(raw, context, faults),
+        None => {
+            let known: Vec<&str> = raws.iter().map(|raw| raw.name.value.as_str()).collect();
+            faults.push(wording::unknown_plane(&name.location, &name.value, &known));
+            None
+        }
+    }
+}
+
+/// Reports planes with invalid keys, also those that nothing touches.
+pub(super) fn check(context: Context<'_>, faults: &mut Faults) {
+    for raw in context.0.planes.value().into_iter().flatten() {
+        read(raw, context, faults);
+    }
+}
+
+fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
+    let what = ("a plane's keys", "`{ normal: z, offset: 0 m }`");
+    let fields = raw.fields(what, &PLANE_KEYS, faults)?;
+    let link = match fields.get("link") {
+        Some(Located {
+            value: ParsedValue::Text(name),
+            location,
+        }) => find_link(name, location, context.1, faults)?,
+        _ => None,
+    };
+    let up = Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]);
+    let normal = match fields.get("normal") {
+        Some(Located {
+            value: ParsedValue::Vector(vector),
+            location,
+        }) => {
+            let axis = Located {
+                value: (**vector).clone(),
+                location: location.clone(),
+            };
+            context.2.axis(&axis, faults)?
+        }
+        _ => up,
+    };
+    let offset = match fields.get("offset") {
+        Some(entry) => offset(&entry.value, &entry.location, faults)?,
+        None => Dd::ZERO,
+    };
+    let rotation = match normal == up {
+        true => Directions::identity().rotation,
+        false => turn_to_axis(normal),
+    };
+    let translation = normal.scale(offset);
+    Some((
+        link,
+        Pose {
+            rotation,
+            translation,
+        },
+    ))
+}
+
+fn offset(value: &ParsedValue, location: &Location, faults: &mut Faults) -> Option<Dd> {
+    let ParsedValue::Number(number) = value else {
+        return None;
+    };
+    let number = Located {
+        value: number.clone(),
+        location: location.clone(),
+    };
+    if let Some(fault) = check_unit(&number, &[Dimension::Length]) {
+        faults.push(fault);
+        return None;
+    }
+    Some(number.value.value)
+}

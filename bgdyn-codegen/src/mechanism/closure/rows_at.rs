@@ -1,0 +1,128 @@
+//! The rows of a loop or a contact at one position: rates, values, second derivatives.
+
+use std::borrow::Cow;
+use std::ops::Mul;
+
+use bgdyn_runtime::Dd;
+
+use super::chain::{ChainFrames, LoopChain, RelativePlace, TwistPoint};
+use super::contact::{ContactAxes, ContactFrame, ContactNumbers};
+use super::row::RowKind;
+use super::{Closure, KinematicLoop};
+use crate::math::Ring;
+use crate::mechanism::CoordinateId;
+use crate::mechanism::joint::Column;
+
+/// The way in which rows are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RowAxes {
+    /// Those of a loop in the axes of place b, if they hold there too.
+    pub reversed: bool,
+    /// Those of a contact along the plane and its normal, not in the axes in which they take fewer operations.
+    pub of_plane: bool,
+    /// Whether loops are closed: then coinciding places are one point.
+    pub closed: bool,
+}
+
+/// The places of a loop at one position.
+pub struct RowsAt<'a, E> {
+    one: &'a KinematicLoop,
+    chain: Cow<'a, LoopChain>,
+    frames: ChainFrames<E>,
+    place: RelativePlace<E>,
+    /// The twists of place b relative to place a per unit velocity; of a wheel relative to its plane.
+    columns: Vec<(CoordinateId, Column<E>)>,
+    contact: Option<(ContactFrame<E>, ContactAxes)>,
+    zero: E,
+}
+
+impl Closure {
+    /// Returns the rows of a loop at a position of the open tree.
+    pub fn rows_at<E: Ring + Mul<Dd, Output = E>>(
+        &self,
+        closes: usize,
+        axes: RowAxes,
+        (q, numbers): (&[E], &impl ContactNumbers<E>),
+    ) -> RowsAt<'_, E> {
+        let one = &self.loops[closes];
+        let chain = match axes.reversed && one.reversible {
+            true => Cow::Owned(one.chain.reversed()),
+            false => Cow::Borrowed(&one.chain),
+        };
+        let point = match (&one.contact, axes.closed && one.kind.coincident) {
+            (Some(_), _) => TwistPoint::A,
+            (None, true) => TwistPoint::Both,
+            (None, false) => TwistPoint::B,
+        };
+        let frames = chain.frames(q, numbers);
+        let place = chain.place(&frames, point, numbers);
+        let contact = one.contact.as_ref().map(|contact| {
+            let kept = |row| self.has(closes, RowKind::Contact(row));
+            let solved = match axes.of_plane {
+                true => ContactAxes::Plane,
+                false => contact.solved_in(kept),
+            };
+            (contact.frame(&place, numbers), solved)
+        });
+        let columns = match &one.contact {
+            Some(contact) => contact.columns(&place, numbers),
+            None => place.columns.clone(),
+        };
+        RowsAt {
+            one,
+            chain,
+            frames,
+            place,
+            columns,
+            contact,
+            zero: numbers.constant(Dd::ZERO),
+        }
+    }
+
+    /// Returns whether a loop has this row, not dropped.
+    fn has(&self, closes: usize, kind: RowKind) -> bool {
+        let mut rows = self.rows.iter();
+        rows.any(|row| row.closes == closes && row.kind == kind)
+    }
+}
+
+impl<E: Ring + Mul<Dd, Output = E>> RowsAt<'_, E> {
+    /// Returns the value that vanishes at closed positions; zero for a row on velocities.
+    pub fn residual(&self, row: RowKind, numbers: &impl ContactNumbers<E>) -> E {
+        match (row, &self.contact) {
+            (RowKind::Closing(row), _) => {
+                row.residual(&self.place, self.one.length, |x| numbers.constant(x))
+            }
+            (RowKind::Contact(row), Some((frame, _))) => row.residual(&self.place, frame),
+            (RowKind::Contact(_), None) => self.zero,
+        }
+    }
+
+    /// Returns the rates for a unit of each velocity of the joints between the places.
+    pub fn rates(&self, row: RowKind) -> Vec<(CoordinateId, E)> {
+        let rate = |column: &Column<E>| match (row, &self.contact) {
+            (RowKind::Closing(row), _) => row.rate(&self.place, column, self.one.length),
+            (RowKind::Contact(row), Some((frame, axes))) => row.rate(frame, column, *axes),
+            (RowKind::Contact(_), None) => self.zero,
+        };
+        let columns = self.columns.iter();
+        columns.map(|(j, column)| (*j, rate(column))).collect()
+    }
+
+    /// Returns the derivative of the rate if no joint accelerates; `v` are the velocities of the open tree, at which
+    /// the rows hold.
+    pub fn bias(&self, row: RowKind, v: &[E], numbers: &impl ContactNumbers<E>) -> E {
+        match (row, &self.one.contact, &self.contact) {
+            (RowKind::Closing(row), ..) => {
+                let rates = self.chain.rates(&self.frames, v, numbers);
+                row.bias(&self.place, &rates, self.one.length)
+            }
+            (RowKind::Contact(row), Some(contact), Some((frame, axes))) => {
+                let of_plane = self.chain.spatial_rates(&self.frames, v, numbers);
+                let rates = contact.rates(&of_plane, v, numbers);
+                row.bias(frame, (&rates, of_plane.velocity.angular), *axes)
+            }
+            _ => self.zero,
+        }
+    }
+}

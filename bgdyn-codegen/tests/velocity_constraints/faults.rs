@@ -1,0 +1,243 @@
+//! Faults of wheels, balls, knife edges and planes: each with its place, its rule and the numbers seen.
+
+use super::findings::{found, refused_text};
+
+const LINKS: &str = "format: 1
+name: cart
+links:
+  - { name: body, joint: { name: base, type: planar }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
+  - { name: wheel, parent: body, joint: { name: spin, type: continuous, axis: y, origin: { xyz: [0, 0.2, 0.1] } }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
+  - { name: ground, mass: 1 }
+frames:
+  - { name: blade, link: body, origin: { xyz: [0.3, 0, 0] } }
+planes:
+  floor: { normal: z }
+";
+
+const EDGE: &str = "edge: { type: knife_edge, at: blade, direction: y }";
+const WHEEL: &str =
+    "rim: { type: rolling, link: wheel, axis: y, radius: 100 mm, on: floor, rows: [longitudinal] }";
+
+/// Asserts exactly one fault of a file with these constraints, and further keys.
+fn refused(constraints: &[&str], more: &str, rule: &str, path: &str, words: &[&str]) {
+    let list: String = constraints.iter().map(|one| format!("  {one}\n")).collect();
+    refused_text(
+        &format!("{LINKS}constraints:\n{list}{more}"),
+        rule,
+        path,
+        words,
+    );
+}
+
+/// A constraint with one part of its text replaced.
+fn changed(one: &str, (from, to): (&str, &str), rule: &str, key: &str, words: &[&str]) {
+    assert!(one.contains(from), "{from}");
+    let name = one.split(':').next().expect("a name");
+    let path = format!("constraints.{name}{key}");
+    refused(&[&one.replace(from, to)], "", rule, &path, words);
+}
+
+#[test]
+fn the_cart_itself_has_no_faults() {
+    let text = format!("{LINKS}constraints:\n  {EDGE}\n  {WHEEL}\n");
+    assert_eq!(found(&text).0, []);
+}
+
+#[test]
+fn places_and_planes_need_known_names() {
+    changed(
+        EDGE,
+        ("at: blade", "at: blde"),
+        "unknown-place",
+        ".at",
+        &["`blde`", "`blade`"],
+    );
+    changed(
+        WHEEL,
+        ("link: wheel", "link: weel"),
+        "unknown-place",
+        ".link",
+        &["`weel`", "`wheel`"],
+    );
+    changed(
+        WHEEL,
+        ("on: floor", "on: flor"),
+        "unknown-plane",
+        ".on",
+        &["`flor`", "`floor`"],
+    );
+    changed(
+        WHEEL,
+        ("link: wheel", "link: ground"),
+        "contact-moves-nothing",
+        "",
+        &["`rim`"],
+    );
+}
+
+#[test]
+fn radii_are_positive_lengths() {
+    let radius = |text: &'static str| ("100 mm", text);
+    changed(
+        WHEEL,
+        radius("0"),
+        "radius-not-positive",
+        ".radius",
+        &["`rim`", "0 m"],
+    );
+    changed(
+        WHEEL,
+        radius("-20 mm"),
+        "radius-not-positive",
+        ".radius",
+        &["-0.02 m", "`knife_edge`"],
+    );
+    changed(WHEEL, radius("1 rad"), "unit-misfit", ".radius", &["1 rad"]);
+    let parameter = radius("{ parameter: r, value: 0.1 }");
+    changed(
+        WHEEL,
+        parameter,
+        "parameter-not-possible",
+        ".radius",
+        &["`rim`"],
+    );
+    changed(
+        WHEEL,
+        (", radius: 100 mm", ""),
+        "missing-key",
+        "",
+        &["`radius`"],
+    );
+}
+
+#[test]
+fn directions_are_axes() {
+    let direction = |text: &'static str| ("direction: y", text);
+    changed(
+        EDGE,
+        direction("direction: q"),
+        "unknown-axis",
+        ".direction",
+        &["`q`"],
+    );
+    changed(
+        EDGE,
+        direction("direction: [0, 0, 0]"),
+        "zero-axis",
+        ".direction",
+        &[],
+    );
+    changed(
+        EDGE,
+        (", direction: y", ""),
+        "missing-key",
+        "",
+        &["`direction`"],
+    );
+    changed(
+        WHEEL,
+        ("link: wheel, axis: y", "link: body, axis: z"),
+        "wheel-lies-flat",
+        "",
+        &["`rim`", "`axis`"],
+    );
+}
+
+#[test]
+fn rows_are_those_of_wheels() {
+    let rows = |text: &'static str| ("rows: [longitudinal]", text);
+    changed(
+        WHEEL,
+        rows("rows: [sideways]"),
+        "unknown-row",
+        ".rows[0]",
+        &["`sideways`", "`lateral`"],
+    );
+    changed(WHEEL, rows("rows: []"), "no-rows", ".rows", &["`lateral`"]);
+    changed(WHEEL, ("axis: y, ", ""), "unused-key", ".rows", &["`axis`"]);
+}
+
+#[test]
+fn a_wheel_that_cannot_touch_says_how_far_it_is() {
+    changed(
+        WHEEL,
+        ("100 mm", "80 mm"),
+        "wheel-never-touches",
+        "",
+        &["`rim`", "0.02 m above", "0.08 m"],
+    );
+    changed(
+        WHEEL,
+        ("100 mm", "120 mm"),
+        "wheel-never-touches",
+        "",
+        &["0.02 m below", "`offset`"],
+    );
+}
+
+#[test]
+fn rows_that_follow_from_others_name_them() {
+    let both = WHEEL.replace(", rows: [longitudinal]", "");
+    let edge = EDGE.replace("at: blade", "at: body");
+    refused(
+        &[&edge, &both],
+        "",
+        "dependent-row",
+        "constraints.rim",
+        &["`lateral`", "1 · `edge slip`", "`rows: [longitudinal]`"],
+    );
+}
+
+#[test]
+fn something_is_left_to_move() {
+    let along = EDGE
+        .replace("edge", "along")
+        .replace("direction: y", "direction: x");
+    let along = along.replace("knife_along", "knife_edge");
+    let other = "other: { type: knife_edge, at: body, direction: y }";
+    refused(
+        &[EDGE, &along, other, WHEEL],
+        "",
+        "nothing-left-to-move",
+        "constraints",
+        &["4 rows", "4 velocities"],
+    );
+}
+
+#[test]
+fn independent_velocities_determine_the_others() {
+    refused(
+        &[EDGE],
+        "independent: [base_y, base_turn]\n",
+        "independents-do-not-determine",
+        "constraints",
+        &["`base_y`", "`base_turn`"],
+    );
+    refused(
+        &[EDGE, WHEEL],
+        "independent: [base_x, base_turn, spin]\n",
+        "too-many-independents",
+        "constraints",
+        &["3 joints", "2"],
+    );
+    refused(
+        &[EDGE],
+        "independent: [base_w]\n",
+        "unknown-name",
+        "independent[0]",
+        &["`base_w`"],
+    );
+}
+
+#[test]
+fn planes_have_a_link_a_normal_and_an_offset() {
+    for (plane, rule, key) in [
+        ("{ normal: [0, 0, 0] }", "zero-axis", ".normal"),
+        ("{ offset: 3 rad }", "unit-misfit", ".offset"),
+        ("{ link: flor }", "unknown-link", ".link"),
+        ("{ depth: 1 }", "unknown-key", ""),
+    ] {
+        let text = format!("{LINKS}  low: {plane}\nconstraints:\n  {EDGE}\n");
+        refused_text(&text, rule, &format!("planes.low{key}"), &[]);
+    }
+}

@@ -1,0 +1,21 @@
+//! Tests wheels, balls and knife edges: reference solutions, random mechanisms against the open tree with
+//! multipliers, the generator's own check, counts, faults.
+
+#[path = "../joints/findings.rs"]
+#[allow(dead_code, reason = "shared with the tests of joints")]
+mod findings;
+#[path = "../joints/maker.rs"]
+mod maker;
+#[path = "../joints/robot.rs"]
+#[allow(dead_code, reason = "shared with the tests of joints")]
+mod robot;
+
+mod counts;
+mod faults;
+mod files;
+mod multipliers;
+mod planar_references;
+mod random_mechanisms;
+mod slip_rows;
+mod spatial_references;
+mod verified;

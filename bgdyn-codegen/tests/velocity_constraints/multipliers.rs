@@ -1,0 +1,212 @@
+//! Random wheels, balls and knife edges against the open tree with multipliers: M q̈ + h = P + Bᵀ λ, B q̈ = γ, solved
+//! here in double-double. B and γ come from the Jacobians and accelerations of frames of the open tree.
+
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::random::Random;
+use bgdyn_runtime::Dd;
+
+use super::random_mechanisms::{Text, Touch};
+use super::robot::{Robot, State, Way, close, dot, full, largest, times};
+use super::slip_rows::rows;
+
+const WAYS: [Way; 2] = [None, Some("subspaces")];
+
+/// Solves a regular system by elimination with partial pivoting.
+fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
+    let n = b.len();
+    a.iter_mut().zip(b).for_each(|(row, &x)| row.push(x));
+    for k in 0..n {
+        let size = |i: &usize| a[*i][k].to_f64().abs();
+        let best = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)));
+        a.swap(k, best.expect("a row"));
+        let pivot = a[k].clone();
+        assert!(pivot[k].to_f64().abs() > 1e-12, "a singular system");
+        for (i, row) in a.iter_mut().enumerate() {
+            let factor = row[k] / pivot[k];
+            if i != k {
+                row.iter_mut()
+                    .zip(&pivot)
+                    .for_each(|(x, &y)| *x -= factor * y);
+            }
+        }
+    }
+    (0..n).map(|k| a[k][n] / a[k][k]).collect()
+}
+
+/// Compares in three states.
+fn compare(text: &Text, what: &str) {
+    let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.constrained()));
+    let closure = robot.mechanism.closure().expect("constraints").clone();
+    assert_eq!(robot.nv() + closure.rows.len(), tree.nv(), "{what}");
+    for k in 0..3 {
+        let mut state = robot.state(k as u64);
+        state.q.clone_from(&closure.samples[4 * k + 1]);
+        compare_at((&tree, &robot), text, state, &format!("{what}, state {k}"));
+    }
+}
+
+fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>, what: &str) {
+    let closure = robot.mechanism.closure().expect("constraints");
+    let value = |method| -> Vec<Dd> { state.value(&robot.function(None, method)) };
+    let rates = value(Method::TreeVelocity);
+    let mut efforts = vec![Dd::ZERO; tree.nv()];
+    for (j, &p) in closure.independents.iter().zip(&state.u) {
+        efforts[j.0] = p;
+    }
+    let of_tree = State {
+        q: state.q.clone(),
+        v: rates.clone(),
+        a: vec![Dd::ZERO; tree.nv()],
+        u: efforts.clone(),
+    };
+    let all = text.all.iter().enumerate();
+    let rows: Vec<(Vec<Dd>, Dd)> = all
+        .flat_map(|one| rows(tree, one, text.normal, &of_tree))
+        .collect();
+    for (row, _) in &rows {
+        let off = dot(row, &rates).to_f64().abs();
+        assert!(
+            off < 1e-24 * largest(&rates).max(1.0),
+            "{what}: slips at {off:e} m/s"
+        );
+    }
+    // M q̈ − Bᵀ λ = P − h, B q̈ = γ
+    let (n, m) = (tree.nv(), rows.len());
+    let mass = full(&of_tree.value(&tree.function(None, Method::MassMatrix)), n);
+    let bias: Vec<Dd> = of_tree.value(&tree.function(None, Method::Bias));
+    let mut system = vec![vec![Dd::ZERO; n + m]; n + m];
+    let mut side: Vec<Dd> = efforts.iter().zip(&bias).map(|(&p, &h)| p - h).collect();
+    for i in 0..n {
+        system[i][..n].copy_from_slice(&mass[i]);
+    }
+    for (r, (row, gamma)) in rows.iter().enumerate() {
+        for j in 0..n {
+            system[n + r][j] = row[j];
+            system[j][n + r] = -row[j];
+        }
+        side.push(*gamma);
+    }
+    let solution = solve(system, &side);
+    let (accelerations, lambda) = solution.split_at(n);
+    let independents = closure.independents.iter();
+    state.a = independents.map(|j| accelerations[j.0]).collect();
+    let size = largest(accelerations);
+    let forces = largest(lambda).max(largest(&bias));
+    for way in WAYS {
+        let value = |method| -> Vec<Dd> { state.value(&robot.function(way, method)) };
+        let what = format!("{what}, {way:?}");
+        close(
+            &value(Method::ForwardDynamics),
+            &state.a,
+            1e-22,
+            size,
+            &what,
+        );
+        close(
+            &value(Method::InverseDynamics),
+            &state.u,
+            1e-22,
+            forces,
+            &what,
+        );
+        close(
+            &value(Method::TreeAcceleration),
+            accelerations,
+            1e-22,
+            size,
+            &what,
+        );
+        // Bᵀ λ, whatever the directions of the rows.
+        let jacobian = value(Method::ConstraintJacobian);
+        let own: Vec<&[Dd]> = jacobian.chunks(n).collect();
+        let own_forces = value(Method::Multipliers);
+        let theirs: Vec<&[Dd]> = rows.iter().map(|(row, _)| row.as_slice()).collect();
+        let on_joints = |rows: &[&[Dd]], of: &[Dd]| -> Vec<Dd> {
+            let column = |j: usize| rows.iter().map(|row| row[j]).collect::<Vec<Dd>>();
+            (0..n).map(|j| dot(&column(j), of)).collect()
+        };
+        let (found, wanted) = (on_joints(&own, &own_forces), on_joints(&theirs, lambda));
+        close(&found, &wanted, 1e-21, forces, &what);
+        // Rows of wheels and edges have the same directions as here; those of a ball are along the plane's axes.
+        if text.all.iter().all(|one| one.touch != Touch::Ball) {
+            close(&own_forces, lambda, 1e-21, forces, &what);
+        }
+    }
+    // M_u = Sᵀ M S
+    let map: Vec<Dd> = state.value(&robot.function(None, Method::VelocityMap));
+    let column = |k: usize| map.iter().skip(k).step_by(robot.nv()).copied().collect();
+    let columns: Vec<Vec<Dd>> = (0..robot.nv()).map(column).collect();
+    let found = state.value(&robot.function(None, Method::MassMatrix));
+    for (row, column) in full(&found, robot.nv()).iter().zip(&columns) {
+        let moved = times(&mass, column);
+        let wanted: Vec<Dd> = columns.iter().map(|other| dot(other, &moved)).collect();
+        close(
+            row,
+            &wanted,
+            1e-23,
+            largest(&wanted),
+            &format!("{what}: mass matrix"),
+        );
+    }
+}
+
+#[test]
+fn knife_edges_move_as_with_multipliers() {
+    for (seed, root) in [
+        "type: planar",
+        "type: floating",
+        "type: spherical",
+        "type: continuous, axis: [1, 2, 3]",
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let mut random = Random(500 + seed as u64);
+        let mut text = Text::new(&mut random, root, 4);
+        text.touch(&mut random, 2, Touch::Edge);
+        text.touch(&mut random, 4, Touch::Edge);
+        compare(&text, &format!("knife edges, {root}"));
+    }
+}
+
+/// Wheels whose joint is about their axle, on chains of joints of one degree.
+#[test]
+fn wheels_on_axles_move_as_with_multipliers() {
+    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Lateral]
+        .into_iter()
+        .enumerate()
+    {
+        let mut random = Random(600 + seed as u64);
+        let mut text = Text::new(&mut random, "type: prismatic, axis: [1, -2, 3]", 5);
+        text.wheel(&mut random, 5, touch);
+        compare(&text, &format!("{touch:?}"));
+    }
+}
+
+/// Wheels and balls that are fixed to a body in general position.
+#[test]
+fn rims_and_balls_move_as_with_multipliers() {
+    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Ball]
+        .into_iter()
+        .enumerate()
+    {
+        let mut random = Random(700 + seed as u64);
+        let mut text = Text::new(&mut random, "type: prismatic, axis: [1, -2, 3]", 5);
+        text.touch(&mut random, 4, touch);
+        compare(&text, &format!("{touch:?} on a body"));
+    }
+}
+
+#[test]
+fn bodies_that_float_roll_as_with_multipliers() {
+    for (seed, touch) in [Touch::Wheel, Touch::Lateral, Touch::Ball]
+        .into_iter()
+        .enumerate()
+    {
+        let mut random = Random(800 + seed as u64);
+        let mut text = Text::new(&mut random, "type: floating", 2);
+        text.touch(&mut random, 0, touch);
+        text.wheel(&mut random, 2, Touch::Wheel);
+        compare(&text, &format!("{touch:?}, floating"));
+    }
+}

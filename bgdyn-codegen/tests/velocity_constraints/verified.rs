@@ -1,0 +1,151 @@
+//! The generator's own check accepts mechanisms with wheels and knife edges, with every method, and refuses wrong
+//! functions.
+
+use bgdyn_codegen::formulation;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::{model, verify};
+use bgdyn_codegen::random::Random;
+use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::verify::{check_functions, explain};
+
+use super::files::spec;
+use super::planar_references::ROBOT;
+use super::random_mechanisms::{Text, Touch};
+use super::robot::{Robot, Way};
+
+const PLANAR: [&str; 3] = ["chaplygin_sleigh", "differential_drive", "snakeboard"];
+const SPATIAL: [&str; 2] = ["rolling_disc", "whipple_bicycle"];
+
+fn options(way: Way) -> Options {
+    Options {
+        formulation: way.map(|name| formulation::by_name(name).expect("a formulation")),
+        ..Options::default()
+    }
+}
+
+fn accepted(text: &str, way: Way) -> Model {
+    let model = model(Robot::read(text).mechanism, &options(way)).expect("a model");
+    match verify(&model, &options(way)) {
+        Ok(()) => model,
+        Err(Refusal::Unequal(found)) => panic!("{way:?}: {}\n{text}", explain(&found)),
+        Err(refusal) => panic!("{way:?}: {refusal:?}\n{text}"),
+    }
+}
+
+#[test]
+fn the_specs_are_accepted_with_every_formulation() {
+    for name in PLANAR {
+        for way in [None, Some("subspaces"), Some("literal")] {
+            accepted(&spec(name), way);
+        }
+    }
+    for name in SPATIAL {
+        for way in [None, Some("subspaces")] {
+            accepted(&spec(name), way);
+        }
+    }
+}
+
+/// Each output of each function with its sign changed.
+#[test]
+fn a_turned_sign_is_refused_in_every_function() {
+    let model = accepted(&spec("snakeboard"), None);
+    for function in &model.functions {
+        for k in 0..function.blocks[0].outputs.len() {
+            let mut wrong = function.clone();
+            let output = &mut wrong.blocks[0].outputs[k];
+            if wrong.graph.constant_of(*output).is_some() {
+                continue;
+            }
+            output.negative = !output.negative;
+            let found = check_functions("snakeboard", &model.bond_graph, &[wrong]);
+            assert_eq!(found.len(), 1, "{} output {k}", function.name);
+        }
+    }
+}
+
+/// Beside a moving base, run-time parameters, a loop, and on a plane that another joint moves.
+#[test]
+fn other_features_beside_them_are_accepted() {
+    let given = ROBOT.replacen("links:", "base: given\nlinks:", 1);
+    let parameter = ROBOT.replace("mass: 10", "mass: { parameter: load, value: 10 }");
+    let table = "  - name: table
+    joint: { name: turntable, type: continuous, axis: [0.1, 0.2, 1] }
+    mass: 4
+    inertia: { xx: 0.3, yy: 0.3, zz: 0.5 }
+  - name: cart
+    parent: table
+";
+    let on_table = ROBOT
+        .replace("  - name: cart\n", table)
+        .replace("radius: 0.1", "radius: 0.1, on: deck")
+        .replace(
+            "constraints:",
+            "planes:\n  deck: { link: table }\nconstraints:",
+        )
+        .replace("[right, left]", "[turntable, right, left]");
+    // A rod from the wheel moves a piston.
+    let piston = "  - name: piston
+    parent: cart
+    joint: { name: stroke, type: prismatic, axis: x, origin: { xyz: [0.2, -0.25, 0.01] } }
+    mass: 0.3
+constraints:";
+    let rod = "loops:
+  - { name: rod, type: distance, length: 0.2, a: { link: piston }, b: { link: right_wheel, origin: { xyz: [0.05, 0, 0] } } }
+independent: [right, left]
+";
+    let looped = ROBOT
+        .replace("constraints:", piston)
+        .replace("independent: [right, left]\n", rod);
+    for text in [given, parameter, on_table, looped] {
+        assert_ne!(text, ROBOT);
+        accepted(&text, None);
+    }
+}
+
+#[test]
+fn rows_in_general_position_are_accepted() {
+    let mut random = Random(900);
+    let mut text = Text::new(&mut random, "type: floating", 2);
+    text.touch(&mut random, 0, Touch::Ball);
+    text.wheel(&mut random, 2, Touch::Longitudinal);
+    text.touch(&mut random, 1, Touch::Edge);
+    accepted(&text.constrained(), None);
+}
+
+/// Positions have more directions than velocities: derivatives along v would be taken for all of them.
+#[test]
+fn derivatives_are_refused() {
+    let mechanism = Robot::read(&spec("snakeboard")).mechanism;
+    let derivatives = Options {
+        derivatives: true,
+        ..Options::default()
+    };
+    let Err(refused) = model(mechanism.clone(), &derivatives) else {
+        panic!("derivatives are generated");
+    };
+    let said = format!("{refused:?}");
+    for word in ["`front`", "dual numbers"] {
+        assert!(said.contains(word), "{said}");
+    }
+    let named = Options {
+        methods: Some(vec!["forward_dynamics_derivatives".into()]),
+        ..Options::default()
+    };
+    assert!(model(mechanism, &named).is_err());
+}
+
+/// Without wheels there is no position equation: nothing closes, and no method says so.
+#[test]
+fn nothing_closes_without_rows_of_positions() {
+    for name in PLANAR {
+        let model = accepted(&spec(name), None);
+        let mut methods = model.functions.iter().map(|f| f.method);
+        assert!(
+            !methods.any(|m| matches!(m, Method::ClosingStep | Method::ConstraintResidual)),
+            "{name}"
+        );
+    }
+}

@@ -1,0 +1,10 @@
+//! Mechanisms with wheels and knife edges in compiled code, in every scalar: integration, laws, motions, errors.
+
+mod evaluated;
+mod laws;
+mod motions;
+
+bgdyn::bgdyn!("../../specs/constraints/chaplygin_sleigh.yaml");
+bgdyn::bgdyn!("../../specs/constraints/differential_drive.yaml");
+bgdyn::bgdyn!("../../specs/constraints/snakeboard.yaml");
+bgdyn::bgdyn!("robot.yaml");
