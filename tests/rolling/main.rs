@@ -3,8 +3,14 @@
 mod evaluated;
 mod laws;
 mod motions;
+mod scenes;
 
 bgdyn::bgdyn!("../../specs/constraints/chaplygin_sleigh.yaml");
 bgdyn::bgdyn!("../../specs/constraints/differential_drive.yaml");
 bgdyn::bgdyn!("../../specs/constraints/snakeboard.yaml");
 bgdyn::bgdyn!("robot.yaml");
+bgdyn::bgdyn!("sleigh_run.scene.yaml");
+bgdyn::bgdyn!("robot_run.scene.yaml");
+bgdyn::bgdyn!("snakeboard_run.scene.yaml");
+bgdyn::bgdyn!("bicycle_run.scene.yaml");
+bgdyn::bgdyn!("effects.scene.yaml");

@@ -11,13 +11,15 @@ use crate::robot::Robot;
 use crate::snakeboard::Snakeboard;
 
 /// The samples of a reference, with their columns.
-struct Reference {
+pub(crate) struct Reference {
     columns: Vec<String>,
-    samples: Vec<Vec<f64>>,
+    pub(crate) samples: Vec<Vec<f64>>,
+    /// Errors of `f64` by sample, where the file has them.
+    pub(crate) tolerances: Vec<f64>,
 }
 
 impl Reference {
-    fn read(name: &str) -> Self {
+    pub(crate) fn read(name: &str) -> Self {
         let folder = "tests/golden/velocity_constraints";
         let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), folder, name].iter().collect();
         let text = std::fs::read_to_string(path).expect("a reference");
@@ -30,10 +32,14 @@ impl Reference {
             samples: (list(&file["samples"]).iter())
                 .map(|row| list(row).iter().map(number).collect())
                 .collect(),
+            tolerances: (file["tolerance_f64_per_sample"].as_array().into_iter())
+                .flatten()
+                .map(number)
+                .collect(),
         }
     }
 
-    fn at(&self, sample: usize, column: &str) -> f64 {
+    pub(crate) fn at(&self, sample: usize, column: &str) -> f64 {
         let k = self.columns.iter().position(|c| c == column);
         self.samples[sample][k.expect("a column")]
     }
