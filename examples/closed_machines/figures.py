@@ -23,7 +23,7 @@ import plan_legs
 import plan_pick
 from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot
 from runs import Run
-from tree import Tree, apply, distance, joined, origin
+from tree import Tree, apply, distance
 
 SIX = (BLUE, GREEN, BROWN, RED, GREY, INK)
 
@@ -73,6 +73,7 @@ BOOM = [(0, -0.12), (1.45, 0.06), (3.02, -0.09), (3.05, 0.06), (1.68, 0.48), (1.
 STICK = [(-0.4, 0.2), (-0.1, -0.11), (1.62, -0.07), (1.65, 0.05), (0.3, 0.27), (-0.3, 0.28)]
 BUCKET = [(-0.06, -0.06), (0.02, 0.3), (0.3, 0.42), (0.62, 0.3), (0.75, -0.1), (0.66, -0.02)]
 HOUSE = [(-1.3, 0.5), (0.95, 0.5), (0.8, 0.8), (0.25, 0.92), (0.2, 1.75), (-0.5, 1.75), (-0.55, 1.2), (-1.35, 1.2)]
+TRACKS = [(s * x, z) for s, side in ((-1, 1), (1, -1)) for x, z in ((1, 0), (1.15, 0.06), (1.15, 0.34), (1, 0.42))[::side]]
 COLOURS = {"lift": BLUE, "fold": GREEN, "curl": BROWN}
 
 
@@ -82,7 +83,8 @@ def excavator(bgdyn, folder):
     gap(run, machine)
     start = evaluated(bgdyn, "excavator", "derivative", [{}])
     first = {n: x for n, x in zip(start["names"], start["results"][0]) if n in [f"{j}_rate" for j in plan_dig.BEGIN]}
-    fact(f"at the start, with the rams' forces by virtual work, accelerations are at most {max(map(abs, first.values())):.1e} rad/s²")
+    most = max(map(abs, first.values()))
+    fact(f"at the start, with the rams' forces by virtual work, accelerations are at most {most:.1e} rad/s²")
     planned = [plan_dig.closed(plan_dig.plan(t)) for t in run.t]
     off = {j: max(abs(degrees(run[j][i] - planned[i][j])) for i in rows) for j in machine.joints}
     fact("from the plan, at most: " + ", ".join(f"{j} {x:.2f}°" for j, x in off.items()))
@@ -94,17 +96,17 @@ def excavator(bgdyn, folder):
             least, most = min(run[name]), max(run[name])
             inside = limits["lower"] <= least and most <= limits["upper"]
             fact(f"{name}: {degrees(least):.1f}° to {degrees(most):.1f}°, {'within' if inside else 'BEYOND'} its limits")
-    strokes = {name: (effect["offset"], effect["stroke"]) for name, effect in machine.spec["effects"].items() if "stroke" in effect}
+    strokes = {name: (e["offset"], e["stroke"]) for name, e in machine.spec["effects"].items() if "stroke" in e}
     for ram in plan_dig.RAMS:
         offset, stroke = strokes[f"{ram}_ram"]
         out = [x - offset for x in run[f"{ram}_ram_length"]]
-        own = [abs(plan_dig.lengths(machine.poses(positions(run, machine, i)))[ram] - run[f"{ram}_ram_length"][i]) for i in rows]
-        force = run[f"{ram}_ram_force"]
-        sides = ["{:.1f} to {:.1f} MPa".format(min(p) / 1e6, max(p) / 1e6) for p in (run[f"{ram}_ram_{s}_pressure"] for s in "ab")]
-        fact(
-            f"{ram}_ram: out by {min(out):.3f} to {max(out):.3f} m of {stroke:g} m; {min(force) / 1e3:.1f} to {max(force) / 1e3:.1f} kN;"
-            f" sides a {sides[0]}, b {sides[1]}; length as computed here to {max(own):.0e} m"
-        )
+        own = lambda i: plan_dig.lengths(machine.poses(positions(run, machine, i)))[ram]
+        off = max(abs(own(i) - run[f"{ram}_ram_length"][i]) for i in rows)
+        force, sides = run[f"{ram}_ram_force"], [run[f"{ram}_ram_{s}_pressure"] for s in "ab"]
+        least, most = min(force) / 1e3, max(force) / 1e3
+        words = [f"{min(p) / 1e6:.1f} to {max(p) / 1e6:.1f} MPa" for p in sides]
+        fact(f"{ram}_ram: out by {min(out):.3f} to {max(out):.3f} m of {stroke:g} m; {least:.1f} to {most:.1f} kN")
+        fact(f"{ram}_ram: sides a {words[0]}, b {words[1]}; length as computed here to {off:.0e} m")
     asked = [plan_dig.forces(planned[i], plan_dig.resistance(run.t[i])) for i in rows]
     for ram in plan_dig.RAMS:
         far = max(abs(run[f"{ram}_ram_force"][i] - asked[i][ram]) for i in rows)
@@ -112,7 +114,8 @@ def excavator(bgdyn, folder):
         fact(f"{ram}_ram: force from that of the plan at most {far / 1e3:.2f} kN, {late / 1e3:.2f} kN at rest at the end")
     below = min(run["teeth_z"])
     push = max(sqrt(sum(f * f for f in plan_dig.resistance(t))) for t in run.t)
-    fact(f"teeth: down to {below:.2f} m, up to {run['teeth_z'][-1]:.2f} m at the end; resistance of the earth up to {push / 1e3:.1f} kN")
+    fact(f"teeth: down to {below:.2f} m, up to {run['teeth_z'][-1]:.2f} m at the end")
+    fact(f"resistance of the earth: up to {push / 1e3:.1f} kN")
     slews = [abs(x) for x in slew_torques()[1]]
     fact(f"slew: torque up to {max(slews) / 1e3:.2f} kN m")
 
@@ -156,7 +159,7 @@ def legend(page, x, y, names):
 
 def slew_torques():
     """The table of the slew in the scene: times and torques."""
-    text = (HERE / "excavator.scene.yaml").read_text().split("  slew:\n    table:")[1].split("]\n    ]")[0].split("digging_fx:")[0]
+    text = (HERE / "excavator.scene.yaml").read_text().split("  slew:\n    table:")[1].split("digging_fx:")[0]
     pairs = [(float(t), float(u)) for t, u in re.findall(r"\[(\S+) s, (\S+)\]", text)]
     return [t for t, _ in pairs], [u for _, u in pairs]
 
@@ -177,7 +180,7 @@ def digging(page, run, i, spot, trail, scale):
     page.text(spot([1.4, 0, 0])[0], ground + 14, "ground", GREY, 11)
     if trail:
         page.line([spot(run.place("teeth", k)) for k in range(i + 1)], BROWN, 1.2, "2 3")
-    page.area([spot([x, 0, z]) for x, z in ((-1.15, 0.06), (-1.0, 0), (1.0, 0), (1.15, 0.06), (1.15, 0.34), (1.0, 0.42), (-1.0, 0.42), (-1.15, 0.34))], GREY, GREY)
+    page.area([spot([x, 0, z]) for x, z in TRACKS], GREY, GREY)
     page.area([spot([x, 0, z]) for x, z in HOUSE], SHADE, BLUE)
     page.area(local("bucket", BUCKET), SHADE, INK)
     page.area(local("stick", STICK), SHADE, BLUE)
@@ -253,25 +256,26 @@ def delta_pick(bgdyn, folder):
     errors = [max(abs(run[a][i] - x) for a, x in zip(ARMS, plans[i])) for i in rows]
     away = [distance(run.row(PLATFORM, i), plan_pick.platform(run.t[i])) for i in rows]
     fact(f"arms from the plan: at most {max(errors):.1e} rad; platform: at most {max(away):.1e} m, {away[-1]:.0e} m at the end")
-    H = 1e-3
-    moves = [plan_pick.platform(k * H) for k in range(round(plan_pick.END / H))]
-    speed = max(distance(a, b) / H for a, b in zip(moves, moves[1:]))
-    bend = lambda a, b, c: sqrt(sum((x - 2 * y + z) ** 2 for x, y, z in zip(a, b, c))) / H**2
-    fact(f"plan of the platform: up to {speed:.2f} m/s and {max(bend(*three) for three in zip(moves, moves[1:], moves[2:])):.1f} m/s²")
+    step = 1e-3
+    moves = [plan_pick.platform(k * step) for k in range(round(plan_pick.END / step))]
+    speed = max(distance(a, b) / step for a, b in zip(moves, moves[1:]))
+    bend = lambda a, b, c: sqrt(sum((x - 2 * y + z) ** 2 for x, y, z in zip(a, b, c))) / step**2
+    most = max(bend(*three) for three in zip(moves, moves[1:], moves[2:]))
+    fact(f"plan of the platform: up to {speed:.2f} m/s and {most:.1f} m/s²")
     torques = torque(bgdyn, run)
     fact("torques: " + "; ".join(f"arm{k + 1} {min(u):.2f} to {max(u):.2f} N m" for k, u in enumerate(zip(*torques))))
-    held = [weight_torque(plan_pick.PICK), weight_torque(plan_pick.PLACE)]
-    rests = [torques[0], torques[run.at(plan_pick.WAIT * 1.5 + plan_pick.WAY)]]
-    for where, a, b in zip(("pick", "place"), rests, held):
-        fact(f"at rest over the {where}: {', '.join(f'{x:.4f}' for x in a)} N m, from virtual work by at most {max(abs(x - y) for x, y in zip(a, b)):.1e} N m")
+    first, off = torques[0], max(abs(a - b) for a, b in zip(torques[0], weight_torque(plan_pick.PICK)))
+    fact(f"at the start {', '.join(f'{x:.4f}' for x in first)} N m, from virtual work by at most {off:.1e} N m")
     beside = Run(Path(folder) / PUSHED, "delta_pick")
     e = [beside[ARMS[0]][i] - plan_pick.plan(t)[0] for i, t in enumerate(beside.t)]
     rate = plan_pick.DAMPING / 2
     law = [e[0] * (1 + rate * t) * exp(-rate * t) for t in beside.t]
-    others = max(abs(beside[a][i] - plan_pick.plan(t)[k]) for k, a in enumerate(ARMS) if k for i, t in enumerate(beside.t))
+    differ = lambda k: max(abs(beside[ARMS[k]][i] - plan_pick.plan(t)[k]) for i, t in enumerate(beside.t))
+    law_off, others = max(abs(a - b) for a, b in zip(e, law)), max(differ(1), differ(2))
     off = [distance(beside.row(PLATFORM, i), plan_pick.platform(t)) for i, t in enumerate(beside.t)]
-    fact(f"with arm 1 moved by {e[0]:.4f} rad the platform begins {1000 * off[0]:.2f} mm off; {1000 * off[-1]:.4f} mm after the cycle")
-    fact(f"its error is e (1 + {rate:g} t) exp(-{rate:g} t) to {max(abs(a - b) for a, b in zip(e, law)):.1e} rad; other arms are off by at most {others:.1e} rad")
+    fact(f"with arm 1 moved by {e[0]:.4f} rad, {degrees(e[0]):.2f}°, the platform begins {1000 * off[0]:.2f} mm off")
+    fact(f"its error is e (1 + {rate:g} t) exp(-{rate:g} t) to {law_off:.1e} rad; {1000 * off[-1]:.4f} mm after the cycle")
+    fact(f"the other arms are off by at most {others:.1e} rad")
 
     page = Canvas(960, 640)
     shots = ((0.0, "picks"), (0.35, "carries"), (0.65, "places"))
@@ -303,13 +307,13 @@ def torque(bgdyn, run):
 
 def weight_torque(place):
     """The torques that carry the weight, from small motions of the platform."""
-    size = 1e-5
+    size, height = 1e-5, lambda poses, link: apply(poses[link["name"]], link.get("com", [0, 0, 0]))[2]
 
     def both(j, s):
         q = plan_pick.closed([x + s * (i == j) for i, x in enumerate(place)])
         poses = DELTA.poses(q)
         links = [link for link in DELTA.spec["links"] if "mass" in link]
-        return [q[a] for a in ARMS] + [sum(9.81 * l["mass"] * apply(poses[l["name"]], l.get("com", [0, 0, 0]))[2] for l in links)]
+        return [q[a] for a in ARMS] + [sum(9.81 * l["mass"] * height(poses, l) for l in links)]
 
     rows = [[(a - b) / (2 * size) for a, b in zip(both(j, size), both(j, -size))] for j in range(3)]
     return plan_legs.solved(rows)
@@ -354,7 +358,8 @@ def stewart_platform(bgdyn, folder):
     gap(run, machine)
     start = evaluated(bgdyn, "stewart_platform", "derivative", [{}])
     first = [x for n, x in zip(start["names"], start["results"][0]) if n in [f"{p}_rate" for p in plan_legs.POSE]]
-    fact(f"at the start, with pushes by virtual work, accelerations are at most {max(map(abs, first)):.1e} m/s² or rad/s²")
+    most = max(map(abs, first))
+    fact(f"at the start, with pushes by virtual work, accelerations are at most {most:.1e} m/s² or rad/s²")
     poses = [plan_legs.pose(t) for t in run.t]
     away = [distance(run.row(plan_legs.POSE[:3], i), poses[i][:3]) for i in rows]
     turn = [max(abs(degrees(run[p][i] - poses[i][k])) for k, p in enumerate(plan_legs.POSE) if k > 2) for i in rows]
@@ -364,16 +369,18 @@ def stewart_platform(bgdyn, folder):
         fact(f"{name}: at most {1000 * max(away[i] for i in part):.2f} mm and {max(turn[i] for i in part):.3f}°")
     wanted = [plan_legs.lengths(p) for p in poses]
     late = [[run[leg][i] - wanted[i][k] for i in rows] for k, leg in enumerate(legs)]
-    fact(f"legs from the plan: at most {1000 * max(max(map(abs, x)) for x in late):.2f} mm; at the end {', '.join(f'{1000 * x[-1]:.3f}' for x in late)} mm")
-    fact(f"legs: {min(min(run[l]) for l in legs):.3f} to {max(max(run[l]) for l in legs):.3f} m, at most {max(max(map(abs, run[f'{l}_rate'])) for l in legs):.2f} m/s")
+    most, last = max(max(map(abs, x)) for x in late), ", ".join(f"{1000 * x[-1]:.3f}" for x in late)
+    fact(f"legs from the plan: at most {1000 * most:.2f} mm; at the end {last} mm")
+    long, rates = [x for leg in legs for x in run[leg]], [abs(x) for leg in legs for x in run[f"{leg}_rate"]]
+    fact(f"legs: {min(long):.3f} to {max(long):.3f} m, at most {max(rates):.2f} m/s")
     pushes = forces(run)
-    flat_ = [x for push in pushes for x in push]
-    fact(f"push of a leg, spring less damper: {min(flat_):.1f} to {max(flat_):.1f} N; at the start {', '.join(f'{p[0]:.1f}' for p in pushes)} N")
+    every, first = [x for push in pushes for x in push], ", ".join(f"{p[0]:.1f}" for p in pushes)
+    fact(f"push of a leg, spring less damper: {min(every):.1f} to {max(every):.1f} N; at the start {first} N")
     carried = plan_legs.carried(run.row(plan_legs.POSE, rows[-1]))
-    seals = [p[-1] - c for p, c in zip(pushes, carried)]
-    fact(f"at rest at the end they differ from the weight's by {', '.join(f'{x:.2f}' for x in seals)} N: the seals, up to 6 N each, hold")
-    lifted = max(run["pz_position"]), min(run["pz_position"]), max(map(abs, run["platform_angle"])), max(run["py_position"])
-    fact(f"height {lifted[1]:.3f} to {lifted[0]:.3f} m, roll up to {degrees(lifted[2]):.2f}°, y up to {lifted[3]:.3f} m")
+    seals = ", ".join(f"{p[-1] - c:.2f}" for p, c in zip(pushes, carried))
+    fact(f"at rest at the end they differ from the weight's by {seals} N: the seals, up to 6 N each, hold")
+    height, roll = run["pz_position"], degrees(max(map(abs, run["platform_angle"])))
+    fact(f"height {min(height):.3f} to {max(height):.3f} m, roll up to {roll:.2f}°, y up to {max(run['py_position']):.3f} m")
 
     page = Canvas(960, 660)
     shots = ((0.0, "middle"), (1.14, "up"), (3.24, "rolled"), (6.1, "far side of the circle"))
@@ -384,15 +391,14 @@ def stewart_platform(bgdyn, folder):
     page.text(20, 355, "dashed: path of the platform's middle", GREY, 12)
     ticks = range(0, 9, 2)
     plot = Plot(page, (50, 425, 300, 600), ticks, range(-150, 201, 50), "Motion of the platform")
-    for words, colour, values in (
-        ("x, mm", BLUE, [1000 * x for x in run["px_position"]]),
-        ("y, mm", GREEN, [1000 * x for x in run["py_position"]]),
-        ("height − 700, mm", BROWN, [1000 * x - 700 for x in run["pz_position"]]),
-        ("roll, tenths of a degree", RED, [10 * degrees(x) for x in run["platform_angle"]]),
+    for words, at, colour, values in (
+        ("x, mm", 50, BLUE, [1000 * x for x in run["px_position"]]),
+        ("y, mm", 95, GREEN, [1000 * x for x in run["py_position"]]),
+        ("height − 700, mm", 140, BROWN, [1000 * x - 700 for x in run["pz_position"]]),
+        ("roll, 0.1°", 240, RED, [10 * degrees(x) for x in run["platform_angle"]]),
     ):
         plot.curve(run.t, values, colour)
-    for k, (words, colour) in enumerate((("x, mm", BLUE), ("y, mm", GREEN), ("height − 700, mm", BROWN), ("roll, 0.1°", RED))):
-        page.text((50, 95, 140, 240)[k], 640, words, colour, 12)
+        page.text(at, 640, words, colour, 12)
     plot = Plot(page, (370, 425, 620, 600), ticks, [0, 0.5, 1, 1.5, 2, 2.5], "Platform from the plan, mm")
     plot.curve(run.t, [1000 * x for x in away], BLUE)
     plot = Plot(page, (690, 425, 930, 600), ticks, range(-80, 121, 40), "Pushes of the legs, N")

@@ -184,7 +184,10 @@ fn scene(spec: &SpecFile) -> CheckedFile {
     let solved = solved.iter().map(|s| format!("solved: {}", words(s)));
     CheckedFile {
         ok: true,
-        lines: std::iter::once(ok).chain(solved).collect(),
+        lines: std::iter::once(ok)
+            .chain(super::loops::lines(&system.scene.mechanism))
+            .chain(solved)
+            .collect(),
         message: spec.render(&faults),
         tally: None,
         model: Some(("scene", scene_model(&system))),
@@ -240,6 +243,7 @@ fn scene_model(system: &SceneEquations) -> Value {
         "inputs": names(&layout.inputs),
         "effects": effects,
         "solved": solved,
+        "closure": super::loops::model(&scene.mechanism),
     })
 }
 

@@ -12,7 +12,8 @@ pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
     let of_loop = |closes: usize| {
         let one = &closure.loops[closes];
         let mut line = format!(
-            "loop {}, {}: rows {}",
+            "{} {}, {}: rows {}",
+            if one.contact.is_some() { "contact" } else { "loop" },
             one.name,
             one.kind.keyword,
             rows(&closure.rows, closes)

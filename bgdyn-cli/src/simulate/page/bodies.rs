@@ -1,6 +1,7 @@
 //! The moving bodies of a mechanism and the points on them, for the page.
 
 use bgdyn_codegen::declaration::Element;
+use bgdyn_codegen::mechanism::closure::{Contact, ContactShape};
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
 use bgdyn_codegen::scene::Scene;
 
@@ -27,6 +28,26 @@ fn own_travel(link: &Link, travel: &[(f64, f64)]) -> (f64, f64) {
         let (a, b) = (ratio.to_f64() * own.0, ratio.to_f64() * own.1);
         (low + a.min(b), high + a.max(b))
     })
+}
+
+/// Corners of the polygon that is drawn as the rim of a wheel.
+const RIM: usize = 24;
+
+/// Returns two unit vectors that are perpendicular to a unit vector and to each other.
+fn across(axle: [f64; 3]) -> [[f64; 3]; 2] {
+    let cross = |a: [f64; 3], b: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            a[j] * b[k] - a[k] * b[j]
+        })
+    };
+    let smallest = (0..3).min_by(|&i, &j| axle[i].abs().total_cmp(&axle[j].abs()));
+    let mut other = [0.0; 3];
+    other[smallest.unwrap_or(0)] = 1.0;
+    let first = cross(axle, other);
+    let length = first.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let first = first.map(|x| x / length);
+    [first, cross(axle, first)]
 }
 
 /// The bodies of a scene, and the poses of its links on them.
@@ -148,10 +169,14 @@ impl Bodies {
         });
     }
 
-    /// Adds the places at which loops close, with beams to them.
+    /// Adds the places at which loops close, with beams to them, and the rims of wheels and balls.
     fn closings(&mut self, mechanism: &Mechanism) {
-        let all = mechanism.closure().into_iter().flat_map(|c| &c.loops);
-        for one in all.filter(|one| one.contact.is_none()) {
+        for one in mechanism.closure().into_iter().flat_map(|c| &c.loops) {
+            if let Some(contact) = &one.contact {
+                let (body, place) = self.carrier(one.links[0]);
+                self.rims(body, &place.then(&Placed::of(&contact.place)), contact);
+                continue;
+            }
             let ends = [&one.chain.start, &one.chain.end];
             let names = [one.name.as_str(), ""];
             for ((link, pose), name) in one.links.iter().zip(ends).zip(names) {
@@ -164,6 +189,28 @@ impl Bodies {
                     from,
                     ..BodyPoint::at(at)
                 });
+            }
+        }
+    }
+
+    /// Adds the rim of a wheel, or three great circles of a ball.
+    fn rims(&mut self, body: usize, centre: &Placed, contact: &Contact) {
+        let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
+        let axles: Vec<[f64; 3]> = match contact.shape {
+            ContactShape::Disc(axle) => vec![axle.map(|x| x.to_f64()).0],
+            ContactShape::Sphere => (0..3).map(unit).collect(),
+            ContactShape::Edge(_) => vec![],
+        };
+        let radius = contact.radius.to_f64();
+        for axle in axles {
+            let across = across(axle);
+            let corner = |k: usize| {
+                let (sin, cos) = (k as f64 * std::f64::consts::TAU / RIM as f64).sin_cos();
+                let along = |i: usize| radius * (cos * across[0][i] + sin * across[1][i]);
+                centre.point(std::array::from_fn(along))
+            };
+            for k in 0..RIM {
+                self.all[body].beam(corner(k), corner(k + 1));
             }
         }
     }

@@ -62,14 +62,19 @@ impl Closure {
         let is_given = |j: &usize| self.positions[*j].is_some_and(|p| given.contains(&p.0));
         let independent = |j: &usize| !closers.contains(j);
         let freedoms = moving.len() + closers_of_several.len() - rows.len();
-        // Given positions are kept, independent ones first, as many as the loops leave free. Those of joints with
-        // several velocities change along the velocities by which wheels touch, and not otherwise.
+        // Given positions are kept, independent ones first, as many as the loops leave free; the other independent
+        // ones too, unless dependent ones are given. Those of joints with several velocities change along the
+        // velocities by which wheels touch, and not otherwise.
         let (first, second): (Vec<usize>, Vec<usize>) = moving
             .iter()
             .copied()
             .filter(|j| is_given(j))
             .partition(|j| independent(j));
-        let kept: Vec<usize> = first.into_iter().chain(second).take(freedoms).collect();
+        let others = moving.iter().copied();
+        let others = others.filter(|j| second.is_empty() && !is_given(j) && independent(j));
+        let others: Vec<usize> = others.collect();
+        let kept = first.into_iter().chain(second).chain(others);
+        let kept: Vec<usize> = kept.take(freedoms).collect();
         let free: Vec<usize> = moving
             .iter()
             .copied()
