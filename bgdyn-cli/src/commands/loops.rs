@@ -13,7 +13,11 @@ pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
         let one = &closure.loops[closes];
         let mut line = format!(
             "{} {}, {}: rows {}",
-            if one.contact.is_some() { "contact" } else { "loop" },
+            if one.contact.is_some() {
+                "contact"
+            } else {
+                "loop"
+            },
             one.name,
             one.kind.keyword,
             rows(&closure.rows, closes)
