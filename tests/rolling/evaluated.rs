@@ -1,6 +1,5 @@
 //! Compiled code computes what the evaluator computes from the expressions.
 
-use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;
 use bgdyn_codegen::bond_graph::build;
 use bgdyn_codegen::expr::Inputs;

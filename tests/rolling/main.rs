@@ -3,8 +3,11 @@
 mod evaluated;
 mod laws;
 mod motions;
+mod touching;
 
 bgdyn::bgdyn!("../../specs/constraints/chaplygin_sleigh.yaml");
 bgdyn::bgdyn!("../../specs/constraints/differential_drive.yaml");
 bgdyn::bgdyn!("../../specs/constraints/snakeboard.yaml");
+bgdyn::bgdyn!("../../specs/constraints/rolling_disc.yaml");
+bgdyn::bgdyn!("../../specs/constraints/whipple_bicycle.yaml");
 bgdyn::bgdyn!("robot.yaml");

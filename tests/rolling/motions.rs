@@ -11,13 +11,13 @@ use crate::robot::Robot;
 use crate::snakeboard::Snakeboard;
 
 /// The samples of a reference, with their columns.
-struct Reference {
+pub struct Reference {
     columns: Vec<String>,
-    samples: Vec<Vec<f64>>,
+    pub samples: Vec<Vec<f64>>,
 }
 
 impl Reference {
-    fn read(name: &str) -> Self {
+    pub fn read(name: &str) -> Self {
         let folder = "tests/golden/velocity_constraints";
         let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), folder, name].iter().collect();
         let text = std::fs::read_to_string(path).expect("a reference");
@@ -33,17 +33,17 @@ impl Reference {
         }
     }
 
-    fn at(&self, sample: usize, column: &str) -> f64 {
+    pub fn at(&self, sample: usize, column: &str) -> f64 {
         let k = self.columns.iter().position(|c| c == column);
         self.samples[sample][k.expect("a column")]
     }
 }
 
 /// Positions and velocities.
-type State<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>);
+pub type State<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>);
 
 /// One step of the classical Runge–Kutta method for (q, v), with q̇ of `position_rates`.
-fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
+pub fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     model: &M,
     (q, v): State<NQ, NV>,
     (t, h): (f64, f64),
@@ -69,7 +69,7 @@ fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
 
 /// Returns the largest error of positions and velocities at all samples, and asserts fourth order: twice the steps
 /// have a sixteenth of the error.
-fn errors<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
+pub fn errors<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     model: &M,
     reference: &Reference,
     state: impl Fn(usize) -> State<NQ, NV>,

@@ -31,6 +31,10 @@ pub trait ContactNumbers<E>: PoseNumbers<E> {
     fn inverse(&self, x: E) -> E;
     /// Returns the square root.
     fn root(&self, x: E) -> E;
+    /// Returns the cosine of a wheel's lean; a wheel that lies flat may be refused.
+    fn leaning(&self, cosine: E) -> E {
+        cosine
+    }
 }
 
 impl ContactNumbers<Dd> for DoubleDouble {
@@ -259,13 +263,13 @@ impl Contact {
         let (upward, cosine, sine) = match (self.shape, self.upward) {
             (ContactShape::Disc(_), Some(upward)) => {
                 let upward = upward.map(constant);
-                let cosine = upward.dot(normal);
+                let cosine = numbers.leaning(upward.dot(normal));
                 (upward, [cosine, numbers.inverse(cosine)], axle.dot(normal))
             }
             (ContactShape::Disc(_), None) => {
                 let sine = axle.dot(normal);
                 let across = normal - axle.scale(sine);
-                let cosine = numbers.root(across.dot(across));
+                let cosine = numbers.leaning(numbers.root(across.dot(across)));
                 let inverse = numbers.inverse(cosine);
                 (across.scale(inverse), [cosine, inverse], sine)
             }

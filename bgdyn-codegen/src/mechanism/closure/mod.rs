@@ -128,9 +128,13 @@ pub struct Closure {
     /// With rows on velocities: the rows that are solved, as sums of [`Closure::rows`] with these constant factors;
     /// otherwise empty.
     pub combined: Vec<Vec<Dd>>,
-    /// For each row that is solved and each velocity of the open tree whether its rate is zero at every position; empty
-    /// like [`Closure::combined`].
-    pub zeros: Vec<Vec<bool>>,
+    /// For each row that is solved and each velocity of the open tree its rate, if it is the same at every position;
+    /// empty like [`Closure::combined`].
+    pub constants: Vec<Vec<Option<Dd>>>,
+    /// Whether rows of contacts are solved along their planes, not in axes of wheels.
+    pub of_plane: bool,
+    /// The same with the rows of contacts along their planes, where wheels lean: an alternative.
+    pub along_planes: Option<Box<Closure>>,
     /// A closed position.
     pub start: Vec<Dd>,
     /// Closed positions at random, on the branch of the start.

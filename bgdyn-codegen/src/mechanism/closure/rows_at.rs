@@ -58,7 +58,7 @@ impl Closure {
         let place = chain.place(&frames, point, numbers);
         let contact = one.contact.as_ref().map(|contact| {
             let kept = |row| self.has(closes, RowKind::Contact(row));
-            let solved = match axes.of_plane {
+            let solved = match axes.of_plane || self.of_plane {
                 true => ContactAxes::Plane,
                 false => contact.solved_in(kept),
             };

@@ -21,6 +21,8 @@ mod planes;
 mod read;
 mod structure;
 
+pub use planes::PLANE_KEYS;
+
 use super::constraint::ContactEntry;
 use super::direction::Directions;
 use crate::fault::Faults;
@@ -71,8 +73,27 @@ pub(super) fn close(
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
     closure.samples = assembly::sample(&closure);
+    closure.along_planes = along_planes(&closure, (spec, mechanism)).map(Box::new);
     mechanism.close(closure);
     Some(())
+}
+
+/// Returns the loops and contacts with the rows of contacts along their planes, and the same independent velocities;
+/// `None` where no wheel leans.
+fn along_planes(closure: &Closure, (spec, mechanism): (&Spec, &Mechanism)) -> Option<Closure> {
+    let mut other = closure.clone();
+    other.of_plane = true;
+    combine::combine(&mut other);
+    let q = closure.samples.first()?;
+    if !closure.nonholonomic() || other.solved_rates(q) == closure.solved_rates(q) {
+        return None;
+    }
+    let kept = closure.independents.clone();
+    let context = (spec, mechanism, &kept[..]);
+    independents::choose(&mut other, context, &mut Faults::default())?;
+    blocks::arrange(&mut other);
+    other.signs = other.signs_at(&other.start);
+    Some(other)
 }
 
 /// Returns the loops with all their rows, without a solution.
@@ -102,7 +123,9 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
         compounds,
         closers: Vec::new(),
         combined: Vec::new(),
-        zeros: Vec::new(),
+        constants: Vec::new(),
+        of_plane: false,
+        along_planes: None,
         start: neutral(mechanism),
         samples: Vec::new(),
         signs: Vec::new(),
