@@ -54,7 +54,7 @@ fn wheels_touch_after_closing() {
         let closed = disc.close(&q).expect("within reach");
         let open = disc.constraint_residual(&closed).amax();
         assert!(open <= 4.0 * f64::EPSILON, "{open:e}");
-        // Along the disc's own z axis.
+        // Straight up.
         let turned = (closed - q).fixed_rows::<4>(3).amax();
         assert!(turned <= f64::EPSILON, "{turned:e}");
     }
@@ -69,14 +69,13 @@ fn a_disc_that_lies_flat_is_an_error() {
     let model = RollingDisc::<f64>::default();
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let q = vector![0.0, 0.0, 0.1, half, 0.0, 0.0, half];
-    let error = model.close(&q).expect_err("flat");
-    assert_eq!((error.name(), error.cause()), ("rim", Cause::Loop));
     let still = vector![0.0, 0.0, 0.0];
-    assert!(
-        model
-            .forward_dynamics(&q, &vector![1.0, 2.0, 3.0], &still)
-            .is_err()
-    );
+    let error = model.forward_dynamics(&q, &vector![1.0, 2.0, 3.0], &still);
+    let error = error.expect_err("flat");
+    assert_eq!((error.name(), error.cause()), ("rim", Cause::Loop));
+    let nowhere = model.neutral() * f64::NAN;
+    let error = model.close(&nowhere).expect_err("not a number");
+    assert_eq!((error.name(), error.cause()), ("rim", Cause::Loop));
 }
 
 /// The disc on its steady circle, 10 s. The axle is the direction that the reference has.

@@ -297,16 +297,15 @@ impl ContactRow {
         self != ContactRow::Height
     }
 
-    /// Returns the height above the plane less that of contact, m; zero for rows on velocities.
+    /// Returns the height above the plane less that of contact, m; zero for rows on velocities. `height` is that of
+    /// the centre.
     pub(super) fn residual<E: Ring + Mul<Dd, Output = E>>(
         self,
-        place: &RelativePlace<E>,
+        height: E,
         frame: &ContactFrame<E>,
     ) -> E {
         match self {
-            ContactRow::Height => {
-                -frame.normal.dot(place.position) - frame.radius * frame.cosine[0]
-            }
+            ContactRow::Height => height - frame.radius * frame.cosine[0],
             _ => frame.zero,
         }
     }

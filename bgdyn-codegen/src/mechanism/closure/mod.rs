@@ -122,8 +122,8 @@ pub struct Closure {
     pub positions: Vec<Option<PositionId>>,
     /// The joints of several degrees of freedom that contacts contain.
     pub compounds: Vec<Joint>,
-    /// The dependent velocities along which positions close, as many as there are rows with positions, if there are
-    /// rows without; otherwise all dependent ones do.
+    /// The dependent velocities along which positions close, by the shortest step, if there are rows without positions;
+    /// otherwise all dependent ones do.
     pub closers: Vec<CoordinateId>,
     /// With rows on velocities: the rows that are solved, as sums of [`Closure::rows`] with these constant factors;
     /// otherwise empty.

@@ -92,6 +92,13 @@ impl Closure {
             if largest(&residuals) <= CLOSED {
                 return true;
             }
+            if dependents.len() > rows.len() {
+                let Some(step) = least_step(&jacobian, &residuals, &dependents, 0.0) else {
+                    return false;
+                };
+                self.move_by(q, &step);
+                continue;
+            }
             let square = jacobian
                 .iter()
                 .map(|row| dependents.iter().map(|&j| row[j]).collect());
