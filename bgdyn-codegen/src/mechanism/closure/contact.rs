@@ -19,7 +19,6 @@ use std::ops::Mul;
 
 use bgdyn_runtime::Dd;
 
-use super::ClosingType;
 use super::chain::{RelativePlace, RelativeRates};
 use crate::math::{Ring, Vec3};
 use crate::mechanism::joint::{Column, DoubleDouble, PoseNumbers};
@@ -76,7 +75,7 @@ pub enum ContactShape {
 /// A wheel, a ball or a knife edge. Place a is at its centre, on the link that carries its axle; place b is the plane,
 /// with z along its normal.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Contact {
+pub struct PlaneContact {
     /// What touches.
     pub shape: ContactShape,
     /// Its place on its own link, with the axes of place a where the angle of the axle is zero.
@@ -119,36 +118,6 @@ pub const SPHERE_ROWS: [(&str, ContactRow); 3] = [
     ("height", ContactRow::Height),
 ];
 
-/// The knife edge.
-pub static KNIFE_EDGE: ClosingType = ClosingType {
-    keyword: "knife_edge",
-    about: "The place does not move along one of its directions.",
-    rows: &[],
-    axial: false,
-    length: false,
-    coincident: false,
-};
-
-/// The disc.
-pub static DISC: ClosingType = ClosingType {
-    keyword: "rolling",
-    about: "A thin wheel rolls on a plane without slipping.",
-    rows: &[],
-    axial: true,
-    length: false,
-    coincident: false,
-};
-
-/// The sphere.
-pub static SPHERE: ClosingType = ClosingType {
-    keyword: "rolling",
-    about: "A ball rolls on a plane without slipping.",
-    rows: &[],
-    axial: false,
-    length: false,
-    coincident: false,
-};
-
 /// The directions of a contact at one position, in the axes of place a.
 pub struct ContactFrame<E> {
     /// n of a wheel, the direction of a knife edge; z of a ball.
@@ -173,7 +142,7 @@ pub struct ContactFrame<E> {
     ball: bool,
 }
 
-impl Contact {
+impl PlaneContact {
     /// Returns the twist of the wheel relative to the plane per unit velocity, from that of the plane relative to
     /// place a.
     pub(super) fn columns<E: Ring + Mul<Dd, Output = E>>(
@@ -263,7 +232,7 @@ impl Contact {
         let (upward, cosine, sine) = match (self.shape, self.upward) {
             (ContactShape::Disc(_), Some(upward)) => {
                 let upward = upward.map(constant);
-                let cosine = numbers.leaning(upward.dot(normal));
+                let cosine = upward.dot(normal);
                 (upward, [cosine, numbers.inverse(cosine)], axle.dot(normal))
             }
             (ContactShape::Disc(_), None) => {

@@ -13,7 +13,7 @@
 //! |---|---|
 //! | `chain.rs` | the joints of a loop in series, and the motion from place to place |
 //! | `row.rs` | rows of loops: value, rate, second derivative |
-//! | `contact.rs` | rows of wheels, balls and knife edges |
+//! | `contact.rs`, `contact_types.rs` | rows of wheels, balls and knife edges; their words |
 //! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
@@ -22,6 +22,7 @@
 mod chain;
 mod closing;
 mod contact;
+mod contact_types;
 mod numeric;
 mod row;
 mod rows_at;
@@ -29,15 +30,16 @@ mod solve;
 
 use bgdyn_runtime::Dd;
 
-use super::{CoordinateId, Joint, LinkId, PositionId};
+use super::{CoordinateId, LinkId, PositionId};
 use crate::fault::Location;
 use crate::math::Vec3;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates, TwistPoint};
 pub use closing::{CLOSING_TYPES, ClosingType};
 pub use contact::{
-    Contact, ContactAxes, ContactNumbers, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS,
-    KNIFE_EDGE, SPHERE, SPHERE_ROWS,
+    ContactAxes, ContactNumbers, ContactRow, ContactShape, DISC_ROWS, EDGE_ROWS, PlaneContact,
+    SPHERE_ROWS,
 };
+pub use contact_types::{DISC, KNIFE_EDGE, SPHERE};
 pub use row::{ClosingRow, RowKind};
 pub use rows_at::{RowAxes, RowsAt};
 pub(crate) use solve::{eliminate, solve};
@@ -60,7 +62,7 @@ pub struct KinematicLoop {
     /// Whether the same rows hold in the axes of place b: those of the chain from b to a.
     pub reversible: bool,
     /// What touches at place a, if it is no loop but a contact.
-    pub contact: Option<Contact>,
+    pub contact: Option<PlaneContact>,
     /// The location of its entry in the file.
     pub location: Location,
 }
@@ -121,7 +123,7 @@ pub struct Closure {
     /// those of [`Closure::compounds`].
     pub positions: Vec<Option<PositionId>>,
     /// The joints of several degrees of freedom that contacts contain.
-    pub compounds: Vec<Joint>,
+    pub compounds: Vec<ChainStep>,
     /// The dependent velocities along which positions close, by the shortest step, if there are rows without positions;
     /// otherwise all dependent ones do.
     pub closers: Vec<CoordinateId>,

@@ -5,8 +5,8 @@ use bgdyn_runtime::Dd;
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
 use crate::math::Vec3;
-use crate::mechanism::closure::{Closure, ClosureBlock, eliminate};
-use crate::mechanism::{CoordinateId, Joint, Mechanism};
+use crate::mechanism::closure::{ChainStep, Closure, ClosureBlock, eliminate};
+use crate::mechanism::{CoordinateId, Mechanism};
 
 /// Smallest ratios of pivots of the dependent columns, at all sampled positions, that are tried: the first one that
 /// a choice meets counts.
@@ -129,11 +129,8 @@ fn choose_closers(closure: &mut Closure, dependents: &[usize]) {
 }
 
 /// Returns the velocities of a joint along, not about, an axis.
-fn displacements(joint: &Joint) -> Vec<usize> {
-    let columns = joint
-        .degrees
-        .columns(joint.kind.motion, joint.axis)
-        .into_iter();
+fn displacements(joint: &ChainStep) -> Vec<usize> {
+    let columns = joint.degrees.columns(joint.motion, joint.axis).into_iter();
     let still = |v: Vec3<Dd>| v.0.iter().all(|&x| x == Dd::ZERO);
     let along = columns.filter(|(_, column)| still(column.angular));
     along.map(|(j, _)| j.0).collect()

@@ -27,8 +27,8 @@ use super::constraint::ContactEntry;
 use super::direction::Directions;
 use crate::fault::Faults;
 use crate::format::Spec;
-use crate::mechanism::closure::{Closure, KinematicLoop};
-use crate::mechanism::{CoordinateId, Joint, Mechanism, Motion, PositionId};
+use crate::mechanism::closure::{ChainStep, Closure, KinematicLoop};
+use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, PositionId};
 
 /// Closes the loops of a numbered open tree. `None` if a rule is broken.
 pub(super) fn close(
@@ -105,13 +105,14 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
     });
     let rows = rows.collect();
     let mut positions: Vec<Option<PositionId>> = vec![None; mechanism.nv()];
-    let mut compounds: Vec<Joint> = Vec::new();
+    let mut compounds: Vec<ChainStep> = Vec::new();
     for CoordinateId(j) in loops.iter().flat_map(KinematicLoop::velocities) {
         let joint = mechanism.joint(CoordinateId(j));
         if joint.kind.motion.nv() == 1 {
             positions[j] = joint.degrees.positions.first().copied();
-        } else if compounds.iter().all(|known| known.name != joint.name) {
-            compounds.push(joint.clone());
+        } else if compounds.iter().all(|known| known.degrees != joint.degrees) {
+            let LinkId(link) = mechanism.coordinates()[j];
+            compounds.push(read::step(mechanism, LinkId(link), true));
         }
     }
     Closure {
