@@ -46,10 +46,10 @@ impl Reference {
 }
 
 /// Positions and velocities.
-type State<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>);
+pub type State<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>);
 
 /// One step of the classical Runge–Kutta method for (q, v), with q̇ of `position_rates`.
-fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
+pub fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     model: &M,
     (q, v): State<NQ, NV>,
     (t, h): (f64, f64),
@@ -75,7 +75,7 @@ fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
 
 /// Returns the largest error of positions and velocities at all samples, and asserts fourth order: twice the steps
 /// have a sixteenth of the error.
-fn errors<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
+pub fn errors<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     model: &M,
     reference: &Reference,
     state: impl Fn(usize) -> State<NQ, NV>,

@@ -1,4 +1,4 @@
-//! What `bgdyn check` reports of a mechanism's loops.
+//! What `bgdyn check` reports of a mechanism's loops, wheels and knife edges.
 
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::mechanism::closure::{Closure, LoopRow};
@@ -11,13 +11,12 @@ pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
     };
     let of_loop = |closes: usize| {
         let one = &closure.loops[closes];
+        let word = match one.contact {
+            Some(_) => "constraint",
+            None => "loop",
+        };
         let mut line = format!(
-            "{} {}, {}: rows {}",
-            if one.contact.is_some() {
-                "contact"
-            } else {
-                "loop"
-            },
+            "{word} {}, {}: rows {}",
             one.name,
             one.kind.keyword,
             rows(&closure.rows, closes)

@@ -2,8 +2,8 @@
 
 use bgdyn_codegen::format::{Dimension, Key, LENGTHS, LIMIT_PARTS};
 use bgdyn_codegen::mechanism::closure::CLOSING_TYPES;
-use bgdyn_codegen::mechanism::constraint_types;
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
+use bgdyn_codegen::mechanism::{PLANE_KEYS, constraint_types};
 use serde_json::{Value, json};
 
 use super::effects::{effects, reads};
@@ -58,6 +58,15 @@ pub fn mechanism() -> Value {
                 }),
             ),
             (
+                "planes",
+                json!({
+                    "type": "object",
+                    "description": "planes that wheels and balls touch, by name; without one the world's x–y plane",
+                    "propertyNames": identifier(),
+                    "additionalProperties": { "$ref": "#/$defs/plane" },
+                }),
+            ),
+            (
                 "loops",
                 json!({
                     "type": "array",
@@ -95,6 +104,7 @@ pub fn mechanism() -> Value {
             "frame": frame(),
             "effect": effects(),
             "constraint": constraints(),
+            "plane": plane(),
             "loop": closing(),
             "place": place(),
         }),
@@ -249,6 +259,15 @@ fn constraints() -> Value {
         object(&own.chain([word]).collect::<Vec<_>>(), &needed)
     };
     json!({ "oneOf": constraint_types().map(one).collect::<Vec<_>>() })
+}
+
+/// Returns an entry of `planes`.
+fn plane() -> Value {
+    let keys = PLANE_KEYS.iter();
+    let keys: Vec<_> = keys
+        .map(|key| (key.name, described(key.about, reads(key.reads))))
+        .collect();
+    object(&keys, &[])
 }
 
 /// Returns an entry of `loops`.

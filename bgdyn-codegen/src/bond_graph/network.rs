@@ -273,10 +273,8 @@ impl BondNetwork {
     /// Adds the flows of loops: the velocity of place b relative to place a, with a flow source 0.
     pub fn close(&mut self, closure: &Closure) {
         for (closes, one) in closure.loops.iter().enumerate() {
-            let steps = one.chain.steps.iter();
-            let coordinates = steps.flat_map(|step| step.degrees.velocities.iter().copied());
             let place = PortSite::Loop(one.name.clone());
-            let junction = self.add_port(place, coordinates.collect());
+            let junction = self.add_port(place, one.velocities().collect());
             let of_loop = |rows: &[LoopRow]| {
                 let own = rows.iter().filter(|row| row.closes == closes);
                 own.map(|row| row.name).collect::<Vec<_>>().join(", ")

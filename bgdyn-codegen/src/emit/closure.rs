@@ -1,16 +1,14 @@
 //! Emits what only mechanisms with loops have: names of the open tree and of the rows, the function that closes
 //! positions, and the functions of positions of the trait `Dynamics`.
 
-use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::closed_positions::{dependent, start};
 use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
 use super::joint_segments::{JointSegment, joint_by_joint, segments};
-use super::tokens::number;
 use crate::bond_graph::{ClosedTree, Multibody};
-use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::LoopRow;
 use crate::method::Method;
 
@@ -85,19 +83,6 @@ pub(super) fn closure_access(
     (constants, quote! { #close })
 }
 
-/// Returns a dependent joint with its position and its loop.
-pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
-    let closure = &closed.closure;
-    let mut compounds = closure.compounds.iter();
-    let own = compounds.find(|joint| joint.degrees.velocities.contains(&j));
-    let first = own.and_then(|joint| joint.degrees.positions.first());
-    let position = closure.positions[j.0].as_ref().or(first).map_or(0, |p| p.0);
-    let [velocity, position, closes] = [j.0, position, closure.loop_of(j)].map(size);
-    quote! {
-        __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }
-    }
-}
-
 /// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint; the arguments are
 /// those of [`joint_by_joint`].
 pub(super) fn position_body(
@@ -142,23 +127,6 @@ pub(super) fn position_body(
         "difference" => joint_by_joint(joints, name, arguments, false),
         _ => joint_by_joint(joints, name, arguments, true),
     }
-}
-
-/// Returns the closed position of the start.
-pub(super) fn start(closed: &ClosedTree) -> TokenStream {
-    let part = |x: &Dd| {
-        let [hi, lo] = [x.hi(), x.lo()].map(|part| {
-            let size = number(part.abs());
-            if part < 0.0 {
-                quote! { -#size }
-            } else {
-                quote! { #size }
-            }
-        });
-        quote! { T::from_parts(#hi, #lo) }
-    };
-    let parts = closed.closure.start.iter().map(part);
-    quote! { __rt::vector([#(#parts),*]) }
 }
 
 /// Returns the lines of documentation about the loops: which rows hold at every position, which joints follow.

@@ -5,7 +5,7 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::closure::{dependent, start};
+use super::closed_positions::{dependent, start};
 use super::constants::size;
 use super::joint_segments::{joint_by_joint, segments};
 use crate::bond_graph::{ClosedTree, Multibody};

@@ -2,6 +2,7 @@
 
 mod base_access;
 mod body;
+mod closed_positions;
 mod closure;
 mod code;
 mod columns;

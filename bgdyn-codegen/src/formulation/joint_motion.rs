@@ -5,7 +5,6 @@ use bgdyn_runtime::Dd;
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed};
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::closure::ContactNumbers;
 use crate::mechanism::joint::PoseNumbers;
 use crate::mechanism::{CoordinateId, Motion};
 
@@ -20,16 +19,6 @@ impl<'g> PoseNumbers<Expr<'g>> for &'g Builder {
 
     fn twice_inverse(&self, squares: Expr<'g>) -> Expr<'g> {
         Builder::constant(self, Dd::from_f64(2.0)) / squares
-    }
-}
-
-impl<'g> ContactNumbers<Expr<'g>> for &'g Builder {
-    fn inverse(&self, x: Expr<'g>) -> Expr<'g> {
-        Builder::constant(self, Dd::ONE) / x
-    }
-
-    fn root(&self, x: Expr<'g>) -> Expr<'g> {
-        x.sqrt()
     }
 }
 

@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr};
-use crate::mechanism::closure::{Closure, LoopRow, RowAxes, RowsAt};
+use crate::mechanism::closure::{Closure, ContactNumbers, LoopRow, RowAxes, RowsAt};
+use crate::mechanism::joint::PoseNumbers;
 
 /// The way in which the rows of the loops are written and solved.
 #[derive(Clone, Copy, Debug, Default)]
@@ -14,6 +15,10 @@ pub(super) struct LoopForm {
     pub(super) by_vectors: bool,
     /// Those of contacts along their planes and the normals: the directions of the multipliers.
     pub(super) of_plane: bool,
+    /// Those of [`Closure::along_planes`].
+    pub(super) along_planes: bool,
+    /// With checks of pivots: the index of the first loop's.
+    pub(super) first_pivot: Option<usize>,
 }
 
 impl LoopForm {
@@ -31,6 +36,58 @@ impl LoopForm {
     }
 }
 
+/// Expressions as the numbers of a loop's rows; the cosine of a wheel's lean is a checked pivot of this index.
+struct RowNumbers<'g> {
+    b: &'g Builder,
+    pivot: Option<usize>,
+}
+
+impl<'g> PoseNumbers<Expr<'g>> for RowNumbers<'g> {
+    fn constant(&self, x: Dd) -> Expr<'g> {
+        self.b.constant(x)
+    }
+
+    fn cos_sin(&self, angle: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
+        PoseNumbers::cos_sin(&self.b, angle)
+    }
+
+    fn twice_inverse(&self, squares: Expr<'g>) -> Expr<'g> {
+        self.b.twice_inverse(squares)
+    }
+}
+
+impl<'g> ContactNumbers<Expr<'g>> for RowNumbers<'g> {
+    fn inverse(&self, x: Expr<'g>) -> Expr<'g> {
+        self.b.constant(Dd::ONE) / x
+    }
+
+    fn root(&self, x: Expr<'g>) -> Expr<'g> {
+        x.sqrt()
+    }
+
+    fn leaning(&self, cosine: Expr<'g>) -> Expr<'g> {
+        match self.pivot {
+            Some(index) if cosine.as_constant().is_none() => {
+                cosine.pivot(self.b.constant(Dd::ONE), index)
+            }
+            _ => cosine,
+        }
+    }
+}
+
+/// Returns the rows of a loop at a position.
+fn rows_of<'a, 'g>(
+    b: &'g Builder,
+    (closure, closes): (&'a Closure, usize),
+    q: &[Expr<'g>],
+    form: LoopForm,
+) -> (RowsAt<'a, Expr<'g>>, RowNumbers<'g>) {
+    let pivot = form.first_pivot.map(|first| first + closes);
+    let numbers = RowNumbers { b, pivot };
+    let at = closure.rows_at(closes, form.axes(), (q, &numbers));
+    (at, numbers)
+}
+
 /// The rows of the loops: rates per unit velocity of the open tree, and −γ.
 pub(super) struct LoopRows<'g> {
     /// For each row of the closure, the rate for a unit of each velocity of the tree.
@@ -44,7 +101,7 @@ pub(super) fn loop_rows<'g>(
     q: &[Expr<'g>],
     form: LoopForm,
 ) -> LoopRows<'g> {
-    let at = |closes: usize| closure.rows_at(closes, form.axes(), (q, &b));
+    let at = |closes: usize| rows_of(b, (closure, closes), q, form).0;
     let loops: Vec<RowsAt<'_, Expr<'g>>> = (0..closure.loops.len()).map(at).collect();
     let rates = closure.rows.iter().map(|row| {
         let mut rates = vec![b.zero(); closure.positions.len()];
@@ -68,9 +125,9 @@ fn combined<'g>(
     closure: &Closure,
     rates: &Vec<Vec<Expr<'g>>>,
 ) -> Vec<Vec<Expr<'g>>> {
-    let entry = |(r, j): (usize, usize)| match closure.zeros[r][j] {
-        true => b.zero(),
-        false => sum(b, &closure.combined[r], rates.iter().map(|row| row[j])),
+    let entry = |(r, j): (usize, usize)| match closure.constants[r][j] {
+        Some(constant) => b.constant(constant),
+        None => sum(b, &closure.combined[r], rates.iter().map(|row| row[j])),
     };
     let all = 0..closure.positions.len();
     let row = |r: usize| all.clone().map(|j| entry((r, j))).collect();
@@ -90,8 +147,8 @@ pub(super) fn loop_residuals<'g>(
     q: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
     let row = |row: &LoopRow| {
-        let at = closure.rows_at(row.closes, LoopForm::default().axes(), (q, &b));
-        at.residual(row.kind, &b)
+        let (at, numbers) = rows_of(b, (closure, row.closes), q, LoopForm::default());
+        at.residual(row.kind, &numbers)
     };
     closure.rows.iter().map(row).collect()
 }
@@ -104,8 +161,8 @@ pub(super) fn loop_bias<'g>(
     form: LoopForm,
 ) -> Vec<Expr<'g>> {
     let row = |row: &LoopRow| {
-        let at = closure.rows_at(row.closes, form.axes(), (q, &b));
-        at.bias(row.kind, v, &b)
+        let (at, numbers) = rows_of(b, (closure, row.closes), q, form);
+        at.bias(row.kind, v, &numbers)
     };
     let all: Vec<Expr<'g>> = closure.rows.iter().map(row).collect();
     if !form.combines(closure) {

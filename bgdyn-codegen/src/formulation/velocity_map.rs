@@ -25,6 +25,8 @@ pub(crate) fn velocity_map<'g>(
         reversed,
         by_vectors: false,
         of_plane: false,
+        along_planes: false,
+        first_pivot: first,
     };
     let rows = loop_rows(b, closure, q, form);
     VelocityMap::new(b, closure, (rows, form), first).map
@@ -191,15 +193,33 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
         self.solve(&[], Some(&opposite))
     }
 
+    /// Returns the shortest solution of J x = c: Jᵀ (J Jᵀ)⁻¹ c if J has more columns than rows.
+    fn shortest(&self, matrix: Vec<Vec<Expr<'g>>>, side: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        let (b, samples) = (self.b, &self.closure.samples);
+        let columns = matrix.first().map_or(0, Vec::len);
+        if columns == matrix.len() {
+            return EliminatedMatrix::new(b, matrix, samples, None).solve(side);
+        }
+        let dot = |x: &[Expr<'g>], y: &[Expr<'g>]| {
+            let terms = x.iter().zip(y);
+            terms.fold(b.zero(), |sum, (x, y)| sum + *x * *y)
+        };
+        let row = |x: &Vec<Expr<'g>>| matrix.iter().map(|y| dot(x, y)).collect();
+        let normal = matrix.iter().map(row).collect();
+        let found = EliminatedMatrix::new(b, normal, samples, None).solve(side);
+        let column = |k: usize| matrix.iter().map(|row| row[k]).collect::<Vec<_>>();
+        (0..columns).map(|k| dot(&column(k), &found)).collect()
+    }
+
     fn steps_of_positions(&self, residuals: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let closure = self.closure;
         let closers: Vec<CoordinateId> = closure.closing().collect();
         let rows = (0..closure.rows.len()).filter(|&r| closure.rows[r].kind.has_positions());
         let rows: Vec<usize> = rows.collect();
         let row = |&r: &usize| closers.iter().map(|j| self.rows.rates[r][j.0]).collect();
-        let matrix = rows.iter().map(row).collect();
-        let elimination = EliminatedMatrix::new(self.b, matrix, &closure.samples, None);
-        let found = elimination.solve(rows.iter().map(|&r| residuals[r]).collect());
+        let matrix: Vec<Vec<Expr<'g>>> = rows.iter().map(row).collect();
+        let side = rows.iter().map(|&r| residuals[r]).collect();
+        let found = self.shortest(matrix, side);
         let mut all = vec![self.b.zero(); closure.positions.len()];
         for (j, x) in closers.iter().zip(found) {
             all[j.0] = x;

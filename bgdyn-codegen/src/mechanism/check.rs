@@ -25,6 +25,7 @@ pub use constraint::constraint_types;
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use joint::CheckedJoints;
+pub use loops::PLANE_KEYS;
 use order::LinkTree;
 use parameters::Parameters;
 

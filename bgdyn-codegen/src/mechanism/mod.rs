@@ -27,7 +27,7 @@ use crate::math::{Mat3, Vec3};
 pub use base_motion::{BASE_PARAMETERS, BaseMotion, base_parameter_names};
 pub(crate) use check::check;
 pub(crate) use check::check_tensor;
-pub use check::constraint_types;
+pub use check::{PLANE_KEYS, constraint_types};
 use closure::Closure;
 pub use degrees::{Coupling, Degrees, Leader};
 pub use dependents::DependentVelocity;

@@ -7,14 +7,38 @@ use super::files::{file, spec};
 use super::robot::Robot;
 
 /// Specs, with their names on the page.
-const MECHANISMS: [(&str, &str); 3] = [
+const MECHANISMS: [(&str, &str); 5] = [
     ("chaplygin_sleigh", "Chaplygin sleigh"),
     (
         "differential_drive",
         "differential drive, wheels independent",
     ),
     ("snakeboard", "snakeboard, speed ahead independent"),
+    ("rolling_disc", "disc, a floating body"),
+    ("whipple_bicycle", "bicycle, two rolling wheels"),
 ];
+
+/// The disc in yaw, lean and spin.
+const ANGLES: &str = "format: 1
+name: disc
+links:
+  - name: heading
+    joint: { name: ground, type: planar }
+  - name: rise
+    parent: heading
+    joint: { name: height, type: prismatic, axis: z }
+  - name: tilt
+    parent: rise
+    joint: { name: lean, type: continuous, axis: x }
+  - name: coin
+    parent: tilt
+    joint: { name: spin, type: continuous, axis: y }
+    mass: 1
+    inertia: { xx: 0.0625, yy: 0.125, zz: 0.0625 }
+constraints:
+  rim: { type: rolling, link: coin, axis: y, radius: 500 mm }
+independent: [ground_turn, lean, spin]
+";
 
 #[test]
 fn the_page_has_the_counts() {
@@ -24,12 +48,25 @@ fn the_page_has_the_counts() {
         Method::MassMatrix,
         Method::ForwardDynamics,
     ];
-    let words = |o: Operations| match o.div {
-        0 => format!("{} / {}", o.mul, o.add),
-        _ => format!("{} / {} + {}÷", o.mul, o.add, o.div),
+    let words = |o: Operations| {
+        let more = |n: usize, sign: &str| match n {
+            0 => String::new(),
+            _ => format!(" + {n}{sign}"),
+        };
+        format!(
+            "{} / {}{}{}",
+            o.mul,
+            o.add,
+            more(o.div, "÷"),
+            more(o.sqrt, "√")
+        )
     };
-    for (name, title) in MECHANISMS {
-        let robot = Robot::read(&spec(name));
+    let specs = MECHANISMS.map(|(name, title)| (spec(name), title));
+    for (text, title) in specs
+        .into_iter()
+        .chain([(ANGLES.into(), "disc, yaw, lean and spin")])
+    {
+        let robot = Robot::read(&text);
         let counts = methods.map(|method| words(robot.function(None, method).operations()));
         let row = format!("| {title} | {} |", counts.join(" | "));
         assert!(page.contains(&row), "docs/rolling.md has no row {row}");

@@ -1,7 +1,7 @@
 //! The moving bodies of a mechanism and the points on them, for the page.
 
 use bgdyn_codegen::declaration::Element;
-use bgdyn_codegen::mechanism::closure::{Contact, ContactShape};
+use bgdyn_codegen::mechanism::closure::{ContactShape, PlaneContact};
 use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
 use bgdyn_codegen::scene::Scene;
 
@@ -194,7 +194,7 @@ impl Bodies {
     }
 
     /// Adds the rim of a wheel, or three great circles of a ball.
-    fn rims(&mut self, body: usize, centre: &Placed, contact: &Contact) {
+    fn rims(&mut self, body: usize, centre: &Placed, contact: &PlaneContact) {
         let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
         let axles: Vec<[f64; 3]> = match contact.shape {
             ContactShape::Disc(axle) => vec![axle.map(|x| x.to_f64()).0],

@@ -7,7 +7,7 @@ use crate::expr::{Builder, Expr};
 use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::closure::{
-    Closure, Contact, ContactRow, ContactShape, LoopRow, RelativePlace, RowKind,
+    Closure, ContactRow, ContactShape, LoopRow, PlaneContact, RelativePlace, RowKind,
 };
 use crate::mechanism::{LinkId, Pose};
 
@@ -108,7 +108,7 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
         along.dot(velocity)
     }
 
-    fn directions(&self, closes: usize, contact: &Contact) -> ContactDirections<'g> {
+    fn directions(&self, closes: usize, contact: &PlaneContact) -> ContactDirections<'g> {
         let (rotation, _) = self.places[closes];
         let (b, up) = (self.b, self.unit(2));
         match contact.shape {

@@ -92,9 +92,19 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             reversed,
             by_vectors,
             of_plane: in_axes_of_a,
+            along_planes: false,
+            first_pivot: None,
         })
     };
-    choices(reversible).iter().flat_map(with).collect()
+    let forms: Vec<LoopForm> = choices(reversible).iter().flat_map(with).collect();
+    let closed = graph.closed.as_deref();
+    let leans = closed.is_some_and(|closed| closed.closure.along_planes.is_some());
+    let others = forms.iter().map(|form| LoopForm {
+        along_planes: true,
+        ..*form
+    });
+    let others = others.filter(|form| leans && !form.of_plane);
+    forms.iter().copied().chain(others).collect()
 }
 
 /// Returns the function of a method in one form.
@@ -128,7 +138,13 @@ fn loop_motion<'a, 'g>(
     x: &Arguments<'g>,
     (form, first): (LoopForm, FirstPivot),
 ) -> LoopMotion<'a, 'g> {
-    let closure = &closed.closure;
+    let form = LoopForm {
+        first_pivot: first,
+        ..form
+    };
+    let own = &closed.closure;
+    let other = own.along_planes.as_deref().filter(|_| form.along_planes);
+    let closure = other.unwrap_or(own);
     let rows = loop_rows(b, closure, &x.q, form);
     let map = VelocityMap::new(b, closure, (rows, form), first);
     LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v), form))

@@ -341,6 +341,12 @@ impl<E: Ring> ChainFrames<E> {
         [self.segments[0], end]
     }
 
+    /// Returns the origin of place b.
+    pub fn end(&self) -> Vec3<E> {
+        let zero = Vec3([self.zero; 3]);
+        self.segments.iter().fold(zero, |sum, s| sum + *s)
+    }
+
     /// Returns the axes of the last link.
     pub fn last_axes(&self) -> Mat3<E> {
         self.rotations[self.rotations.len() - 1]

@@ -19,7 +19,6 @@ use std::ops::Mul;
 
 use bgdyn_runtime::Dd;
 
-use super::ClosingType;
 use super::chain::{RelativePlace, RelativeRates};
 use crate::math::{Ring, Vec3};
 use crate::mechanism::joint::{Column, DoubleDouble, PoseNumbers};
@@ -31,6 +30,10 @@ pub trait ContactNumbers<E>: PoseNumbers<E> {
     fn inverse(&self, x: E) -> E;
     /// Returns the square root.
     fn root(&self, x: E) -> E;
+    /// Returns the cosine of a wheel's lean; a wheel that lies flat may be refused.
+    fn leaning(&self, cosine: E) -> E {
+        cosine
+    }
 }
 
 impl ContactNumbers<Dd> for DoubleDouble {
@@ -72,7 +75,7 @@ pub enum ContactShape {
 /// A wheel, a ball or a knife edge. Place a is at its centre, on the link that carries its axle; place b is the plane,
 /// with z along its normal.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Contact {
+pub struct PlaneContact {
     /// What touches.
     pub shape: ContactShape,
     /// Its place on its own link, with the axes of place a where the angle of the axle is zero.
@@ -115,36 +118,6 @@ pub const SPHERE_ROWS: [(&str, ContactRow); 3] = [
     ("height", ContactRow::Height),
 ];
 
-/// The knife edge.
-pub static KNIFE_EDGE: ClosingType = ClosingType {
-    keyword: "knife_edge",
-    about: "The place does not move along one of its directions.",
-    rows: &[],
-    axial: false,
-    length: false,
-    coincident: false,
-};
-
-/// The disc.
-pub static DISC: ClosingType = ClosingType {
-    keyword: "rolling",
-    about: "A thin wheel rolls on a plane without slipping.",
-    rows: &[],
-    axial: true,
-    length: false,
-    coincident: false,
-};
-
-/// The sphere.
-pub static SPHERE: ClosingType = ClosingType {
-    keyword: "rolling",
-    about: "A ball rolls on a plane without slipping.",
-    rows: &[],
-    axial: false,
-    length: false,
-    coincident: false,
-};
-
 /// The directions of a contact at one position, in the axes of place a.
 pub struct ContactFrame<E> {
     /// n of a wheel, the direction of a knife edge; z of a ball.
@@ -169,7 +142,7 @@ pub struct ContactFrame<E> {
     ball: bool,
 }
 
-impl Contact {
+impl PlaneContact {
     /// Returns the twist of the wheel relative to the plane per unit velocity, from that of the plane relative to
     /// place a.
     pub(super) fn columns<E: Ring + Mul<Dd, Output = E>>(
@@ -265,7 +238,7 @@ impl Contact {
             (ContactShape::Disc(_), None) => {
                 let sine = axle.dot(normal);
                 let across = normal - axle.scale(sine);
-                let cosine = numbers.root(across.dot(across));
+                let cosine = numbers.leaning(numbers.root(across.dot(across)));
                 let inverse = numbers.inverse(cosine);
                 (across.scale(inverse), [cosine, inverse], sine)
             }
@@ -293,16 +266,15 @@ impl ContactRow {
         self != ContactRow::Height
     }
 
-    /// Returns the height above the plane less that of contact, m; zero for rows on velocities.
+    /// Returns the height above the plane less that of contact, m; zero for rows on velocities. `height` is that of
+    /// the centre.
     pub(super) fn residual<E: Ring + Mul<Dd, Output = E>>(
         self,
-        place: &RelativePlace<E>,
+        height: E,
         frame: &ContactFrame<E>,
     ) -> E {
         match self {
-            ContactRow::Height => {
-                -frame.normal.dot(place.position) - frame.radius * frame.cosine[0]
-            }
+            ContactRow::Height => height - frame.radius * frame.cosine[0],
             _ => frame.zero,
         }
     }

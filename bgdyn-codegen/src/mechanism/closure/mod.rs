@@ -13,7 +13,7 @@
 //! |---|---|
 //! | `chain.rs` | the joints of a loop in series, and the motion from place to place |
 //! | `row.rs` | rows of loops: value, rate, second derivative |
-//! | `contact.rs` | rows of wheels, balls and knife edges |
+//! | `contact.rs`, `contact_types.rs` | rows of wheels, balls and knife edges; their words |
 //! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
@@ -23,6 +23,7 @@
 mod chain;
 mod closing;
 mod contact;
+mod contact_types;
 mod numeric;
 mod reach;
 mod row;
@@ -31,15 +32,16 @@ mod solve;
 
 use bgdyn_runtime::Dd;
 
-use super::{CoordinateId, Joint, LinkId, PositionId};
+use super::{CoordinateId, LinkId, PositionId};
 use crate::fault::Location;
 use crate::math::Vec3;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates, TwistPoint};
 pub use closing::{CLOSING_TYPES, ClosingType};
 pub use contact::{
-    Contact, ContactAxes, ContactNumbers, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS,
-    KNIFE_EDGE, SPHERE, SPHERE_ROWS,
+    ContactAxes, ContactNumbers, ContactRow, ContactShape, DISC_ROWS, EDGE_ROWS, PlaneContact,
+    SPHERE_ROWS,
 };
+pub use contact_types::{DISC, KNIFE_EDGE, SPHERE};
 pub use reach::Unreached;
 pub use row::{ClosingRow, RowKind};
 pub use rows_at::{RowAxes, RowsAt};
@@ -64,7 +66,7 @@ pub struct KinematicLoop {
     /// Whether the same rows hold in the axes of place b: those of the chain from b to a.
     pub reversible: bool,
     /// What touches at place a, if it is no loop but a contact.
-    pub contact: Option<Contact>,
+    pub contact: Option<PlaneContact>,
     /// The location of its entry in the file.
     pub location: Location,
 }
@@ -125,16 +127,20 @@ pub struct Closure {
     /// those of [`Closure::compounds`].
     pub positions: Vec<Option<PositionId>>,
     /// The joints of several degrees of freedom that contacts contain.
-    pub compounds: Vec<Joint>,
-    /// The dependent velocities along which positions close, as many as there are rows with positions, if there are
-    /// rows without; otherwise all dependent ones do.
+    pub compounds: Vec<ChainStep>,
+    /// The dependent velocities along which positions close, by the shortest step, if there are rows without positions;
+    /// otherwise all dependent ones do.
     pub closers: Vec<CoordinateId>,
     /// With rows on velocities: the rows that are solved, as sums of [`Closure::rows`] with these constant factors;
     /// otherwise empty.
     pub combined: Vec<Vec<Dd>>,
-    /// For each row that is solved and each velocity of the open tree whether its rate is zero at every position; empty
-    /// like [`Closure::combined`].
-    pub zeros: Vec<Vec<bool>>,
+    /// For each row that is solved and each velocity of the open tree its rate, if it is the same at every position;
+    /// empty like [`Closure::combined`].
+    pub constants: Vec<Vec<Option<Dd>>>,
+    /// Whether rows of contacts are solved along their planes, not in axes of wheels.
+    pub of_plane: bool,
+    /// The same with the rows of contacts along their planes, where wheels lean: an alternative.
+    pub along_planes: Option<Box<Closure>>,
     /// A closed position.
     pub start: Vec<Dd>,
     /// Closed positions at random, on the branch of the start.

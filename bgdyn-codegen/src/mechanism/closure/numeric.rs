@@ -92,6 +92,13 @@ impl Closure {
             if largest(&residuals) <= CLOSED {
                 return true;
             }
+            if dependents.len() > rows.len() {
+                let Some(step) = least_step(&jacobian, &residuals, &dependents, 0.0) else {
+                    return false;
+                };
+                self.move_by(q, &step);
+                continue;
+            }
             let square = jacobian
                 .iter()
                 .map(|row| dependents.iter().map(|&j| row[j]).collect());
@@ -228,7 +235,7 @@ impl Closure {
             }
         }
         for joint in &self.compounds {
-            let Motion::Compound(motion) = joint.kind.motion else {
+            let Motion::Compound(motion) = joint.motion else {
                 continue;
             };
             let of = |j: &usize| steps.iter().find(|(k, _)| k == j).map(|(_, x)| *x);
@@ -236,7 +243,11 @@ impl Closure {
             let own: Vec<Dd> = velocities.map(|j| of(&j.0).unwrap_or(Dd::ZERO)).collect();
             let positions = &joint.degrees.positions;
             let at: Vec<Dd> = positions.iter().map(|p| q[p.0]).collect();
-            let rates = motion.position_rates(&joint.constants(), (&at, &own), &DoubleDouble);
+            let rates = motion.position_rates(
+                &joint.degrees.constants(joint.axis),
+                (&at, &own),
+                &DoubleDouble,
+            );
             for (p, rate) in positions.iter().zip(rates) {
                 q[p.0] += rate;
             }
@@ -247,7 +258,7 @@ impl Closure {
     /// Scales the quaternions of the contacts' joints to length 1.
     pub fn normalize(&self, q: &mut [Dd]) {
         for joint in &self.compounds {
-            let Motion::Compound(motion) = joint.kind.motion else {
+            let Motion::Compound(motion) = joint.motion else {
                 continue;
             };
             let Some(first) = motion.quaternion() else {

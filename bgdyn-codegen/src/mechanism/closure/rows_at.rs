@@ -33,6 +33,8 @@ pub struct RowsAt<'a, E> {
     /// The twists of place b relative to place a per unit velocity; of a wheel relative to its plane.
     columns: Vec<(CoordinateId, Column<E>)>,
     contact: Option<(ContactFrame<E>, ContactAxes)>,
+    /// The height of a contact's place a above its plane, m.
+    height: E,
     zero: E,
 }
 
@@ -58,7 +60,7 @@ impl Closure {
         let place = chain.place(&frames, point, numbers);
         let contact = one.contact.as_ref().map(|contact| {
             let kept = |row| self.has(closes, RowKind::Contact(row));
-            let solved = match axes.of_plane {
+            let solved = match axes.of_plane || self.of_plane {
                 true => ContactAxes::Plane,
                 false => contact.solved_in(kept),
             };
@@ -68,6 +70,11 @@ impl Closure {
             Some(contact) => contact.columns(&place, numbers),
             None => place.columns.clone(),
         };
+        // In the axes of the plane: far from its origin no digit is lost.
+        let height = match &one.contact {
+            Some(_) => chain.reversed().frames(q, numbers).end().0[2],
+            None => numbers.constant(Dd::ZERO),
+        };
         RowsAt {
             one,
             chain,
@@ -75,6 +82,7 @@ impl Closure {
             place,
             columns,
             contact,
+            height,
             zero: numbers.constant(Dd::ZERO),
         }
     }
@@ -93,7 +101,7 @@ impl<E: Ring + Mul<Dd, Output = E>> RowsAt<'_, E> {
             (RowKind::Closing(row), _) => {
                 row.residual(&self.place, self.one.length, |x| numbers.constant(x))
             }
-            (RowKind::Contact(row), Some((frame, _))) => row.residual(&self.place, frame),
+            (RowKind::Contact(row), Some((frame, _))) => row.residual(self.height, frame),
             (RowKind::Contact(_), None) => self.zero,
         }
     }

@@ -7,20 +7,20 @@ use crate::format::{Located, Vector};
 
 /// A constraint on the velocity of a place.
 #[derive(Clone, Debug)]
-pub(in crate::mechanism::check) struct ContactEntry {
+pub struct ContactEntry {
     /// The name of the constraint.
-    pub(in crate::mechanism::check) name: String,
+    pub name: String,
     /// The location of its entry.
-    pub(in crate::mechanism::check) location: Location,
+    pub location: Location,
     /// The link or frame.
-    pub(in crate::mechanism::check) at: Located<String>,
+    pub at: Located<String>,
     /// What touches.
-    pub(in crate::mechanism::check) kind: ContactKind,
+    pub kind: ContactKind,
 }
 
 /// What touches, in the axes of the link or frame.
 #[derive(Clone, Debug)]
-pub(in crate::mechanism::check) enum ContactKind {
+pub enum ContactKind {
     /// A knife edge.
     Edge {
         /// The direction along which it does not move.
@@ -41,11 +41,11 @@ pub(in crate::mechanism::check) enum ContactKind {
 
 /// The directions in which a wheel may slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::mechanism::check) struct Slip {
+pub struct Slip {
     /// Across the axle.
-    pub(in crate::mechanism::check) longitudinal: bool,
+    pub longitudinal: bool,
     /// Along the axle.
-    pub(in crate::mechanism::check) lateral: bool,
+    pub lateral: bool,
 }
 
 impl Slip {

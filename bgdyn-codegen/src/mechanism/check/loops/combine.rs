@@ -8,13 +8,14 @@ use crate::mechanism::closure::Closure;
 /// An entry below this at all sampled positions is zero, relative to the terms that it is the sum of.
 const ZERO: f64 = 1e-24;
 
-/// Sets the combinations of the rows, and the entries that are zero at all sampled positions. Mechanisms with loops
+/// Sets the combinations of the rows, and the entries that are the same at all sampled positions. Mechanisms with loops
 /// alone keep their rows.
 pub(super) fn combine(closure: &mut Closure) {
     if !closure.nonholonomic() {
         return;
     }
     let at = closure.samples.iter();
+    closure.combined.clear();
     let mut sampled: Vec<Vec<Vec<Dd>>> = at.map(|q| closure.solved_rates(q)).collect();
     let n = closure.rows.len();
     let mut combined: Vec<Vec<Dd>> = (0..n).map(|r| unit(n, r)).collect();
@@ -29,8 +30,8 @@ pub(super) fn combine(closure: &mut Closure) {
         subtract(&mut combined, row, other, factor);
     }
     let all = 0..closure.positions.len();
-    let zero = |r: usize| all.clone().map(|j| is_zero(&sampled, r, j)).collect();
-    closure.zeros = (0..n).map(zero).collect();
+    let of_row = |r: usize| all.clone().map(|j| constant(&sampled, r, j)).collect();
+    closure.constants = (0..n).map(of_row).collect();
     closure.combined = combined;
 }
 
@@ -43,6 +44,14 @@ fn is_zero(sampled: &[Vec<Vec<Dd>>], row: usize, j: usize) -> bool {
     sampled
         .iter()
         .all(|rates| rates[row][j].to_f64().abs() < ZERO)
+}
+
+/// Returns an entry if it is the same at all sampled positions.
+fn constant(sampled: &[Vec<Vec<Dd>>], row: usize, j: usize) -> Option<Dd> {
+    let first = exact(sampled.first()?[row][j]);
+    let mut all = sampled.iter();
+    let same = all.all(|rates| (rates[row][j] - first).to_f64().abs() < ZERO);
+    same.then_some(first)
 }
 
 /// Returns a row that has fewer entries after a multiple of another one is subtracted.

@@ -10,8 +10,8 @@ use crate::math::Vec3;
 use crate::mechanism::check::constraint::{ContactEntry, ContactKind, Slip};
 use crate::mechanism::check::direction::Directions;
 use crate::mechanism::closure::{
-    Closure, Contact, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS, KNIFE_EDGE,
-    KinematicLoop, LoopChain, SPHERE, SPHERE_ROWS,
+    Closure, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS, KNIFE_EDGE, KinematicLoop,
+    LoopChain, PlaneContact, SPHERE, SPHERE_ROWS,
 };
 use crate::mechanism::joint::DoubleDouble;
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose};
@@ -35,7 +35,7 @@ pub(super) fn read(
         ContactKind::Rolling { on, .. } => on.as_ref(),
     };
     let (plane_link, plane) = planes::plane(on, context, faults)?;
-    let contact = |shape, radius, rows| Contact {
+    let contact = |shape, radius, rows| PlaneContact {
         shape,
         radius,
         spin: Vec::new(),
@@ -128,8 +128,8 @@ fn site(
 fn on_carrier(
     mechanism: &Mechanism,
     (mut link, mut pose): (Option<LinkId>, Pose),
-    mut contact: Contact,
-) -> (Option<LinkId>, Pose, Contact) {
+    mut contact: PlaneContact,
+) -> (Option<LinkId>, Pose, PlaneContact) {
     while let (ContactShape::Disc(axle), Some(LinkId(i))) = (contact.shape, link) {
         let joint = &mechanism.links()[i].joint;
         let axle = pose.rotation * axle;
@@ -156,7 +156,7 @@ fn on_carrier(
 }
 
 /// Adds velocities of rotations about the axle.
-fn spin(contact: &mut Contact, own: impl Iterator<Item = (CoordinateId, Dd)>) {
+fn spin(contact: &mut PlaneContact, own: impl Iterator<Item = (CoordinateId, Dd)>) {
     for (j, factor) in own {
         match contact.spin.iter_mut().find(|(known, _)| *known == j) {
             Some((_, sum)) => *sum += factor,
@@ -169,7 +169,7 @@ fn spin(contact: &mut Contact, own: impl Iterator<Item = (CoordinateId, Dd)>) {
 /// whose axle is normal to their plane. `positions` are some of the open tree.
 pub(super) fn find_upward(closure: &mut Closure, positions: &[Vec<Dd>], faults: &mut Faults) {
     for one in &mut closure.loops {
-        let Some(Contact {
+        let Some(PlaneContact {
             shape: ContactShape::Disc(axle),
             ..
         }) = one.contact

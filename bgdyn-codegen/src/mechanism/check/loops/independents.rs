@@ -4,7 +4,8 @@ use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
-use crate::mechanism::closure::{Closure, ClosureBlock, eliminate};
+use crate::math::Vec3;
+use crate::mechanism::closure::{ChainStep, Closure, ClosureBlock, eliminate};
 use crate::mechanism::{CoordinateId, Mechanism};
 
 /// Smallest ratios of pivots of the dependent columns, at all sampled positions, that are tried: the first one that
@@ -102,7 +103,7 @@ pub(super) fn choose(
 }
 
 /// Sets the dependent velocities along which positions close: those of the largest pivots of the rows with positions,
-/// at the start.
+/// at the start. One of several displacements of a joint brings the others: their directions turn with the link.
 fn choose_closers(closure: &mut Closure, dependents: &[usize]) {
     if !closure.nonholonomic() {
         return;
@@ -111,9 +112,28 @@ fn choose_closers(closure: &mut Closure, dependents: &[usize]) {
     let columns = |row: &Vec<Dd>| dependents.iter().map(|&j| row[j]).collect();
     let mut part: Vec<Vec<Dd>> = jacobian.iter().map(columns).collect();
     let (pivots, _) = eliminate(&mut part, dependents.len());
-    let mut closers: Vec<usize> = pivots.iter().map(|&(_, k)| dependents[k]).collect();
-    closers.sort_unstable();
-    closure.closers = closers.into_iter().map(CoordinateId).collect();
+    let chosen: Vec<usize> = pivots.iter().map(|&(_, k)| dependents[k]).collect();
+    let displacements = closure.compounds.iter().map(displacements);
+    let displacements: Vec<Vec<usize>> = displacements.collect();
+    let brought = |j: &usize| {
+        let with_it = |all: &&Vec<usize>| all.contains(j);
+        let mut joints = displacements.iter().filter(with_it).flatten();
+        joints.any(|other| chosen.contains(other))
+    };
+    let closes = |j: &&usize| chosen.contains(j) || brought(j);
+    closure.closers = dependents
+        .iter()
+        .filter(closes)
+        .map(|&j| CoordinateId(j))
+        .collect();
+}
+
+/// Returns the velocities of a joint along, not about, an axis.
+fn displacements(joint: &ChainStep) -> Vec<usize> {
+    let columns = joint.degrees.columns(joint.motion, joint.axis).into_iter();
+    let still = |v: Vec3<Dd>| v.0.iter().all(|&x| x == Dd::ZERO);
+    let along = columns.filter(|(_, column)| still(column.angular));
+    along.map(|(j, _)| j.0).collect()
 }
 
 /// Returns the first `count` velocities that can be independent: each, in the order of the links, whose removal leaves

@@ -21,12 +21,14 @@ mod planes;
 mod read;
 mod structure;
 
+pub use planes::PLANE_KEYS;
+
 use super::constraint::ContactEntry;
 use super::direction::Directions;
 use crate::fault::Faults;
 use crate::format::Spec;
-use crate::mechanism::closure::{Closure, KinematicLoop};
-use crate::mechanism::{CoordinateId, Joint, Mechanism, Motion, PositionId};
+use crate::mechanism::closure::{ChainStep, Closure, KinematicLoop};
+use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, PositionId};
 
 /// Closes the loops of a numbered open tree. `None` if a rule is broken.
 pub(super) fn close(
@@ -71,8 +73,27 @@ pub(super) fn close(
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
     closure.samples = assembly::sample(&closure);
+    closure.along_planes = along_planes(&closure, (spec, mechanism)).map(Box::new);
     mechanism.close(closure);
     Some(())
+}
+
+/// Returns the loops and contacts with the rows of contacts along their planes, and the same independent velocities;
+/// `None` where no wheel leans.
+fn along_planes(closure: &Closure, (spec, mechanism): (&Spec, &Mechanism)) -> Option<Closure> {
+    let mut other = closure.clone();
+    other.of_plane = true;
+    combine::combine(&mut other);
+    let q = closure.samples.first()?;
+    if !closure.nonholonomic() || other.solved_rates(q) == closure.solved_rates(q) {
+        return None;
+    }
+    let kept = closure.independents.clone();
+    let context = (spec, mechanism, &kept[..]);
+    independents::choose(&mut other, context, &mut Faults::default())?;
+    blocks::arrange(&mut other);
+    other.signs = other.signs_at(&other.start);
+    Some(other)
 }
 
 /// Returns the loops with all their rows, without a solution.
@@ -84,13 +105,14 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
     });
     let rows = rows.collect();
     let mut positions: Vec<Option<PositionId>> = vec![None; mechanism.nv()];
-    let mut compounds: Vec<Joint> = Vec::new();
+    let mut compounds: Vec<ChainStep> = Vec::new();
     for CoordinateId(j) in loops.iter().flat_map(KinematicLoop::velocities) {
         let joint = mechanism.joint(CoordinateId(j));
         if joint.kind.motion.nv() == 1 {
             positions[j] = joint.degrees.positions.first().copied();
-        } else if compounds.iter().all(|known| known.name != joint.name) {
-            compounds.push(joint.clone());
+        } else if compounds.iter().all(|known| known.degrees != joint.degrees) {
+            let LinkId(link) = mechanism.coordinates()[j];
+            compounds.push(read::step(mechanism, LinkId(link), true));
         }
     }
     Closure {
@@ -102,7 +124,9 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
         compounds,
         closers: Vec::new(),
         combined: Vec::new(),
-        zeros: Vec::new(),
+        constants: Vec::new(),
+        of_plane: false,
+        along_planes: None,
         start: neutral(mechanism),
         samples: Vec::new(),
         signs: Vec::new(),

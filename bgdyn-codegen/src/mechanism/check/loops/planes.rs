@@ -9,8 +9,8 @@ use crate::math::Vec3;
 use crate::mechanism::check::direction::Directions;
 use crate::mechanism::{LinkId, Pose};
 
-/// The keys of a plane.
-pub(in crate::mechanism) const PLANE_KEYS: [Key; 3] = [
+/// The keys of a plane in the file.
+pub const PLANE_KEYS: [Key; 3] = [
     Key {
         name: "normal",
         reads: Reads::Axis,
