@@ -15,6 +15,13 @@ mod growth;
 mod limits;
 mod literal;
 mod long_runs;
+mod loop_bars;
+mod loop_exact;
+mod loop_tree;
+mod loops_closing;
+mod loops_limits;
+mod loops_motions;
+mod loops_states;
 mod motor;
 #[path = "../../../bgdyn-sim/tests/integrators/order.rs"]
 mod order;
@@ -188,5 +195,13 @@ topics! {
     energy_chaotic_midpoint: energy::chaotic_midpoint, "100,000 steps instead of 1e7";
     limits_f64: limits::double, "1e5 states instead of 1e7, 4 ordinary ones to spoil instead of 100";
     limits_f32: limits::single, "1e5 states instead of 1e7, 4 ordinary ones to spoil instead of 100";
+    loops_references: loops_states::references;
+    loops_seeded: loops_states::seeded, "6 states a mechanism instead of 3,000";
+    loops_closing: loops_closing::distances, "100 states a mechanism instead of 10,000";
+    loops_reach: loops_closing::ends_of_reach;
+    loops_motions: loops_motions::motions;
+    loops_drift: loops_motions::drift, "20,000 steps instead of 1e6";
+    loops_sweep: loops_limits::sweep, "1e4 angles instead of 1e6";
+    loops_limits: loops_limits::any_numbers, "3,000 states a mechanism instead of 300,000";
     no_strength: zero::no_strength, "10,000 states instead of 1e6";
 }

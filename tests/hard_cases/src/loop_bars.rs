@@ -1,0 +1,201 @@
+//! Bars C1 to C3, C6 and the rates of C9 in one state of a mechanism with loops: errors of compiled code, in a
+//! scalar, against `loop_exact.rs` at the same arguments.
+
+use bgdyn_runtime::Dd;
+use hard_cases_compiled::loops::Closed;
+
+use crate::bars::{Digits, Found, norm, off, part, rounded};
+use crate::loop_exact::{Arguments, Exact, rounding, times, transposed};
+use crate::loop_tree::Tree;
+use crate::subject::{narrow, wide};
+
+/// Returns Σ_j |a_j||x_j|.
+fn weighed(a: &[Dd], x: &[Dd]) -> f64 {
+    let terms = a.iter().zip(x).map(|(a, x)| (*a * *x).to_f64().abs());
+    terms.sum()
+}
+
+/// Converts numbers of a scalar exactly.
+pub(crate) fn exactly(x: &[f64]) -> Vec<Dd> {
+    x.iter().map(|&x| Dd::from_f64(x)).collect()
+}
+
+/// Returns the entry that uses the most of what is allowed.
+fn worst(bar: &'static str, what: &'static str, entries: impl Iterator<Item = (f64, f64)>) -> Found {
+    let worst = entries.max_by(|a, b| part(a.0, a.1).total_cmp(&part(b.0, b.1)));
+    let (measured, allowed) = worst.expect("an entry");
+    Found::new(bar, what, measured, allowed)
+}
+
+impl Arguments {
+    /// Returns the arguments rounded to the scalar.
+    pub fn rounded<T: Digits>(&self) -> Arguments {
+        let round = |x: &Vec<Dd>| x.iter().map(|x| Dd::from_f64(T::from_f64(x.to_f64()).to_f64())).collect();
+        Arguments {
+            q: round(&self.q),
+            u: round(&self.u),
+            a: round(&self.a),
+            tau: round(&self.tau),
+        }
+    }
+}
+
+/// What the code computes in a state.
+struct Computed {
+    /// The accelerations of the independent velocities.
+    a: Vec<f64>,
+    rates: Vec<Dd>,
+    accelerations: Vec<Dd>,
+    multipliers: Vec<Dd>,
+}
+
+/// A mechanism in the scalar T, with its reference.
+pub(crate) struct Subject<'a, T> {
+    /// The code.
+    pub model: &'a dyn Closed<T>,
+    /// The open tree and the rows.
+    pub tree: &'a Tree,
+}
+
+impl<T: Digits> Subject<'_, T> {
+    fn compute(&self, s: &Arguments) -> Option<Computed> {
+        let given = |x: &[Dd]| narrow::<T>(&rounded(x));
+        let [q, u, tau] = [&s.q, &s.u, &s.tau].map(|x| given(x));
+        let a = self.model.forward_dynamics(&q, &u, &tau).ok()?;
+        let exact = |x: Vec<T>| exactly(&wide(x));
+        Some(Computed {
+            rates: exact(self.model.tree_velocity(&q, &u)),
+            accelerations: exact(self.model.tree_acceleration(&q, &u, &a)),
+            multipliers: exact(self.model.multipliers(&q, &u, &a)),
+            a: wide(a),
+        })
+    }
+
+    /// Checks all of these bars; `loads` are efforts on all joints of the tree, for their power.
+    pub fn all(&self, s: &Arguments, loads: &[Dd]) -> Vec<Found> {
+        let s = s.rounded::<T>();
+        let exact = Exact::new(self.tree, &s.q, &s.u);
+        let mut all = vec![self.inverse(&s, &exact)];
+        let Some(computed) = self.compute(&s) else {
+            all.push(Found::new("C2", "refused", 1.0, 0.0));
+            return all;
+        };
+        all.push(self.forward(&s, &exact, &computed));
+        all.extend(self.backward(&s, &computed));
+        all.push(self.power(&s, loads, &computed));
+        all
+    }
+
+    /// C3: efforts to 64 eps of the terms that they are added up from.
+    fn inverse(&self, s: &Arguments, exact: &Exact) -> Found {
+        let given = |x: &[Dd]| narrow::<T>(&rounded(x));
+        let found = self.model.inverse_dynamics(&given(&s.q), &given(&s.u), &given(&s.a));
+        let errors = off(&wide(found), &exact.inverse(&s.a));
+        let accelerations = exact.accelerations(&s.a);
+        let of_tree = exact.tree.mass.iter().zip(&exact.tree.bias_size);
+        let of_tree: Vec<Dd> = of_tree
+            .map(|(row, bias)| Dd::from_f64(weighed(row, &accelerations) + bias))
+            .collect();
+        let sizes = transposed(&exact.map, s.u.len());
+        let entries = errors.iter().zip(&sizes).map(|(error, column)| {
+            (error.abs(), 64.0 * T::EPS * weighed(column, &of_tree))
+        });
+        worst("C3", "inverse dynamics", entries)
+    }
+
+    /// C2: accelerations.
+    fn forward(&self, s: &Arguments, exact: &Exact, computed: &Computed) -> Found {
+        let wanted = exact.forward(&s.tau);
+        let measured = norm(&off(&computed.a, &wanted));
+        let bar = exact.share(T::EPS) * norm(&rounded(&wanted));
+        let allowed = match measured > bar {
+            true => (4.0 * rounding(self.tree, s, T::EPS)).max(bar),
+            false => bar,
+        };
+        Found::new("C2", "forward dynamics", measured, allowed)
+    }
+
+    /// C1: M q̈ + h = P + Bᵀλ and B q̈ = γ, row by row, and B q̇ = 0 of bar C9.
+    fn backward(&self, s: &Arguments, computed: &Computed) -> Vec<Found> {
+        let Computed {
+            rates,
+            accelerations,
+            multipliers,
+            ..
+        } = computed;
+        let at = self.tree.at(&s.q, rates);
+        let n = self.tree.len();
+        let share = 16.0 * n as f64 * T::EPS;
+        let mut drives = vec![Dd::ZERO; n];
+        for (&i, &tau) in self.tree.independents.iter().zip(&s.tau) {
+            drives[i] = tau;
+        }
+        let across = transposed(&at.rows, n);
+        let (inertia, loops) = (times(&at.mass, accelerations), times(&across, multipliers));
+        let efforts = (0..n).map(|i| {
+            let left = inertia[i] + at.bias[i] - drives[i] - loops[i];
+            let size = weighed(&at.mass[i], accelerations)
+                + at.bias_size[i]
+                + drives[i].to_f64().abs()
+                + weighed(&across[i], multipliers);
+            (left.to_f64().abs(), share * size)
+        });
+        let efforts = worst("C1", "M q̈ + h = P + Bᵀλ", efforts);
+        let bent = times(&at.rows, accelerations);
+        let rows = (0..at.rows.len()).map(|k| {
+            let size = weighed(&at.rows[k], accelerations) + at.gamma_size[k];
+            ((bent[k] - at.gamma[k]).to_f64().abs(), share * size)
+        });
+        let rows = worst("C1", "B q̈ = γ", rows);
+        let moved = times(&at.rows, rates);
+        let closed = (0..at.rows.len()).map(|k| {
+            let size = weighed(&at.rows[k], rates);
+            (moved[k].to_f64().abs(), 16.0 * T::EPS * size)
+        });
+        let closed = worst("C9", "B q̇ = 0", closed);
+        let given = narrow::<T>(&rounded(&s.q));
+        let jacobian = wide(self.model.constraint_jacobian(&given));
+        let own = at.rows.iter().flatten().zip(jacobian);
+        // A column is a unit vector or a lever.
+        let entries = own.map(|(&exact, found)| {
+            let size = length_of(&at.rows).max(1.0);
+            ((exact - Dd::from_f64(found)).to_f64().abs(), share * size)
+        });
+        let jacobian = worst("C1", "B", entries);
+        let power = multipliers.iter().zip(&moved);
+        let power = power.fold(Dd::ZERO, |sum, (&l, &r)| sum + l * r);
+        let sizes = (0..at.rows.len()).map(|k| weighed(&at.rows[k], rates));
+        let size: f64 = sizes
+            .zip(multipliers)
+            .map(|(size, l)| size * l.to_f64().abs())
+            .sum();
+        let none = Found::new("C6", "λᵀ B q̇ = 0", power.to_f64().abs(), share * size);
+        vec![efforts, rows, jacobian, closed, none]
+    }
+
+    /// C6: the power of efforts on all joints, P·q̇ = (SᵀP)·u.
+    fn power(&self, s: &Arguments, loads: &[Dd], computed: &Computed) -> Found {
+        let m = s.u.len();
+        let map = exactly(&wide(self.model.velocity_map(&narrow::<T>(&rounded(&s.q)))));
+        let dot = |x: &[Dd], y: &[Dd]| x.iter().zip(y).fold(Dd::ZERO, |sum, (&x, &y)| sum + x * y);
+        let of_tree = dot(loads, &computed.rates);
+        let rows: Vec<&[Dd]> = map.chunks(m).collect();
+        let reduced = (0..m).map(|k| {
+            let terms = rows.iter().zip(loads);
+            terms.fold(Dd::ZERO, |sum, (row, &p)| sum + row[k] * p)
+        });
+        let reduced: Vec<Dd> = reduced.collect();
+        let measured = (of_tree - dot(&reduced, &s.u)).to_f64().abs();
+        let size: f64 = (rows.iter().zip(loads))
+            .map(|(row, p)| p.to_f64().abs() * weighed(row, &s.u))
+            .sum();
+        let share = 16.0 * loads.len() as f64 * T::EPS;
+        Found::new("C6", "P·q̇ = (SᵀP)·u", measured, share * size)
+    }
+}
+
+/// The largest entry.
+fn length_of(rows: &[Vec<Dd>]) -> f64 {
+    let all = rows.iter().flatten();
+    all.fold(0.0, |most: f64, x| most.max(x.to_f64().abs()))
+}
