@@ -97,7 +97,11 @@ pub fn close_from<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
         for d in dependents {
             if let Some(&x) = change.entries().get(d.velocity) {
                 last = last.max(x.abs());
-                (closed::<Y::Scalar>() - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
+                (closed::<Y::Scalar>() - x.abs()).checked_pivot(
+                    zero,
+                    first + d.closes,
+                    &mut refused,
+                );
             }
         }
         let large = number(LARGEST).less(last);

@@ -1,5 +1,5 @@
 //! Hard cases in compiled code: measured errors compared with their limits. Single states that are hard to
-//! compute, motions against reference solutions, energy over long runs, numbers of any size. `README.md`
+//! compute, motions against reference solutions, energy over long runs, numbers of any size, closed loops. `README.md`
 //! describes the references, `docs/hard_cases.md` lists the bars.
 #![forbid(unsafe_code)]
 
@@ -196,12 +196,12 @@ topics! {
     limits_f64: limits::double, "1e5 states instead of 1e7, 4 ordinary ones to spoil instead of 100";
     limits_f32: limits::single, "1e5 states instead of 1e7, 4 ordinary ones to spoil instead of 100";
     loops_references: loops_states::references;
-    loops_seeded: loops_states::seeded, "6 states a mechanism instead of 3,000";
-    loops_closing: loops_closing::distances, "100 states a mechanism instead of 10,000";
+    loops_seeded: loops_states::seeded, "20 states a mechanism instead of 3,000";
+    loops_closing: loops_closing::distances, "100 states a mechanism instead of 3,000";
     loops_reach: loops_closing::ends_of_reach;
     loops_motions: loops_motions::motions;
     loops_drift: loops_motions::drift, "20,000 steps instead of 1e6";
     loops_sweep: loops_limits::sweep, "1e4 angles instead of 1e6";
-    loops_limits: loops_limits::any_numbers, "3,000 states a mechanism instead of 300,000";
+    loops_limits: loops_limits::any_numbers, "500 states a mechanism instead of 300,000";
     no_strength: zero::no_strength, "10,000 states instead of 1e6";
 }

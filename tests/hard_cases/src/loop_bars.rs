@@ -21,16 +21,45 @@ pub(crate) fn exactly(x: &[f64]) -> Vec<Dd> {
 }
 
 /// Returns the entry that uses the most of what is allowed.
-fn worst(bar: &'static str, what: &'static str, entries: impl Iterator<Item = (f64, f64)>) -> Found {
+fn worst(
+    bar: &'static str,
+    what: &'static str,
+    entries: impl Iterator<Item = (f64, f64)>,
+) -> Found {
     let worst = entries.max_by(|a, b| part(a.0, a.1).total_cmp(&part(b.0, b.1)));
     let (measured, allowed) = worst.expect("an entry");
     Found::new(bar, what, measured, allowed)
 }
 
+/// The same with the limits as asked and as read.
+fn read(
+    bar: &'static str,
+    what: &'static str,
+    entries: impl Iterator<Item = (f64, f64, f64)>,
+) -> Found {
+    let entries: Vec<(f64, f64, f64)> = entries.collect();
+    let asked = entries.iter().map(|(x, asked, _)| part(*x, *asked));
+    Found {
+        asked: asked.fold(0.0, f64::max),
+        ..worst(bar, what, entries.iter().map(|(x, _, read)| (*x, *read)))
+    }
+}
+
+/// Returns the magnitudes of the terms of S x + z, added up: those of q̇ or q̈ of the tree.
+fn sizes(exact: &Exact, x: &[Dd], second: Option<&[Dd]>) -> Vec<Dd> {
+    let own = |j: usize| second.map_or(0.0, |z| z[j].to_f64().abs());
+    let row = |(j, row): (usize, &Vec<Dd>)| Dd::from_f64(weighed(row, x) + own(j));
+    exact.map.iter().enumerate().map(row).collect()
+}
+
 impl Arguments {
     /// Returns the arguments rounded to the scalar.
     pub fn rounded<T: Digits>(&self) -> Arguments {
-        let round = |x: &Vec<Dd>| x.iter().map(|x| Dd::from_f64(T::from_f64(x.to_f64()).to_f64())).collect();
+        let round = |x: &Vec<Dd>| {
+            x.iter()
+                .map(|x| Dd::from_f64(T::from_f64(x.to_f64()).to_f64()))
+                .collect()
+        };
         Arguments {
             q: round(&self.q),
             u: round(&self.u),
@@ -71,17 +100,17 @@ impl<T: Digits> Subject<'_, T> {
         })
     }
 
-    /// Checks all of these bars; `loads` are efforts on all joints of the tree, for their power.
+    /// Checks all of these bars; only that of inverse dynamics if forward dynamics is refused. `loads` are efforts on
+    /// all joints of the tree, for their power.
     pub fn all(&self, s: &Arguments, loads: &[Dd]) -> Vec<Found> {
         let s = s.rounded::<T>();
         let exact = Exact::new(self.tree, &s.q, &s.u);
         let mut all = vec![self.inverse(&s, &exact)];
         let Some(computed) = self.compute(&s) else {
-            all.push(Found::new("C2", "refused", 1.0, 0.0));
             return all;
         };
         all.push(self.forward(&s, &exact, &computed));
-        all.extend(self.backward(&s, &computed));
+        all.extend(self.backward(&s, &exact, &computed));
         all.push(self.power(&s, loads, &computed));
         all
     }
@@ -89,18 +118,23 @@ impl<T: Digits> Subject<'_, T> {
     /// C3: efforts to 64 eps of the terms that they are added up from.
     fn inverse(&self, s: &Arguments, exact: &Exact) -> Found {
         let given = |x: &[Dd]| narrow::<T>(&rounded(x));
-        let found = self.model.inverse_dynamics(&given(&s.q), &given(&s.u), &given(&s.a));
+        let found = self
+            .model
+            .inverse_dynamics(&given(&s.q), &given(&s.u), &given(&s.a));
         let errors = off(&wide(found), &exact.inverse(&s.a));
-        let accelerations = exact.accelerations(&s.a);
-        let of_tree = exact.tree.mass.iter().zip(&exact.tree.bias_size);
-        let of_tree: Vec<Dd> = of_tree
-            .map(|(row, bias)| Dd::from_f64(weighed(row, &accelerations) + bias))
-            .collect();
-        let sizes = transposed(&exact.map, s.u.len());
-        let entries = errors.iter().zip(&sizes).map(|(error, column)| {
-            (error.abs(), 64.0 * T::EPS * weighed(column, &of_tree))
+        let of_tree = |q: &[Dd]| -> Vec<Dd> {
+            let rows = exact.tree.mass.iter().zip(&exact.tree.bias_size);
+            rows.map(|(row, bias)| Dd::from_f64(weighed(row, q) + bias))
+                .collect()
+        };
+        let asked = of_tree(&exact.accelerations(&s.a));
+        let terms = of_tree(&sizes(exact, &s.a, Some(&exact.second)));
+        let columns = transposed(&exact.map, s.u.len());
+        let entries = errors.iter().zip(&columns).map(|(error, column)| {
+            let limit = |of_tree: &[Dd]| 64.0 * T::EPS * weighed(column, of_tree);
+            (error.abs(), limit(&asked), limit(&terms))
         });
-        worst("C3", "inverse dynamics", entries)
+        read("C3", "inverse dynamics", entries)
     }
 
     /// C2: accelerations.
@@ -109,14 +143,17 @@ impl<T: Digits> Subject<'_, T> {
         let measured = norm(&off(&computed.a, &wanted));
         let bar = exact.share(T::EPS) * norm(&rounded(&wanted));
         let allowed = match measured > bar {
-            true => (4.0 * rounding(self.tree, s, T::EPS)).max(bar),
+            true => {
+                let forward = |s: &Arguments| Exact::new(self.tree, &s.q, &s.u).forward(&s.tau);
+                (4.0 * rounding(s, T::EPS, forward)).max(bar)
+            }
             false => bar,
         };
         Found::new("C2", "forward dynamics", measured, allowed)
     }
 
     /// C1: M q̈ + h = P + Bᵀλ and B q̈ = γ, row by row, and B q̇ = 0 of bar C9.
-    fn backward(&self, s: &Arguments, computed: &Computed) -> Vec<Found> {
+    fn backward(&self, s: &Arguments, exact: &Exact, computed: &Computed) -> Vec<Found> {
         let Computed {
             rates,
             accelerations,
@@ -126,51 +163,81 @@ impl<T: Digits> Subject<'_, T> {
         let at = self.tree.at(&s.q, rates);
         let n = self.tree.len();
         let share = 16.0 * n as f64 * T::EPS;
+        let (rate_terms, terms) = (
+            sizes(exact, &s.u, None),
+            sizes(exact, &exactly(&computed.a), Some(&exact.second)),
+        );
         let mut drives = vec![Dd::ZERO; n];
         for (&i, &tau) in self.tree.independents.iter().zip(&s.tau) {
             drives[i] = tau;
         }
-        let across = transposed(&at.rows, n);
+        let given = narrow::<T>(&rounded(&s.q));
+        let jacobian = exactly(&wide(self.model.constraint_jacobian(&given)));
+        let rows: Vec<Vec<Dd>> = jacobian.chunks(n).map(<[Dd]>::to_vec).collect();
+        let across = transposed(&rows, n);
         let (inertia, loops) = (times(&at.mass, accelerations), times(&across, multipliers));
         let efforts = (0..n).map(|i| {
             let left = inertia[i] + at.bias[i] - drives[i] - loops[i];
-            let size = weighed(&at.mass[i], accelerations)
-                + at.bias_size[i]
-                + drives[i].to_f64().abs()
-                + weighed(&across[i], multipliers);
-            (left.to_f64().abs(), share * size)
+            let others =
+                at.bias_size[i] + drives[i].to_f64().abs() + weighed(&across[i], multipliers);
+            let size = |q: &[Dd]| share * (weighed(&at.mass[i], q) + others);
+            (left.to_f64().abs(), size(accelerations), size(&terms))
         });
-        let efforts = worst("C1", "M q̈ + h = P + Bᵀλ", efforts);
-        let bent = times(&at.rows, accelerations);
-        let rows = (0..at.rows.len()).map(|k| {
-            let size = weighed(&at.rows[k], accelerations) + at.gamma_size[k];
-            ((bent[k] - at.gamma[k]).to_f64().abs(), share * size)
-        });
-        let rows = worst("C1", "B q̈ = γ", rows);
-        let moved = times(&at.rows, rates);
-        let closed = (0..at.rows.len()).map(|k| {
-            let size = weighed(&at.rows[k], rates);
-            (moved[k].to_f64().abs(), 16.0 * T::EPS * size)
-        });
-        let closed = worst("C9", "B q̇ = 0", closed);
-        let given = narrow::<T>(&rounded(&s.q));
-        let jacobian = wide(self.model.constraint_jacobian(&given));
-        let own = at.rows.iter().flatten().zip(jacobian);
-        // A column is a unit vector or a lever.
-        let entries = own.map(|(&exact, found)| {
-            let size = length_of(&at.rows).max(1.0);
-            ((exact - Dd::from_f64(found)).to_f64().abs(), share * size)
-        });
+        let efforts = read("C1", "M q̈ + h = P + Bᵀλ", efforts);
+        let bent = times(&rows, accelerations);
+        let size = |q: &[Dd]| -> Vec<f64> {
+            let rows = rows.iter().zip(&at.gamma_size);
+            rows.map(|(row, gamma)| share * (weighed(row, q) + gamma))
+                .collect()
+        };
+        let left = bent
+            .iter()
+            .zip(&at.gamma)
+            .map(|(&x, &y)| (x - y).to_f64().abs());
+        let limits = size(accelerations)
+            .into_iter()
+            .zip(self.of_loops(&size(&terms)));
+        let entries = left.zip(limits).map(|(x, (asked, read))| (x, asked, read));
+        let held = read("C1", "B q̈ = γ", entries);
+        let moved = times(&rows, rates);
+        let size = |q: &[Dd]| -> Vec<f64> { rows.iter().map(|row| weighed(row, q)).collect() };
+        let (own, of_loops) = (size(rates), self.of_loops(&size(&rate_terms)));
+        let entries = moved
+            .iter()
+            .zip(own.iter().zip(&of_loops))
+            .map(|(x, (own, all))| {
+                let eps = 16.0 * T::EPS;
+                (x.to_f64().abs(), eps * own, eps * all)
+            });
+        let closed = read("C9", "B q̇ = 0", entries);
+        // A column has a unit vector or a lever.
+        let longest = at.rows.iter().flatten();
+        let longest = longest.fold(1.0, |most: f64, x| most.max(x.to_f64().abs()));
+        let entries = at.rows.iter().flatten().zip(&jacobian);
+        let entries =
+            entries.map(|(&exact, &found)| ((exact - found).to_f64().abs(), share * longest));
         let jacobian = worst("C1", "B", entries);
         let power = multipliers.iter().zip(&moved);
         let power = power.fold(Dd::ZERO, |sum, (&l, &r)| sum + l * r);
-        let sizes = (0..at.rows.len()).map(|k| weighed(&at.rows[k], rates));
-        let size: f64 = sizes
-            .zip(multipliers)
-            .map(|(size, l)| size * l.to_f64().abs())
-            .sum();
-        let none = Found::new("C6", "λᵀ B q̇ = 0", power.to_f64().abs(), share * size);
-        vec![efforts, rows, jacobian, closed, none]
+        let limit = |sizes: &[f64]| -> f64 {
+            let terms = sizes.iter().zip(multipliers);
+            terms.map(|(size, l)| share * size * l.to_f64().abs()).sum()
+        };
+        let entry = (power.to_f64().abs(), limit(&own), limit(&of_loops));
+        let none = read("C6", "λᵀ B q̇ = 0", std::iter::once(entry));
+        vec![efforts, held, jacobian, closed, none]
+    }
+
+    /// Returns for each row the length of the sizes of all rows of its loop.
+    fn of_loops(&self, sizes: &[f64]) -> Vec<f64> {
+        let names: Vec<&str> = (self.model.rows().iter())
+            .map(|name| name.split(' ').next().unwrap_or_default())
+            .collect();
+        let of = |name: &&str| {
+            let own = names.iter().zip(sizes).filter(|(other, _)| *other == name);
+            norm(&own.map(|(_, size)| *size).collect::<Vec<f64>>())
+        };
+        names.iter().map(of).collect()
     }
 
     /// C6: the power of efforts on all joints, P·q̇ = (SᵀP)·u.
@@ -192,10 +259,4 @@ impl<T: Digits> Subject<'_, T> {
         let share = 16.0 * loads.len() as f64 * T::EPS;
         Found::new("C6", "P·q̇ = (SᵀP)·u", measured, share * size)
     }
-}
-
-/// The largest entry.
-fn length_of(rows: &[Vec<Dd>]) -> f64 {
-    let all = rows.iter().flatten();
-    all.fold(0.0, |most: f64, x| most.max(x.to_f64().abs()))
 }

@@ -27,7 +27,9 @@ pub(crate) struct Exact {
     /// S, row by row.
     pub map: Vec<Vec<Dd>>,
     /// z
-    second: Vec<Dd>,
+    pub second: Vec<Dd>,
+    /// q̇ = S u
+    pub rates: Vec<Dd>,
     /// Sᵀ M S
     pub mass: Vec<Vec<Dd>>,
     /// The condition number of the columns of the dependent velocities.
@@ -36,7 +38,11 @@ pub(crate) struct Exact {
 
 /// Returns Σ_j a_ij x_j.
 pub(crate) fn times(a: &[Vec<Dd>], x: &[Dd]) -> Vec<Dd> {
-    let row = |row: &Vec<Dd>| row.iter().zip(x).fold(Dd::ZERO, |sum, (&a, &x)| sum + a * x);
+    let row = |row: &Vec<Dd>| {
+        row.iter()
+            .zip(x)
+            .fold(Dd::ZERO, |sum, (&a, &x)| sum + a * x)
+    };
     a.iter().map(row).collect()
 }
 
@@ -59,7 +65,9 @@ pub(crate) fn solve(mut a: Vec<Vec<Dd>>, mut sides: Vec<Vec<Dd>>) -> Vec<Vec<Dd>
     let n = a.len();
     for k in 0..n {
         let size = |&i: &usize| a[i][k].to_f64().abs();
-        let pivot = (k..n).max_by(|i, j| size(i).total_cmp(&size(j))).expect("a row");
+        let pivot = (k..n)
+            .max_by(|i, j| size(i).total_cmp(&size(j)))
+            .expect("a row");
         assert!(size(&pivot) > 0.0, "the reference is singular");
         a.swap(k, pivot);
         sides.iter_mut().for_each(|b| b.swap(k, pivot));
@@ -117,13 +125,17 @@ impl Exact {
             second[j] = x;
         }
         let across = transposed(&map, u.len());
-        let moved: Vec<Vec<Dd>> = across.iter().map(|column| times(&at.mass, column)).collect();
+        let moved: Vec<Vec<Dd>> = across
+            .iter()
+            .map(|column| times(&at.mass, column))
+            .collect();
         let mass = moved.iter().map(|moved| times(&across, moved)).collect();
         Exact {
             cond_rows: condition(&square),
             tree: at,
             map,
             second,
+            rates,
             mass,
         }
     }
@@ -161,31 +173,24 @@ impl Exact {
     }
 }
 
-/// Returns the change of accelerations if each position, velocity and effort is rounded, by half an eps of
-/// itself: the sum over all of them.
-pub(crate) fn rounding(tree: &Tree, at: &Arguments, eps: f64) -> f64 {
-    let exact = |at: &Arguments| Exact::new(tree, &at.q, &at.u).forward(&at.tau);
-    let (here, slightly) = (exact(at), Dd::ONE + Dd::from_f64(eps / 2.0));
+/// Returns the change of a value if each position, velocity and effort is rounded, by half an eps of itself: the
+/// sum over all of them.
+pub(crate) fn rounding(at: &Arguments, eps: f64, value: impl Fn(&Arguments) -> Vec<Dd>) -> f64 {
+    let (here, slightly) = (value(at), Dd::ONE + Dd::from_f64(eps / 2.0));
     let mut sum = 0.0;
-    for (kind, size) in [at.q.len(), at.u.len(), at.tau.len()].into_iter().enumerate() {
+    for (kind, size) in [at.q.len(), at.u.len(), at.tau.len()]
+        .into_iter()
+        .enumerate()
+    {
         for i in 0..size {
             let mut moved = at.clone();
             let of = [&mut moved.q, &mut moved.u, &mut moved.tau];
             of.into_iter().nth(kind).expect("three kinds")[i] *= slightly;
-            let off: Vec<f64> = (exact(&moved).iter().zip(&here))
+            let off: Vec<f64> = (value(&moved).iter().zip(&here))
                 .map(|(&x, &y)| (x - y).to_f64())
                 .collect();
             sum += norm(&off);
         }
     }
     sum
-}
-
-/// Returns the determinant of the columns of the dependent velocities: it changes its sign at singular positions.
-pub(crate) fn determinant(tree: &Tree, q: &[Dd]) -> f64 {
-    let rows = tree.at(q, &vec![Dd::ZERO; tree.len()]).rows;
-    let all = rows.iter();
-    let entries = all.flat_map(|row| tree.dependents.iter().map(|&j| row[j].to_f64()));
-    let entries: Vec<f64> = entries.collect();
-    DMatrix::from_row_slice(rows.len(), rows.len(), &entries).determinant()
 }

@@ -1,6 +1,7 @@
 //! Reference of mechanisms with loops, in double-double: equation (6) of the open tree, added up body by body in
 //! the axes of the world, and the rows of the loops. Of the generator only the reader of specs is used.
 
+use bgdyn_codegen::mechanism::closure::Closure;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Pose, Value};
 use bgdyn_runtime::Dd;
 
@@ -56,6 +57,7 @@ pub(crate) struct Tree {
     pub independents: Vec<usize>,
     /// The dependent ones.
     pub dependents: Vec<usize>,
+    closure: Closure,
 }
 
 /// The motion of a link if no joint accelerates: rotation, origin, angular velocity, velocity, angular
@@ -185,12 +187,19 @@ impl Tree {
             rows: rows.collect(),
             independents: closure.independents.iter().map(|j| j.0).collect(),
             dependents: closure.dependents().map(|j| j.0).collect(),
+            closure: closure.clone(),
         }
     }
 
     /// Number of velocities of the tree.
     pub fn len(&self) -> usize {
         self.bodies.len()
+    }
+
+    /// Returns whether a closed position is on the branch of the start, by the signs of the determinants of the
+    /// blocks of rows.
+    pub fn on_branch(&self, q: &[Dd]) -> bool {
+        self.closure.signs_at(q) == self.closure.signs
     }
 
     /// Returns whether a joint is a rotation.
@@ -246,12 +255,18 @@ impl Tree {
         for (i, body) in self.bodies.iter().enumerate() {
             let link = all[i];
             let centre = link.shifted(times(&link.turned, body.com));
-            let inertia = product(&product(&link.turned, &body.inertia), &transposed(&link.turned));
+            let inertia = product(
+                &product(&link.turned, &body.inertia),
+                &transposed(&link.turned),
+            );
             let columns = self.columns(&all, Some(i), centre.origin);
             let force = scaled(body.mass, minus(centre.acceleration, self.gravity));
             let spin = times(&inertia, link.omega);
             let moment = sum(times(&inertia, link.alpha), cross(link.omega, spin));
-            let stiff = inertia.map(length).iter().fold(0.0, |most: f64, x| most.max(*x));
+            let stiff = inertia
+                .map(length)
+                .iter()
+                .fold(0.0, |most: f64, x| most.max(*x));
             let square = dot(link.omega, link.omega).to_f64();
             let forces = body.mass.to_f64() * (centre.sizes[1] + length(self.gravity));
             let moments = stiff * (centre.sizes[0] + square);
@@ -290,7 +305,9 @@ impl Tree {
             let outward = to.iter().rev().filter(|j| !from.contains(j));
             let origins = inward.chain(outward).map(|&j| all[j].origin);
             let points: Vec<Vector> = std::iter::once(a).chain(origins).chain([b]).collect();
-            let ways = points.windows(2).map(|pair| length(minus(pair[1], pair[0])));
+            let ways = points
+                .windows(2)
+                .map(|pair| length(minus(pair[1], pair[0])));
             ways.sum::<f64>() / 2.0
         };
         self.rows.iter().map(size).collect()

@@ -5,9 +5,8 @@ use hard_cases_compiled::loops::{Closed, closed, spec};
 
 use crate::Extent;
 use crate::loop_bars::exactly;
-use crate::loop_exact::determinant;
 use crate::loop_tree::Tree;
-use crate::loops_states::MECHANISMS;
+use crate::loops_states::{MECHANISMS, Walk};
 use crate::outcome::Outcome;
 use crate::reference::larger;
 use crate::rng::Rng;
@@ -52,73 +51,74 @@ fn needed(model: &dyn Closed<f64>, tree: &Tree, from: &[f64]) -> usize {
 /// What comes of closing from one distance.
 #[derive(Default)]
 struct Count {
-    tried: usize,
-    /// Starts beyond a singular position: on the side of another branch.
-    beyond: usize,
+    /// States in which more steps than allowed are needed.
+    slow: usize,
     open: f64,
     needed: usize,
-    taken: usize,
     refused: usize,
-    /// Positions on another branch, from starts on this one's side and from others.
-    other: [usize; 2],
+    /// Positions on another branch.
+    other: usize,
 }
 
-/// Closes from starts whose dependent positions are off by this much, rad, and in sliding joints this part of the
-/// size of the loop.
-fn from(name: &str, away: f64, states: usize) -> Count {
+/// Closes from starts whose dependent angles are off by this much, rad.
+fn from(name: &str, away: f64, steps: usize, states: usize) -> Count {
     let (model, tree) = (closed::<f64>(name), Tree::new(spec(name), name));
     let (mut count, mut rng) = (Count::default(), Rng::new(37));
+    let angles = tree.dependents.iter().copied().filter(|&j| tree.turns(j));
+    let angles: Vec<usize> = angles.collect();
+    let mut walk = Walk::new(&*model, &tree);
     for _ in 0..states {
-        let numbers: Vec<f64> = (0..model.nv()).map(|_| rng.unit()).collect();
-        let q = model.sample(&numbers);
-        let size = tree.sizes(&exactly(&q)).into_iter().fold(0.0, f64::max);
+        let q = walk.next(&mut rng);
         let mut start = q.clone();
         // One is off by all of it, the others by up to that.
-        let farthest = rng.below(tree.dependents.len());
-        for (k, &j) in tree.dependents.iter().enumerate() {
+        let farthest = rng.below(angles.len());
+        for (k, &j) in angles.iter().enumerate() {
             let share = if k == farthest {
                 *rng.pick(&[1.0, -1.0])
             } else {
                 rng.within(1.0)
             };
-            start[j] += share * away * if tree.turns(j) { 1.0 } else { size };
+            start[j] += share * away;
         }
-        count.tried += 1;
-        let side = |q: &[f64]| determinant(&tree, &exactly(q)) > 0.0;
-        let beyond = side(&start) != side(&q);
-        count.beyond += usize::from(beyond);
         let Ok(found) = model.close(&start) else {
             count.refused += 1;
             continue;
         };
         count.open = larger(count.open, open(&tree, &found));
-        count.taken = count.taken.max(model.count_steps(&start).0);
-        count.needed = count.needed.max(needed(&*model, &tree, &start));
         if apart(&found, &q) > 1e-6 {
-            count.other[usize::from(beyond)] += 1;
+            count.other += 1;
+            continue;
         }
+        let needed = needed(&*model, &tree, &start);
+        count.slow += usize::from(needed > steps);
+        count.needed = count.needed.max(needed);
     }
     count
 }
 
 /// Closes all mechanisms from 0.1 and 0.5 rad away.
 pub(crate) fn distances(extent: Extent) -> Vec<Outcome> {
-    let states = extent.of(10_000, 100);
+    let states = extent.of(3_000, 100);
     let mut outcomes = vec![];
     for name in MECHANISMS {
-        for (away, steps) in [(0.1, 4.0), (0.5, 8.0)] {
-            let count = from(name, away, states);
-            let mut row = |what: &str, measured: f64, allowed: f64| {
+        for (away, steps) in [(0.1, 4), (0.5, 8)] {
+            let count = from(name, away, steps, states);
+            let mut row = |what: &str, measured: f64, allowed: f64, at: String| {
                 let quantity = format!("{what}; {away} rad away");
-                let at = format!("{} states, {} beyond", count.tried, count.beyond);
                 outcomes.push(Outcome::new(name, "C4", quantity, measured, allowed).at(at));
             };
-            row("open after close, in eps of the size", count.open, 8.0);
-            row("Newton steps until open by 8 eps", count.needed as f64, steps);
-            row("Newton steps of close", count.taken as f64, steps);
-            row("not closed", count.refused as f64, 0.0);
-            row("on another branch, from this one's side", count.other[0] as f64, 0.0);
-            row("on another branch, from beyond", count.other[1] as f64, 0.0);
+            let none = String::new();
+            row("open, in eps of its size", count.open, 8.0, none);
+            let at = format!("{} of {states} states", count.slow);
+            row(
+                "Newton steps to 8 eps",
+                count.needed as f64,
+                steps as f64,
+                at,
+            );
+            let lost = (count.refused + count.other) as f64;
+            let at = format!("{} not closed of {states} states", count.refused);
+            row("not closed, or on another branch", lost, 0.0, at);
         }
     }
     outcomes
@@ -172,7 +172,7 @@ fn ends() -> [End; 2] {
 
 /// Distances from the end of the reach in units in the last place of its position.
 struct Reached {
-    /// The nearest one inside from which on all close.
+    /// The farthest one inside that is refused.
     inside: f64,
     /// The farthest one outside that closes to 8 eps.
     accepted: f64,
@@ -180,68 +180,89 @@ struct Reached {
     wrong: f64,
 }
 
-/// Closes on either side of the end, from the positions at the end or from those `back`, rad, inside.
-fn reach(end: &End, back: f64) -> Reached {
+/// Walks from the start of the mechanism to a distance from the end, rad, inside; this keeps the branch.
+fn walk(model: &dyn Closed<f64>, tree: &Tree, end: &End, distance: f64) -> Vec<f64> {
+    let mut q = model.neutral();
+    let (from, to) = (q.clone(), end.at.to_f64() - distance);
+    for k in 1..=200 {
+        for j in &tree.independents {
+            let wanted = if *j == end.place { to } else { end.q[*j] };
+            q[*j] = from[*j] + (wanted - from[*j]) * f64::from(k) / 200.0;
+        }
+        q = model.close(&q).expect("inside");
+    }
+    q
+}
+
+/// Closes on either side of the end, from `back`, rad, inside; inside also from twice as far from it.
+fn reach(end: &End, back: f64) -> (Reached, f64) {
     let (model, tree) = (closed::<f64>(end.name), Tree::new(spec(end.name), end.name));
     let ulp = f64::EPSILON * 2_f64.powi(end.at.to_f64().log2().floor() as i32);
-    let mut guess = end.q.clone();
-    // A walk from the start of the mechanism keeps the branch.
-    if back > 0.0 {
-        guess = model.neutral();
-        let (from, to) = (guess.clone(), end.at.to_f64() - back);
-        for k in 1..=200 {
-            for j in &tree.independents {
-                let wanted = if *j == end.place { to } else { end.q[*j] };
-                guess[*j] = from[*j] + (wanted - from[*j]) * f64::from(k) / 200.0;
-            }
-            guess = model.close(&guess).expect("inside");
-        }
-    }
+    let guess = walk(&*model, &tree, end, back);
+    let here = end.at.to_f64();
+    let close = |guess: &[f64], x: f64| {
+        let mut q = guess.to_vec();
+        q[end.place] = x;
+        model.close(&q).ok()
+    };
     let mut reached = Reached {
         inside: 0.0,
         accepted: 0.0,
         wrong: 0.0,
     };
-    // Eight distances an octave, up to 0.05 rad.
-    let mut distances: Vec<f64> = (0..400).map(|k| 2_f64.powf(f64::from(k) / 8.0).round()).collect();
-    distances.retain(|d| d * ulp < 0.05);
+    // Eight distances an octave, up to 0.01 rad.
+    let mut distances: Vec<f64> = (0..400)
+        .map(|k| 2_f64.powf(f64::from(k) / 8.0).round())
+        .collect();
+    distances.retain(|d| d * ulp < back);
     for d in distances {
-        let mut at = |x: f64| {
-            guess[end.place] = x;
-            model.close(&guess).ok()
-        };
-        let here = end.at.to_f64();
-        if at(here - d * ulp).is_none() {
+        if close(&guess, here - d * ulp).is_none() {
             reached.inside = d;
         }
-        if let Some(q) = at(here + d * ulp) {
+        if let Some(q) = close(&guess, here + d * ulp) {
             match open(&tree, &q) <= 8.0 {
                 true => reached.accepted = d,
                 false => reached.wrong = d,
             }
         }
     }
-    reached
+    let (mut q, mut distance) = (guess, back);
+    while distance > ulp {
+        match close(&q, here - distance / 2.0) {
+            Some(next) => (q, distance) = (next, distance / 2.0),
+            None => break,
+        }
+    }
+    // Beyond the end, from the nearest position inside.
+    for d in 1..=1_000 {
+        let d = f64::from(d);
+        if let Some(q) = close(&q, here + d * ulp) {
+            match open(&tree, &q) <= 8.0 {
+                true => reached.accepted = reached.accepted.max(d),
+                false => reached.wrong = reached.wrong.max(d),
+            }
+        }
+    }
+    (reached, distance / ulp)
 }
 
 /// Closes near the end of the reach.
 pub(crate) fn ends_of_reach(_: Extent) -> Vec<Outcome> {
     let mut outcomes = vec![];
     for end in ends() {
-        for (back, guess) in [(0.0, "the end"), (0.01, "0.01 rad inside")] {
-            let Reached {
-                inside,
-                accepted,
-                wrong,
-            } = reach(&end, back);
-            let mut row = |what: &str, measured: f64, allowed: f64| {
-                let quantity = format!("{what}, ulp; from {guess}");
-                outcomes.push(Outcome::new(end.name, "C4", quantity, measured, allowed));
-            };
-            row("refused inside the reach, up to", inside, 4.0);
-            row("closed beyond the reach, up to", accepted, 4.0);
-            row("beyond, but open by more than 8 eps, up to", wrong, 0.0);
-        }
+        let (reached, halving) = reach(&end, 0.01);
+        let mut row = |what: &str, measured: f64, allowed: f64| {
+            let quantity = format!("{what}, in ulp");
+            outcomes.push(Outcome::new(end.name, "C4", quantity, measured, allowed));
+        };
+        row(
+            "refused within reach, from 0.01 rad inside",
+            reached.inside,
+            4.0,
+        );
+        row("refused within reach, from twice as far", halving, 4.0);
+        row("closed to 8 eps beyond reach", reached.accepted, 4.0);
+        row("closed to more than 8 eps beyond reach", reached.wrong, 0.0);
     }
     outcomes
 }

@@ -44,9 +44,7 @@ pub trait Closed<T>: Model<T> {
 
 macro_rules! closed {
     ($module:ident, $model:ident) => {
-        impl<T: Scalar> Closed<T>
-            for Erased<$module::$model<T>, { $module::NQ }, { $module::NV }>
-        {
+        impl<T: Scalar> Closed<T> for Erased<$module::$model<T>, { $module::NQ }, { $module::NV }> {
             fn nt(&self) -> usize {
                 $module::NT
             }
@@ -64,7 +62,11 @@ macro_rules! closed {
             }
 
             fn integrate(&self, q: &[T], dv: &[T]) -> Vec<T> {
-                list(&bgdyn::Dynamics::integrate(&self.0, &vector(q), &vector(dv)))
+                list(&bgdyn::Dynamics::integrate(
+                    &self.0,
+                    &vector(q),
+                    &vector(dv),
+                ))
             }
 
             fn close(&self, q: &[T]) -> Result<Vec<T>, String> {
@@ -96,7 +98,9 @@ macro_rules! closed {
 
             fn velocity_map(&self, q: &[T]) -> Vec<T> {
                 let map = self.0.velocity_map(&vector(q));
-                map.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<T>>()).collect()
+                map.row_iter()
+                    .flat_map(|row| row.iter().copied().collect::<Vec<T>>())
+                    .collect()
             }
 
             fn constraint_residual(&self, q: &[T]) -> Vec<T> {
@@ -105,7 +109,9 @@ macro_rules! closed {
 
             fn constraint_jacobian(&self, q: &[T]) -> Vec<T> {
                 let rows = self.0.constraint_jacobian(&vector(q));
-                rows.row_iter().flat_map(|row| row.iter().copied().collect::<Vec<T>>()).collect()
+                rows.row_iter()
+                    .flat_map(|row| row.iter().copied().collect::<Vec<T>>())
+                    .collect()
             }
 
             fn multipliers(&self, q: &[T], v: &[T], a: &[T]) -> Vec<T> {
