@@ -133,8 +133,35 @@ pub struct Topic {
 
 /// Case and quantity of the rows that miss their bar in the quick run too: `docs/hard_cases.md` says by how
 /// much, and why.
-pub const MISSED: &[(&str, &str)] =
-    &[("body_tumbling", "velocities, orientation; dop853 at 1e-13")];
+pub const MISSED: &[(&str, &str)] = &[
+    ("body_tumbling", "velocities, orientation; dop853 at 1e-13"),
+    ("slider_crank_near_singular", "forward dynamics"),
+    ("slider_crank_near_singular", "forward dynamics, f32"),
+    ("excavator", "Newton steps to 8 eps; 0.1 rad away"),
+    (
+        "excavator",
+        "not closed, or on another branch; 0.5 rad away",
+    ),
+    ("five_bar", "Newton steps to 8 eps; 0.1 rad away"),
+    ("five_bar", "not closed, or on another branch; 0.5 rad away"),
+    ("four_bar", "not closed, or on another branch; 0.5 rad away"),
+    (
+        "slider_crank_near_singular",
+        "Newton steps to 8 eps; 0.1 rad away",
+    ),
+    (
+        "slider_crank_near_singular",
+        "not closed, or on another branch; 0.5 rad away",
+    ),
+    (
+        "short_rod",
+        "refused within reach, from 0.01 rad inside, in ulp",
+    ),
+    (
+        "five_bar",
+        "refused within reach, from 0.01 rad inside, in ulp",
+    ),
+];
 
 macro_rules! topics {
     ($($name:ident: $run:path $(, $shortened:literal)?;)*) => {

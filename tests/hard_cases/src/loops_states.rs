@@ -362,7 +362,9 @@ pub(crate) fn seeded(extent: Extent) -> Vec<Outcome> {
                 a: some(3.0),
                 tau: some(20.0),
             };
-            let (at, loads) = (format!("state {k}"), loads(&tree, &mut rng));
+            let cond = Exact::new(&tree, &s.q, &s.u).cond_rows;
+            let at = format!("state {k}, cond J_d {cond:.0e}");
+            let loads = loads(&tree, &mut rng);
             let (at, state) = ((case.as_str(), at.as_str()), (&tree, &s, loads.as_slice()));
             bars::<f64>(&mut worst, name, at, state);
             if tree.len() <= SHORT {

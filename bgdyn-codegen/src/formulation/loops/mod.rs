@@ -52,7 +52,8 @@ impl Formulation for Elimination {
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let forms = forms(prepared.graph, method).into_iter();
         let made = forms.filter_map(|form| function(prepared, method, form));
-        // A pivot that others follow may vanish at regular positions: operations count among forms with the fewest.
+        // A pivot that others follow may vanish at regular positions, and digits with it: operations decide among the
+        // forms with the fewest.
         let chosen =
             made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
         chosen.map(|(made, _)| made)
