@@ -17,6 +17,8 @@ pub(super) struct EliminatedMatrix<'g> {
     matrix: Vec<Vec<Expr<'g>>>,
     /// 1 / pivot, by column.
     inverse: Vec<Expr<'g>>,
+    /// Number of pivots that are not constant.
+    varying: usize,
 }
 
 /// A place for a pivot.
@@ -25,8 +27,6 @@ struct PivotPlace {
     column: usize,
     /// Its size at the sampled positions.
     size: f64,
-    /// Whether it is negative at all of them; `None` if it changes its sign.
-    negative: Option<bool>,
 }
 
 impl<'g> EliminatedMatrix<'g> {
@@ -41,12 +41,25 @@ impl<'g> EliminatedMatrix<'g> {
         let n = matrix.len();
         let mut pivots: Vec<(usize, usize)> = Vec::new();
         let mut inverse = vec![b.zero(); n];
-        for _ in 0..n {
+        // The product of the pivots so far that are not constant.
+        let (mut product, mut varying): (Option<Expr<'g>>, usize) = (None, 0);
+        for k in 1..=n {
             let place = pivot(b, &matrix, &pivots, samples);
             let (row, column) = (place.row, place.column);
             pivots.push((row, column));
             let check = checks.map(|checks| checks[row]);
-            inverse[column] = inverted(b, matrix[row][column], &place, check);
+            let value = matrix[row][column];
+            inverse[column] = match check {
+                None => b.constant(Dd::ONE) / value,
+                Some(index) if k < n => inverted_early(b, value, place.size, index),
+                Some(index) => inverted_last(b, (value, product), samples, index),
+            };
+            if value.as_constant().is_none() {
+                varying += 1;
+                if check.is_some() {
+                    product = Some(product.map_or(value, |product| product * value));
+                }
+            }
             let free_row = |i: &usize| pivots.iter().all(|(row, _)| row != i);
             let free_column = |j: &usize| pivots.iter().all(|(_, column)| column != j);
             for i in (0..n).filter(free_row) {
@@ -65,7 +78,13 @@ impl<'g> EliminatedMatrix<'g> {
             pivots,
             matrix,
             inverse,
+            varying,
         }
+    }
+
+    /// Returns the number of pivots, not constant, that others follow: they may vanish where the matrix is regular.
+    pub(super) fn early(&self) -> usize {
+        self.varying.saturating_sub(1)
     }
 
     /// Returns the solution of the transposed equations for one side, which is by column; the result is by row.
@@ -102,23 +121,38 @@ impl<'g> EliminatedMatrix<'g> {
     }
 }
 
-/// Returns 1 / pivot. A checked pivot is refused if it is a rounding error of its size, or has changed its sign: then
-/// the loop is at a singular position, or beyond one.
-fn inverted<'g>(
+/// Returns 1 / pivot for a pivot that others follow. It may have either sign at regular positions, and is refused if it
+/// is a rounding error of its size: there this order of pivots has no digits.
+fn inverted_early<'g>(b: &'g Builder, value: Expr<'g>, size: f64, index: usize) -> Expr<'g> {
+    if value.as_constant().is_some() {
+        return b.constant(Dd::ONE) / value;
+    }
+    value.sign() / value.abs().pivot(b.number(size), index)
+}
+
+/// Returns 1 / pivot for the last pivot. The product of all pivots, the determinant, is refused if it is a rounding
+/// error of its size, or has changed its sign: then the loop is at a singular position, or beyond one.
+fn inverted_last<'g>(
     b: &'g Builder,
-    value: Expr<'g>,
-    place: &PivotPlace,
-    check: Option<usize>,
+    (value, before): (Expr<'g>, Option<Expr<'g>>),
+    samples: &[Vec<Dd>],
+    index: usize,
 ) -> Expr<'g> {
     let one = b.constant(Dd::ONE);
-    let Some(index) = check.filter(|_| value.as_constant().is_none()) else {
+    if value.as_constant().is_some() && before.is_none() {
         return one / value;
-    };
-    let size = b.number(place.size);
-    match place.negative {
-        Some(false) => one / value.pivot(size, index),
-        Some(true) => -(one / (-value).pivot(size, index)),
-        None => value / (value * value).pivot(size * size, index),
+    }
+    let before = before.unwrap_or(one);
+    let determinant = before * value;
+    let sampled = samples.iter().map(|q| at(b, &[determinant.signed()], q)[0]);
+    let sampled: Vec<f64> = sampled.collect();
+    let size = b.number(sampled.iter().fold(0.0, |most: f64, x| most.max(x.abs())));
+    if sampled.iter().all(|x| *x > 0.0) {
+        before / determinant.pivot(size, index)
+    } else if sampled.iter().all(|x| *x < 0.0) {
+        -(before / (-determinant).pivot(size, index))
+    } else {
+        before * determinant / (determinant * determinant).pivot(size * size, index)
     }
 }
 
@@ -160,11 +194,6 @@ fn pivot(
         row: places[k].0,
         column: places[k].1,
         size: of(k).map(f64::abs).fold(0.0, f64::max),
-        negative: match (of(k).all(|x| x < 0.0), of(k).all(|x| x > 0.0)) {
-            (true, _) => Some(true),
-            (_, true) => Some(false),
-            _ => None,
-        },
     }
 }
 

@@ -39,6 +39,11 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
 }
 
 impl<'a, 'g> LoopMotion<'a, 'g> {
+    /// Returns the number of pivots, not constant, that others follow in their block.
+    pub(super) fn early_pivots(&self) -> usize {
+        self.map.early_pivots()
+    }
+
     /// Returns the motion for the arguments of a method; `bias` returns −γ for velocities of the tree.
     pub(super) fn new(
         map: VelocityMap<'a, 'g>,

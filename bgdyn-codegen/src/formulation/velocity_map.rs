@@ -97,6 +97,11 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
         map
     }
 
+    /// Returns the number of pivots, not constant, that others follow in their block.
+    pub(super) fn early_pivots(&self) -> usize {
+        self.eliminations.iter().map(EliminatedMatrix::early).sum()
+    }
+
     /// Returns the number of independent velocities.
     pub(super) fn independents(&self) -> usize {
         self.closure.independents.len()

@@ -30,7 +30,7 @@ pub(crate) const MECHANISMS: [&str; 17] = [
 ];
 
 /// The largest arguments.
-trait Range: Digits + Compiled {
+pub(crate) trait Range: Digits + Compiled {
     /// Largest position, and largest first-order state.
     const POSITION: f64;
     /// Largest value of all other arguments.
@@ -57,7 +57,7 @@ impl Range for f32 {
 
 /// Returns a number of any size up to `most`: one in eight is ±0, one in eight a denormal, one in eight
 /// the largest, the others any power of ten.
-fn wild<T: Range>(rng: &mut Rng, most: f64) -> T {
+pub(crate) fn wild<T: Range>(rng: &mut Rng, most: f64) -> T {
     let sign = if rng.chance(0.5) { 1.0 } else { -1.0 };
     T::from_f64(match rng.below(8) {
         0 => sign * 0.0,
@@ -124,7 +124,7 @@ impl Count {
     }
 }
 
-fn is_finite<T: Digits>(x: &T) -> bool {
+pub(crate) fn is_finite<T: Digits>(x: &T) -> bool {
     x.to_f64().is_finite()
 }
 

@@ -131,6 +131,21 @@ impl Reference {
         self.compare(found, &self.rows, |_| 1.0, allowed)
     }
 
+    /// Compares some columns with the samples; `allowed` by index.
+    pub fn columns(
+        &self,
+        columns: &[&str],
+        found: &[Vec<f64>],
+        allowed: impl Fn(usize) -> f64,
+    ) -> Vec<Deviation> {
+        self.compare(found, &self.values(columns), |_| 1.0, allowed)
+    }
+
+    /// Returns the names of the columns after the time.
+    pub fn names(&self) -> Vec<&str> {
+        self.columns.iter().map(String::as_str).collect()
+    }
+
     /// Compares some columns with the samples.
     pub fn some(&self, columns: &[&str], found: &[Vec<f64>], allowed: f64) -> Vec<Deviation> {
         self.compare(found, &self.values(columns), |_| 1.0, |_| allowed)

@@ -52,7 +52,11 @@ impl Formulation for Elimination {
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let forms = forms(prepared.graph, method).into_iter();
         let made = forms.filter_map(|form| function(prepared, method, form));
-        made.min_by_key(|made| factor(made.clone()).cost().weighted())
+        // A pivot that others follow may vanish at regular positions, and digits with it: operations decide among the
+        // forms with the fewest.
+        let chosen =
+            made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
+        chosen.map(|(made, _)| made)
     }
 }
 
@@ -107,15 +111,17 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
     forms.iter().copied().chain(others).collect()
 }
 
-/// Returns the function of a method in one form.
-fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<Function> {
+/// Returns the function of a method in one form, and its number of pivots that others follow.
+fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(Function, usize)> {
     let graph = prepared.graph;
     let closed = graph.closed.as_deref()?;
     let b = Builder::new();
+    let early;
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, method);
         let first = method.shape().checked().then_some(graph.coordinates.len());
         let motion = loop_motion(&b, closed, &x, (form, first));
+        early = motion.early_pivots();
         let residuals = loop_residuals(&b, &closed.closure, &x.q);
         let read = |method: Method| prepared.tree_function(method);
         let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
@@ -128,7 +134,8 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<F
             format!("{of_tree}; loops eliminated")
         }
     };
-    Some(Function::flat(graph, method, name, b.into_graph(), outputs))
+    let function = Function::flat(graph, method, name, b.into_graph(), outputs);
+    Some((function, early))
 }
 
 /// Returns the motion of the open tree for the arguments of a method; with `first` pivots are checked.

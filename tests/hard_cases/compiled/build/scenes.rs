@@ -33,6 +33,9 @@ const WITH_JACOBIAN: [&str; 9] = [
 /// Scenes with a canonical form.
 const CANONICAL: [&str; 1] = ["double_pendulum_chaotic"];
 
+/// Scenes with loops, of `tests/closed_loops`.
+const CLOSED: [&str; 4] = ["crank_run", "five_bar_run", "stewart_run", "swing"];
+
 /// Returns every scene file of a folder.
 fn files(folder: PathBuf) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).expect("a folder of scenes");
@@ -90,7 +93,9 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         includes += &module_of(out, &name, &system, &functions);
     }
     let driven = root.join("../free_scenes/satellite_torques.scene.yaml");
+    let closed = CLOSED.map(|name| root.join(format!("../closed_loops/{name}.scene.yaml")));
     let known = files(root.join("scenes")).into_iter().chain([driven]);
+    let known = known.chain(closed);
     let known = known.map(|path| (path, false));
     let shared = files(root.join("../../specs/scenes"))
         .into_iter()

@@ -1,6 +1,8 @@
 //! The mechanisms of the hard cases by name, for any size, and the scenes.
 #![forbid(unsafe_code)]
 
+pub mod loops;
+
 use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::{Dynamics, Scalar};
 
