@@ -14,8 +14,9 @@
 //! | `dop853` | 8(5,3) | the same at small tolerances |
 //! | `extrapolation12` | 12 | references in double-double |
 //!
-//! [`rk4_step`] takes a step of any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene: positions
-//! advance by the model's `integrate`, so positions and velocities may be different spaces.
+//! [`rk4_step`] takes a step of any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene. Positions
+//! and velocities may be different spaces: positions advance by their rates, and quaternions, loops and wheels are
+//! put right at the end of the step.
 //!
 //! # A compiled scene, and a mechanism
 //! ```

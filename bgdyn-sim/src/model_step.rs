@@ -1,6 +1,7 @@
 //! The classical Runge–Kutta method of order 4 on a mechanism (Kutta 1901).
 //!
-//! Positions advance by the mechanism's `integrate`.
+//! Stages advance positions by their rates q̇ = N(q) v, in which velocities in link axes and those of constraints need
+//! not commute. At the end quaternions are scaled to length 1, loops closed and wheels put on their planes.
 
 use bgdyn_runtime::{Dynamics, Scalar};
 use nalgebra::SVector;
@@ -23,21 +24,24 @@ fn plus_scaled<T: Scalar, const N: usize>(
     x.zip_map(y, |x, y| x + k * y)
 }
 
-/// Returns the state after moving from `s` with the rates (v, a) for the time `h`.
-fn moved<M, T, const NQ: usize, const NV: usize>(
-    model: &M,
+/// Returns the state after moving from `s` with these rates for the time `h`.
+fn moved<T: Scalar, const NQ: usize, const NV: usize>(
     s: &State<T, NQ, NV>,
-    rates: (&SVector<T, NV>, &SVector<T, NV>),
+    rates: &State<T, NQ, NV>,
     h: T,
-) -> State<T, NQ, NV>
-where
-    M: Dynamics<T, NQ, NV>,
-    T: Scalar,
-{
+) -> State<T, NQ, NV> {
     State {
-        q: model.integrate(&s.q, &rates.0.map(|v| h * v)),
-        v: plus_scaled(&s.v, h, rates.1),
+        q: plus_scaled(&s.q, h, &rates.q),
+        v: plus_scaled(&s.v, h, &rates.v),
     }
+}
+
+/// Returns (k₁ + 2 k₂ + 2 k₃ + k₄) / 6.
+fn mean<T: Scalar, const N: usize>(k: [&SVector<T, N>; 4]) -> SVector<T, N> {
+    let middle = plus_scaled(k[1], T::from_f64(1.0), k[2]);
+    let ends = plus_scaled(k[0], T::from_f64(1.0), k[3]);
+    let sixth = T::from_f64(1.0) / T::from_f64(6.0);
+    plus_scaled(&ends, T::from_f64(2.0), &middle).map(|x| x * sixth)
 }
 
 /// Takes one step of length `h`, s, from time `t` under the joint efforts `tau(t, state)`.
@@ -55,25 +59,24 @@ where
     M: Dynamics<T, NQ, NV>,
     T: Scalar,
 {
-    let mut acceleration = |t: T, s: &State<T, NQ, NV>| {
+    let mut rates = |t: T, s: &State<T, NQ, NV>| {
         let effort = tau(t, s);
-        model.forward_dynamics(&s.q, &s.v, &effort)
+        let v = model.forward_dynamics(&s.q, &s.v, &effort)?;
+        let q = model.position_rates(&s.q, &s.v);
+        Ok(State { q, v })
     };
     let half = h * T::from_f64(0.5);
-    let a1 = acceleration(t, s)?;
-    let s2 = moved(model, s, (&s.v, &a1), half);
-    let a2 = acceleration(t + half, &s2)?;
-    let s3 = moved(model, s, (&s2.v, &a2), half);
-    let a3 = acceleration(t + half, &s3)?;
-    let s4 = moved(model, s, (&s3.v, &a3), h);
-    let a4 = acceleration(t + h, &s4)?;
-    // (k₁ + 2 k₂ + 2 k₃ + k₄) / 6
-    let mean = |k1: &SVector<T, NV>, k2, k3, k4| {
-        let middle: SVector<T, NV> = plus_scaled(k2, T::from_f64(1.0), k3);
-        let ends = plus_scaled(k1, T::from_f64(1.0), k4);
-        let sixth = T::from_f64(1.0) / T::from_f64(6.0);
-        plus_scaled(&ends, T::from_f64(2.0), &middle).map(|x| x * sixth)
+    let k1 = rates(t, s)?;
+    let k2 = rates(t + half, &moved(s, &k1, half))?;
+    let k3 = rates(t + half, &moved(s, &k2, half))?;
+    let k4 = rates(t + h, &moved(s, &k3, h))?;
+    let mean = State {
+        q: mean([&k1.q, &k2.q, &k3.q, &k4.q]),
+        v: mean([&k1.v, &k2.v, &k3.v, &k4.v]),
     };
-    let (v, a) = (mean(&s.v, &s2.v, &s3.v, &s4.v), mean(&a1, &a2, &a3, &a4));
-    Ok(moved(model, s, (&v, &a), h))
+    let State { q, v } = moved(s, &mean, h);
+    // No displacement: that only closes loops.
+    let none = SVector::from_element(T::from_f64(0.0));
+    let q = model.integrate(&model.normalize(&q), &none);
+    Ok(State { q, v })
 }

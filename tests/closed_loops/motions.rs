@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::{SVector, vector};
+use bgdyn_sim::{State, rk4_step};
 use serde_json::Value;
 
 use crate::five_bar::FiveBar;
@@ -22,33 +23,18 @@ pub(crate) fn numbers(value: &Value) -> Vec<f64> {
     all.map(|x| x.as_f64().expect("a number")).collect()
 }
 
-/// One step of the classical Runge–Kutta method: position along the tangent of the start.
+/// One step of `rk4_step`.
 fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     model: &M,
     (q, v): (SVector<f64, NQ>, SVector<f64, NV>),
     (t, h): (f64, f64),
     tau: impl Fn(f64, &SVector<f64, NQ>) -> SVector<f64, NV>,
 ) -> (SVector<f64, NQ>, SVector<f64, NV>) {
-    let rate = |t: f64, q: &SVector<f64, NQ>, v: &SVector<f64, NV>| match model.forward_dynamics(
-        q,
-        v,
-        &tau(t, q),
-    ) {
-        Ok(a) => a,
+    let efforts = |t, s: &State<f64, NQ, NV>| tau(t, &s.q);
+    match rk4_step(model, t, &State { q, v }, h, efforts) {
+        Ok(moved) => (moved.q, moved.v),
         Err(_) => panic!("no acceleration at {t} s"),
-    };
-    let a1 = rate(t, &q, &v);
-    let v2 = v + a1 * (h / 2.0);
-    let a2 = rate(t + h / 2.0, &model.integrate(&q, &(v * (h / 2.0))), &v2);
-    let v3 = v + a2 * (h / 2.0);
-    let a3 = rate(t + h / 2.0, &model.integrate(&q, &(v2 * (h / 2.0))), &v3);
-    let v4 = v + a3 * h;
-    let a4 = rate(t + h, &model.integrate(&q, &(v3 * h)), &v4);
-    let moved = (v + v2 * 2.0 + v3 * 2.0 + v4) * (h / 6.0);
-    (
-        model.integrate(&q, &moved),
-        v + (a1 + a2 * 2.0 + a3 * 2.0 + a4) * (h / 6.0),
-    )
+    }
 }
 
 /// The error of the cranks at 3 s, by step: fourth order, at most the reference's own table (6e-5, 6e-9).

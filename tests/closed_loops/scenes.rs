@@ -5,8 +5,8 @@ use bgdyn::runtime::wide::f64x4;
 use bgdyn::runtime::{Dd, HybridSystem, StateVector as _};
 use bgdyn_sim::lanes::{LaneRun, SmoothScene, packed, unpacked};
 use bgdyn_sim::{
-    Dop853, Gauss2, Integrator, Midpoint, Reason, Rk4, Rodas4, Run, ScenePlant, SemiImplicitEuler,
-    Tolerance,
+    Dop853, Gauss2, HybridState, Integrator, Midpoint, Reason, Rk4, Rodas4, Run, ScenePlant,
+    SemiImplicitEuler, Tolerance,
 };
 
 use crate::crank_run::{self, CrankRun};
@@ -217,14 +217,14 @@ fn a_dead_point_names_its_loop() {
 fn loops_move_in_lanes_as_alone() {
     type Wide = SVector<f64x4, { crank_run::N }>;
     let scene = CrankRun::<f64>::default();
-    let begin = Run::begin(&scene);
+    let HybridState { t, y, modes } = Run::begin(&scene);
     let starts: [SVector<f64, { crank_run::N }>; 4] = std::array::from_fn(|k| {
-        let mut y = begin.y;
+        let mut y = y;
         y[3] += 0.3 * k as f64;
         y
     });
     let alone = starts.map(|y| {
-        let from = bgdyn_sim::HybridState { y, ..begin.clone() };
+        let from = HybridState { t, y, modes };
         let mut run = Run::by(Rk4, ScenePlant::new(&scene), from);
         (0..200).for_each(|_| {
             run.step(1e-3).expect("it turns");

@@ -182,17 +182,29 @@ formulation=bgdyn-codegen/src/formulation
 mutate "accelerations along a loop" $closure/chain.rs \
     'before.cross(along + l) + omega.cross(l);' 'before.cross(along + l);' "${codegen[@]}" loops multipliers::
 mutate "levers on the side of place a" $closure/chain.rs \
-    '(false, true) => -sum(&frames.segments[..=k]),' '(false, true) => sum(&frames.segments[..=k]),' \
+    '(false, _) => -sum(&frames.segments[..=k]),' '(false, _) => sum(&frames.segments[..=k]),' \
     "${codegen[@]}" loops references::
 mutate "the velocity of a rod's ends" $closure/row.rs \
     'along + v.dot(v) * (Dd::ONE / length)' 'along' "${codegen[@]}" loops multipliers::
 mutate "efforts of dependent joints" $formulation/velocity_map.rs \
     'sum - row[i.0] * *l' 'sum + row[i.0] * *l' "${codegen[@]}" loops multipliers::
 mutate "pivots of another branch" $formulation/elimination.rs \
-    'Some(true) => -(one / (-value).pivot(size, index)),' 'Some(true) => one / value,' -p bgdyn --test closed_loops reach::
+    '-(before / (-determinant).pivot(size, index))' 'before / determinant' -p bgdyn --test closed_loops reach::
 mutate "accelerations of prescribed joints" $formulation/prescribed.rs \
     'FreeArgument::Prescribed(k) => Some(prescribed(k, 2)),' 'FreeArgument::Prescribed(k) => Some(prescribed(k, 1)),' \
     "${codegen[@]}" joints prescribed
+
+# Scenes with loops, wheels and knife edges.
+mutate "drives of dependent joints" bgdyn-codegen/src/effort_sums/mod.rs \
+    'sums.push_drives_of_dependents();' '' "${codegen[@]}" loops scenes::
+mutate "rates of dependent joints" bgdyn-codegen/src/effort_sums/loops.rs \
+    'sum + s * self.v[k]),' 'sum + self.v[k]),' "${codegen[@]}" loops scenes::
+mutate "velocities at the start" $closure/reach.rs \
+    'v - along(j, &u)' 'v' "${codegen[@]}" loops starts::
+mutate "closing of a step" bgdyn-sim/src/scene_positions.rs \
+    'Ok(scene.close(y)? || normalized)' 'Ok(normalized)' -p bgdyn --test closed_loops scenes::
+mutate "closing in a coarse scalar" bgdyn-runtime/src/closure.rs \
+    'T::select(coarse, T::from_f64(CLOSED_COARSELY), fine)' 'fine' -p bgdyn --test closed_loops scenes::
 
 if [[ $survivors -gt 0 ]]; then
     echo "$survivors mutations were not caught, or could not be made" >&2

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use bgdyn::Dynamics;
 use bgdyn::nalgebra::{SVector, vector};
+use bgdyn_sim::rk4_step;
 use serde_json::Value;
 
 use crate::chaplygin_sleigh::ChaplyginSleigh;
@@ -48,29 +49,18 @@ impl Reference {
 /// Positions and velocities.
 pub type State<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>);
 
-/// One step of the classical Runge–Kutta method for (q, v), with q̇ of `position_rates`.
+/// One step of `rk4_step`.
 pub fn step<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     model: &M,
     (q, v): State<NQ, NV>,
     (t, h): (f64, f64),
     tau: impl Fn(f64, &State<NQ, NV>) -> SVector<f64, NV>,
 ) -> State<NQ, NV> {
-    let rates = |t: f64, state: State<NQ, NV>| -> State<NQ, NV> {
-        let a = model.forward_dynamics(&state.0, &state.1, &tau(t, &state));
-        let Ok(a) = a else {
-            panic!("no acceleration at {t} s");
-        };
-        (model.position_rates(&state.0, &state.1), a)
-    };
-    let moved = |k: &State<NQ, NV>, h: f64| (q + k.0 * h, v + k.1 * h);
-    let k1 = rates(t, (q, v));
-    let k2 = rates(t + h / 2.0, moved(&k1, h / 2.0));
-    let k3 = rates(t + h / 2.0, moved(&k2, h / 2.0));
-    let k4 = rates(t + h, moved(&k3, h));
-    (
-        q + (k1.0 + k2.0 * 2.0 + k3.0 * 2.0 + k4.0) * (h / 6.0),
-        v + (k1.1 + k2.1 * 2.0 + k3.1 * 2.0 + k4.1) * (h / 6.0),
-    )
+    let efforts = |t, s: &bgdyn_sim::State<f64, NQ, NV>| tau(t, &(s.q, s.v));
+    match rk4_step(model, t, &bgdyn_sim::State { q, v }, h, efforts) {
+        Ok(moved) => (moved.q, moved.v),
+        Err(_) => panic!("no acceleration at {t} s"),
+    }
 }
 
 /// Returns the largest error of positions and velocities at all samples, and asserts fourth order: twice the steps

@@ -1,13 +1,14 @@
 //! Builds the JSON Schema of a mechanism's file.
 
-use bgdyn_codegen::format::{Dimension, Key, LENGTHS, LIMIT_PARTS};
-use bgdyn_codegen::mechanism::closure::CLOSING_TYPES;
+use bgdyn_codegen::format::{Dimension, LENGTHS, LIMIT_PARTS};
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
-use bgdyn_codegen::mechanism::{PLANE_KEYS, constraint_types};
 use serde_json::{Value, json};
 
-use super::effects::{effects, reads};
-use super::parts::{axis, described, file, identifier, object, quantity, text, triple, value};
+use super::constraints::{closing, constraints, place, plane};
+use super::effects::effects;
+use super::parts::{
+    axis, described, file, identifier, object, origin, quantity, text, triple, value,
+};
 
 /// Returns the schema of a mechanism's file.
 pub fn mechanism() -> Value {
@@ -198,23 +199,6 @@ fn joint() -> Value {
     )
 }
 
-fn origin() -> Value {
-    let turns = "roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll)";
-    object(
-        &[
-            (
-                "xyz",
-                described("displacement, m", triple(quantity(&[Dimension::Length]))),
-            ),
-            (
-                "rpy",
-                described(turns, triple(quantity(&[Dimension::Angle]))),
-            ),
-        ],
-        &[],
-    )
-}
-
 /// Returns the limits of a joint with one coordinate, and those of the parts of one with two.
 fn limits() -> Value {
     let parts = LIMIT_PARTS.map(|part| (part, json!({ "$ref": "#/$defs/part_limits" })));
@@ -245,86 +229,6 @@ fn limit_keys() -> [(&'static str, Value); 4] {
             ),
         ),
     ]
-}
-
-/// Returns the constraints: one of the types, each with its keys.
-fn constraints() -> Value {
-    let one = |(keyword, keys): (&'static str, &'static [Key])| {
-        let own = keys
-            .iter()
-            .map(|key| (key.name, described(key.about, reads(key.reads))));
-        let word = ("type", json!({ "const": keyword }));
-        let needed = keys.iter().filter(|key| key.needed).map(|key| key.name);
-        let needed: Vec<&str> = needed.chain(["type"]).collect();
-        object(&own.chain([word]).collect::<Vec<_>>(), &needed)
-    };
-    json!({ "oneOf": constraint_types().map(one).collect::<Vec<_>>() })
-}
-
-/// Returns an entry of `planes`.
-fn plane() -> Value {
-    let keys = PLANE_KEYS.iter();
-    let keys: Vec<_> = keys
-        .map(|key| (key.name, described(key.about, reads(key.reads))))
-        .collect();
-    object(&keys, &[])
-}
-
-/// Returns an entry of `loops`.
-fn closing() -> Value {
-    let words: Vec<Value> = CLOSING_TYPES
-        .iter()
-        .map(|kind| described(kind.about, json!({ "const": kind.keyword })))
-        .collect();
-    let place = json!({ "$ref": "#/$defs/place" });
-    let position = quantity(&[Dimension::Angle, Dimension::Length]);
-    let near = json!({
-        "type": "object",
-        "description": "positions of joints from which the loops are assembled",
-        "propertyNames": identifier(),
-        "additionalProperties": position,
-    });
-    let side = "side of the line from the joint of a's link to the joint of b's link on which the places lie";
-    object(
-        &[
-            (
-                "name",
-                described("unique among links, joints, frames and loops", identifier()),
-            ),
-            ("type", json!({ "oneOf": words })),
-            ("a", place.clone()),
-            ("b", place),
-            (
-                "axis",
-                described(
-                    "of hinge and slider, in the axes of both places; z without it",
-                    axis(),
-                ),
-            ),
-            (
-                "length",
-                described("of a rod", quantity(&[Dimension::Length])),
-            ),
-            (
-                "branch",
-                described(side, json!({ "enum": ["left", "right"] })),
-            ),
-            ("near", near),
-        ],
-        &["name", "type", "a", "b"],
-    )
-}
-
-/// Returns a place of a loop: a link with an origin on it, or a frame.
-fn place() -> Value {
-    let origin = json!({ "$ref": "#/$defs/origin" });
-    let link = described("the link, or `world`", identifier());
-    let on_link = object(&[("link", link), ("origin", origin)], &["link"]);
-    let frame = object(
-        &[("frame", described("a named frame", identifier()))],
-        &["frame"],
-    );
-    json!({ "oneOf": [on_link, frame] })
 }
 
 fn mimic() -> Value {

@@ -3,6 +3,7 @@
 //! They have the same rules as the parsers for keys, words, types and units. Faults that need computation
 //! (an invalid tensor, a cycle of parents) are found by `bgdyn check`.
 
+mod constraints;
 mod effects;
 mod mechanism;
 mod parts;

@@ -121,3 +121,20 @@ pub(super) fn value(fit: &[Dimension]) -> Value {
     let keys = [("parameter", identifier()), ("value", number.clone())];
     json!({ "anyOf": [number, object(&keys, &["parameter", "value"])] })
 }
+
+pub(super) fn origin() -> Value {
+    let turns = "roll, pitch, yaw about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll)";
+    object(
+        &[
+            (
+                "xyz",
+                described("displacement, m", triple(quantity(&[Dimension::Length]))),
+            ),
+            (
+                "rpy",
+                described(turns, triple(quantity(&[Dimension::Angle]))),
+            ),
+        ],
+        &[],
+    )
+}

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::closure::close_from;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
@@ -20,9 +19,9 @@ pub type Numbers = DVector<f64>;
 /// values of its files.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
-    system: &'a SceneEquations,
+    pub(super) system: &'a SceneEquations,
     parameters: Vec<f64>,
-    functions: Arc<SceneFunctions>,
+    pub(super) functions: Arc<SceneFunctions>,
 }
 
 /// A value of a scene, or the error that it does not exist.
@@ -112,7 +111,7 @@ impl<'a> Evaluated<'a> {
     }
 
     /// Returns the arguments of functions, with all inputs 0.
-    fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
+    pub(super) fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
         let layout = &self.system.scene.layout;
         let (nq, nv) = (layout.nq(), layout.nv());
         let y = y.as_slice();
@@ -180,7 +179,7 @@ impl<'a> Evaluated<'a> {
 
     /// Returns the error of a refused pivot: those of the coordinates come first, those of the loops after all
     /// rates.
-    fn refused(&self, i: usize) -> Undefined {
+    pub(super) fn refused(&self, i: usize) -> Undefined {
         let layout = &self.system.scene.layout;
         let closes = i.checked_sub(layout.nv() + layout.nx());
         let (at, cause) = match closes {
@@ -203,33 +202,6 @@ impl<'a> Evaluated<'a> {
         };
         let (at, cause) = (at.clone(), UndefinedCause::NotFinite);
         Undefined { at, cause }
-    }
-
-    /// Returns the rates of all positions of a scene with constraints; `None` for other scenes.
-    fn own_position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Vec<f64>> {
-        let rates = self.functions.position_rates.as_ref()?;
-        Some(rates.evaluate(self.arguments(t, y, modes)).0)
-    }
-
-    /// Closes the loops in a state. Returns whether there are loops.
-    fn close(&self, y: &mut Numbers) -> Evaluation<bool> {
-        let Some(closing) = &self.functions.closing else {
-            return Ok(false);
-        };
-        let layout = &self.system.scene.layout;
-        let modes = DVector::zeros(layout.modes.len());
-        let step = |y: &Numbers| -> Numbers {
-            closing
-                .step
-                .evaluate(self.arguments(0.0, y, &modes))
-                .0
-                .into()
-        };
-        let first = layout.nv() + layout.nx();
-        let closed = close_from(y.clone(), &closing.dependents, first, step);
-        let refused = closed.refused;
-        *y = closed.or_nan(&closing.dependents);
-        refused.map_or(Ok(true), |i| Err(self.refused(i)))
     }
 
     /// Returns the contacts that can hold a coordinate, mode by mode, at y.
@@ -320,16 +292,7 @@ impl Plant for Evaluated<'_> {
     }
 
     fn position_rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
-        let y = self.natural(t, state, modes)?;
-        let mut rates = y.clone();
-        match self.own_position_rates(t, &y, modes) {
-            Some(own) => rates.as_mut_slice()[..own.len()].copy_from_slice(&own),
-            None => {
-                let (joints, nq) = (&self.functions.quasi_joints, self.positions());
-                quasi_joints::position_rates(joints, nq, y.as_slice(), rates.as_mut_slice());
-            }
-        }
-        Ok(rates)
+        Ok(self.rates_of_positions(t, &self.natural(t, state, modes)?, modes))
     }
 
     fn position_change(
@@ -339,40 +302,15 @@ impl Plant for Evaluated<'_> {
         modes: &Numbers,
         h: f64,
     ) -> Evaluation<Numbers> {
-        let y = self.natural(t, state, modes)?;
-        let mut change = y.clone();
-        let (joints, nq) = (&self.functions.quasi_joints, self.positions());
-        let (of_y, of_change) = (y.as_slice(), change.as_mut_slice());
-        match self.own_position_rates(t, &y, modes) {
-            Some(own) => {
-                of_change
-                    .iter_mut()
-                    .zip(own)
-                    .for_each(|(x, rate)| *x = h * rate);
-            }
-            None => quasi_joints::position_change(joints, nq, of_y, h, of_change),
-        }
-        Ok(change)
+        Ok(self.change_of_positions(t, &self.natural(t, state, modes)?, modes, h))
     }
 
     fn project(&self, y: &mut Numbers) -> Evaluation<bool> {
-        let normalized = quasi_joints::normalize(&self.functions.quasi_joints, y.as_mut_slice());
-        Ok(self.close(y)? || normalized)
+        self.put_right(y)
     }
 
     fn project_in_two(&self, y: &mut Numbers, low: &mut Numbers) -> Evaluation<bool> {
-        let joints = &self.functions.quasi_joints;
-        let normalized =
-            quasi_joints::normalize_in_two(joints, y.as_mut_slice(), low.as_mut_slice());
-        let before = y.clone();
-        let closed = self.close(y)?;
-        for ((low, y), before) in low.iter_mut().zip(y.iter()).zip(&before) {
-            // A dependent position has the digits of one word.
-            if y != before {
-                *low = 0.0;
-            }
-        }
-        Ok(closed || normalized)
+        self.put_right_in_two(y, low)
     }
 
     fn strays(&self, y: &Numbers) -> bool {

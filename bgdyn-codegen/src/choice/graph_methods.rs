@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use super::Choice;
 use crate::bond_graph::BondGraph;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, RowChoice};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -21,9 +21,8 @@ pub struct GraphMethods {
     graph: BondGraph,
     chosen: Mutex<ChosenFunctions>,
     forward: OnceLock<Arc<[Function]>>,
-    /// Whether scenes write the rows of loops in the axes of places b: then they share expressions with functions
-    /// that do so too.
-    pub reversed_rows: bool,
+    /// The rows of loops in scenes, which share expressions with functions that write them in the same way.
+    pub rows: RowChoice,
 }
 
 impl GraphMethods {
@@ -33,7 +32,7 @@ impl GraphMethods {
             graph,
             chosen: Mutex::default(),
             forward: OnceLock::new(),
-            reversed_rows: false,
+            rows: RowChoice::default(),
         }
     }
 
@@ -74,7 +73,7 @@ impl Clone for GraphMethods {
             graph: self.graph.clone(),
             chosen: Mutex::new(chosen.clone()),
             forward: self.forward.clone(),
-            reversed_rows: self.reversed_rows,
+            rows: self.rows,
         }
     }
 }

@@ -15,10 +15,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             let Some(closed) = &self.graph.closed else {
                 return vec![];
             };
-            let q = (
-                &self.q[..closed.tree.positions.len()],
-                self.graph.reversed_rows,
-            );
+            let q = (&self.q[..closed.tree.positions.len()], self.graph.rows);
             let first = Some(self.first_loop_pivot());
             formulation::velocity_map(self.b, &closed.closure, q, first)
         })

@@ -1,4 +1,5 @@
-//! Emits the start of a mechanism with loops or contacts, and the joints whose positions close.
+//! Emits what mechanisms with loops and those with contacts have in common: names of the open tree and of the rows, the
+//! start, the joints whose positions close.
 
 use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;
@@ -6,18 +7,14 @@ use quote::quote;
 
 use super::constants::size;
 use super::tokens::number;
-use crate::bond_graph::ClosedTree;
+use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
+use crate::mechanism::closure::LoopRow;
 
 /// Returns a dependent joint with its position and its loop.
 pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
     let closure = &closed.closure;
-    let block = closure
-        .blocks
-        .iter()
-        .find(|block| block.dependents.contains(&j));
-    let row = block.and_then(|block| block.rows.first());
-    let closes = row.map_or(0, |&r| closure.rows[r].closes);
+    let closes = closure.loop_of(j);
     let mut compounds = closure.compounds.iter();
     let own = compounds.find(|joint| joint.degrees.velocities.contains(&j));
     let first = own.and_then(|joint| joint.degrees.positions.first());
@@ -43,4 +40,71 @@ pub(super) fn start(closed: &ClosedTree) -> TokenStream {
     };
     let parts = closed.closure.start.iter().map(part);
     quote! { __rt::vector([#(#parts),*]) }
+}
+
+/// Returns the constants for the open tree and the rows; `what` is the word for loops or constraints, `row` describes
+/// the name of a row.
+pub(super) fn tree_constants(
+    closed: &ClosedTree,
+    graph: &Multibody,
+    (what, row): (&str, &str),
+) -> TokenStream {
+    let (tree, closure) = (&closed.tree, &closed.closure);
+    let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
+    let rows = closure.rows.iter().map(|row| closure.row_name(row));
+    let rows: Vec<String> = rows.collect();
+    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
+    let loops = closure.loops.iter().map(|one| one.name.as_str());
+    let pivots: Vec<&str> = joints.chain(loops).collect();
+    let [nt, nc, np] = [of_tree.len(), rows.len(), pivots.len()].map(size);
+    let docs = [
+        format!(" Number of rows of the {what}."),
+        format!(" Names of the rows of the {what}: {row}."),
+        format!(
+            " Names of the joints, and of the {what} after them: the causes of missing accelerations."
+        ),
+    ];
+    let [of_number, of_rows, of_pivots] = &docs;
+    quote! {
+        /// Number of velocities of the open tree.
+        pub const NT: usize = #nt;
+        #[doc = #of_number]
+        pub const NC: usize = #nc;
+        /// Names of the joints of the open tree, in the order of its velocities.
+        pub const TREE_JOINT_NAMES: [&str; NT] = [#(#of_tree),*];
+        #[doc = #of_rows]
+        pub const CONSTRAINT_NAMES: [&str; NC] = [#(#rows),*];
+        #[doc = #of_pivots]
+        pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
+    }
+}
+
+/// Returns the lines of documentation about loops or constraints, with this word for them: which joints follow, which
+/// rows hold at every position.
+pub(super) fn row_docs(closed: &ClosedTree, what: &str) -> Vec<String> {
+    let (tree, closure) = (&closed.tree, &closed.closure);
+    let quoted = |name: String| format!("`{name}`");
+    let rows = |rows: &[LoopRow]| {
+        let names = rows.iter().map(|row| quoted(closure.row_name(row)));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let dependents = closure
+        .dependents()
+        .map(|j| quoted(tree.coordinates[j.0].name.clone()));
+    let dependents: Vec<String> = dependents.collect();
+    let mut docs = vec![
+        String::new(),
+        format!(
+            " {what}: the velocities of {} follow from the others.",
+            dependents.join(", ")
+        ),
+        format!(" Rows: {}.", rows(&closure.rows)),
+    ];
+    if !closure.dropped.is_empty() {
+        let dropped = rows(&closure.dropped);
+        docs.push(format!(
+            " Left out, because they hold at every position of the joints: {dropped}."
+        ));
+    }
+    docs
 }

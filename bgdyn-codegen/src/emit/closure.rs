@@ -4,12 +4,11 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::closed_positions::{dependent, start};
+use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
 use super::joint_segments::{JointSegment, joint_by_joint, segments};
 use crate::bond_graph::{ClosedTree, Multibody};
-use crate::mechanism::closure::LoopRow;
 use crate::method::Method;
 
 /// Returns the constants of the module, and the functions of the struct.
@@ -21,43 +20,20 @@ pub(super) fn closure_access(
     if closed.closure.nonholonomic() {
         return contact_access(closed, graph, present);
     }
-    let (tree, closure) = (&closed.tree, &closed.closure);
-    let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
-    let rows: Vec<String> = closure
-        .rows
-        .iter()
-        .map(|row| closure.row_name(row))
-        .collect();
-    let loops: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
-    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
-    let pivots: Vec<&str> = joints.chain(loops.iter().copied()).collect();
+    let closure = &closed.closure;
+    let loops = closure.loops.iter().map(|one| one.name.as_str());
     let positions = graph.positions.iter().map(|p| p.name.as_str());
-    let closing: Vec<&str> = positions.chain(loops.iter().copied()).collect();
+    let closing: Vec<&str> = positions.chain(loops).collect();
     let dependents: Vec<TokenStream> = closure.dependents().map(|j| dependent(closed, j)).collect();
     let free: Vec<_> = (closure.independents.iter())
         .filter_map(|j| closure.positions[j.0])
         .map(|p| size(p.0))
         .collect();
-    let [nt, nc, np, nl, nd, nf] = [
-        of_tree.len(),
-        rows.len(),
-        pivots.len(),
-        closing.len(),
-        dependents.len(),
-        free.len(),
-    ]
-    .map(size);
+    let [nl, nd, nf] = [closing.len(), dependents.len(), free.len()].map(size);
+    let row = "the loop, and the direction in the axes of its place a";
+    let of_tree = tree_constants(closed, graph, ("loops", row));
     let constants = quote! {
-        /// Number of velocities of the open tree.
-        pub const NT: usize = #nt;
-        /// Number of rows of the loops.
-        pub const NC: usize = #nc;
-        /// Names of the joints of the open tree, in the order of its velocities.
-        pub const TREE_JOINT_NAMES: [&str; NT] = [#(#of_tree),*];
-        /// Names of the rows of the loops: the loop, and the direction in the axes of its place a.
-        pub const CONSTRAINT_NAMES: [&str; NC] = [#(#rows),*];
-        /// Names of the joints, and of the loops after them: the causes of missing accelerations.
-        pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
+        #of_tree
         /// Names of the positions, and of the loops after them: the causes of positions that do not close.
         pub const CLOSING_NAMES: [&str; #nl] = [#(#closing),*];
         /// The dependent joints of the loops.
@@ -134,29 +110,5 @@ pub(super) fn loop_docs(closed: &ClosedTree) -> Vec<String> {
     if closed.closure.nonholonomic() {
         return contact_docs(closed);
     }
-    let (tree, closure) = (&closed.tree, &closed.closure);
-    let quoted = |name: String| format!("`{name}`");
-    let rows = |rows: &[LoopRow]| {
-        let names = rows.iter().map(|row| quoted(closure.row_name(row)));
-        names.collect::<Vec<_>>().join(", ")
-    };
-    let dependents = closure
-        .dependents()
-        .map(|j| quoted(tree.coordinates[j.0].name.clone()));
-    let dependents: Vec<String> = dependents.collect();
-    let mut docs = vec![
-        String::new(),
-        format!(
-            " Loops: the velocities of {} follow from the others.",
-            dependents.join(", ")
-        ),
-        format!(" Rows: {}.", rows(&closure.rows)),
-    ];
-    if !closure.dropped.is_empty() {
-        let dropped = rows(&closure.dropped);
-        docs.push(format!(
-            " Left out, because they hold at every position of the joints: {dropped}."
-        ));
-    }
-    docs
+    row_docs(closed, "Loops")
 }

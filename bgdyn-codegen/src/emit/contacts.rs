@@ -5,11 +5,10 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::closed_positions::{dependent, start};
+use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::joint_segments::{joint_by_joint, segments};
 use crate::bond_graph::{ClosedTree, Multibody};
-use crate::mechanism::closure::LoopRow;
 use crate::method::Method;
 
 /// Returns the constants of the module, and the functions of the struct.
@@ -18,27 +17,14 @@ pub(super) fn contact_access(
     graph: &Multibody,
     present: &[Method],
 ) -> (TokenStream, TokenStream) {
-    let (tree, closure) = (&closed.tree, &closed.closure);
-    let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
-    let rows = closure.rows.iter().map(|row| closure.row_name(row));
-    let rows: Vec<String> = rows.collect();
+    let closure = &closed.closure;
     let constraints: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
-    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
-    let pivots: Vec<&str> = joints.chain(constraints.iter().copied()).collect();
     let independents = closure.independents.iter().map(|j| size(j.0));
-    let [nt, nc, np] = [of_tree.len(), rows.len(), pivots.len()].map(size);
     let closing = closes(closed).then(|| closing_constants(closed, graph, &constraints));
+    let row = "the constraint, and the direction";
+    let of_tree = tree_constants(closed, graph, ("constraints", row));
     let constants = quote! {
-        /// Number of velocities of the open tree.
-        pub const NT: usize = #nt;
-        /// Number of rows of the constraints.
-        pub const NC: usize = #nc;
-        /// Names of the joints of the open tree, in the order of its velocities.
-        pub const TREE_JOINT_NAMES: [&str; NT] = [#(#of_tree),*];
-        /// Names of the rows of the constraints: the constraint, and the direction.
-        pub const CONSTRAINT_NAMES: [&str; NC] = [#(#rows),*];
-        /// Names of the joints, and of the constraints after them: the causes of missing accelerations.
-        pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
+        #of_tree
         /// The independent velocities among those of the open tree.
         const INDEPENDENTS: [usize; NV] = [#(#independents),*];
         #closing
@@ -135,7 +121,9 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
             quote! {
                 let mut moved = __na::SVector::<T, NT>::from_element(T::from_f64(0.5));
                 for (&j, &u) in INDEPENDENTS.iter().zip(u.iter()) {
-                    moved[j] = u;
+                    if let ::core::option::Option::Some(moved) = moved.get_mut(j) {
+                        *moved = u;
+                    }
                 }
                 let q = { #body };
                 #moved_along
@@ -147,7 +135,13 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
             let body = body(&[("q1", &q, true), ("q0", &q, true)], false);
             quote! {
                 let moved = { #body };
-                __na::SVector::from_fn(|j, _| moved[INDEPENDENTS[j]])
+                let mut own = __na::SVector::<T, NV>::from_element(T::from_f64(0.0));
+                for (own, &j) in own.iter_mut().zip(INDEPENDENTS.iter()) {
+                    if let ::core::option::Option::Some(&moved) = moved.get(j) {
+                        *own = moved;
+                    }
+                }
+                own
             }
         }
         _ => body(&[("q", &q, true)], true),
@@ -156,30 +150,7 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
 
 /// Returns the lines of documentation about the constraints.
 pub(super) fn contact_docs(closed: &ClosedTree) -> Vec<String> {
-    let (tree, closure) = (&closed.tree, &closed.closure);
-    let quoted = |name: String| format!("`{name}`");
-    let rows = |rows: &[LoopRow]| {
-        let names = rows.iter().map(|row| quoted(closure.row_name(row)));
-        names.collect::<Vec<_>>().join(", ")
-    };
-    let dependents = closure
-        .dependents()
-        .map(|j| quoted(tree.coordinates[j.0].name.clone()));
-    let dependents: Vec<String> = dependents.collect();
-    let mut docs = vec![
-        String::new(),
-        format!(
-            " Constraints: the velocities of {} follow from the others.",
-            dependents.join(", ")
-        ),
-        format!(" Rows: {}.", rows(&closure.rows)),
-    ];
-    if !closure.dropped.is_empty() {
-        let dropped = rows(&closure.dropped);
-        docs.push(format!(
-            " Left out, because they hold at every position of the joints: {dropped}."
-        ));
-    }
+    let mut docs = row_docs(closed, "Constraints");
     docs.extend(
         [
             "",

@@ -34,6 +34,7 @@ pub(crate) use prescribed::create;
 pub(crate) use recursion::expressions::mass_and_bias;
 pub(crate) use recursion::geometry;
 pub(crate) use solve::ltdl as solve_symmetric;
+pub use velocity_map::RowChoice;
 pub(crate) use velocity_map::velocity_map;
 
 /// The name of the literal sum.

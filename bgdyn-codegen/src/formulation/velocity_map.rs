@@ -6,30 +6,76 @@ use bgdyn_runtime::Dd;
 
 use super::elimination::EliminatedMatrix;
 use super::loop_rows::{LoopForm, LoopRows, loop_rows};
-use crate::expr::{Builder, Expr};
+use crate::expr::{Builder, Expr, Leaf};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::{Closure, ClosureBlock};
 
 /// Checks of pivots: the first index of the loops' pivots, after those of the joints.
 pub(super) type FirstPivot = Option<usize>;
 
-/// Returns S for positions of the open tree, row by row for its velocities; `reversed` for rows in the axes of places
-/// b. With `first` pivots are checked.
+/// A way to write the rows of loops and contacts for S.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RowChoice {
+    /// In the axes of places b.
+    reversed: bool,
+    /// Rows of leaning wheels along their planes.
+    along_planes: bool,
+}
+
+impl RowChoice {
+    /// Returns all ways for these loops and contacts.
+    pub fn all(closure: &Closure) -> Vec<Self> {
+        let reversible = closure.loops.iter().any(|one| one.reversible);
+        let leans = closure.along_planes.is_some();
+        let all = [(false, false), (true, false), (false, true), (true, true)];
+        let all = all.into_iter();
+        let can = all.filter(|(reversed, along)| (reversible || !reversed) && (leans || !along));
+        can.map(|(reversed, along_planes)| RowChoice {
+            reversed,
+            along_planes,
+        })
+        .collect()
+    }
+
+    /// Returns S with the eliminations for positions of the open tree; with `first` pivots are checked.
+    fn map<'a, 'g>(
+        self,
+        b: &'g Builder,
+        closure: &'a Closure,
+        q: &[Expr<'g>],
+        first: FirstPivot,
+    ) -> VelocityMap<'a, 'g> {
+        let form = LoopForm {
+            reversed: self.reversed,
+            by_vectors: false,
+            of_plane: false,
+            along_planes: self.along_planes,
+            first_pivot: first,
+        };
+        let other = closure.along_planes.as_deref();
+        let closure = other.filter(|_| self.along_planes).unwrap_or(closure);
+        let rows = loop_rows(b, closure, q, form);
+        VelocityMap::new(b, closure, (rows, form), first)
+    }
+
+    /// Returns the number of pivots that others follow: they may vanish at regular positions.
+    pub(crate) fn early_pivots(self, closure: &Closure) -> usize {
+        let b = Builder::silent();
+        let q: Vec<Expr<'_>> = (0..closure.start.len())
+            .map(|p| b.leaf(Leaf::Position(p)))
+            .collect();
+        self.map(&b, closure, &q, None).early_pivots()
+    }
+}
+
+/// Returns S for positions of the open tree, row by row for its velocities; with `first` pivots are checked.
 pub(crate) fn velocity_map<'g>(
     b: &'g Builder,
     closure: &Closure,
-    (q, reversed): (&[Expr<'g>], bool),
+    (q, choice): (&[Expr<'g>], RowChoice),
     first: FirstPivot,
 ) -> Vec<Vec<Expr<'g>>> {
-    let form = LoopForm {
-        reversed,
-        by_vectors: false,
-        of_plane: false,
-        along_planes: false,
-        first_pivot: first,
-    };
-    let rows = loop_rows(b, closure, q, form);
-    VelocityMap::new(b, closure, (rows, form), first).map
+    choice.map(b, closure, q, first).map
 }
 
 /// S with the eliminations of its blocks.

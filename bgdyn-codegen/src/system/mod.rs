@@ -33,7 +33,7 @@ pub use crate::effort_sums::{
 use crate::expr::{Builder, Expr};
 use crate::fault::{Faults, wording};
 use crate::format::Dimension;
-use crate::formulation::Formulation;
+use crate::formulation::{Formulation, RowChoice};
 use crate::function::Function;
 use crate::mechanism::Mechanism;
 use crate::method::{Method, SceneFunction};
@@ -78,19 +78,30 @@ impl SceneEquations {
         system.started(faults)
     }
 
-    /// Chooses the axes of the rows of loops for which the derivative takes fewer operations.
+    /// Chooses the rows of loops and contacts: those with the fewest pivots that may vanish at regular positions, and
+    /// then those for which the derivative takes fewer operations.
     fn choose_rows(&mut self) {
-        let closed = self.graph.closed.as_deref();
-        let loops = closed.into_iter().flat_map(|closed| &closed.closure.loops);
-        if !loops.clone().any(|one| one.reversible) {
+        let Some(closed) = self.graph.closed.as_deref() else {
+            return;
+        };
+        let all: Vec<(usize, RowChoice)> = RowChoice::all(&closed.closure)
+            .into_iter()
+            .map(|choice| (choice.early_pivots(&closed.closure), choice))
+            .collect();
+        let fewest = all.iter().map(|(early, _)| *early).min();
+        let left = all.into_iter().filter(|(early, _)| Some(*early) == fewest);
+        let left: Vec<RowChoice> = left.map(|(_, choice)| choice).collect();
+        if let [only] = left[..] {
+            self.graph.rows = only;
             return;
         }
-        let counts = [false, true].map(|reversed| {
-            self.graph.reversed_rows = reversed;
+        let mut operations = |choice: &RowChoice| {
+            self.graph.rows = *choice;
             let derivative = self.cheapest(SceneFunction::Derivative);
             derivative.operations().total()
-        });
-        self.graph.reversed_rows = counts[1] < counts[0];
+        };
+        let best = left.into_iter().min_by_key(|choice| operations(choice));
+        self.graph.rows = best.unwrap_or_default();
     }
 
     /// Returns the equations with these values, SI units, at the start and for run-time parameters. The

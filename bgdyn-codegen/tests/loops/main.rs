@@ -18,4 +18,5 @@ mod multipliers;
 mod random_loops;
 mod references;
 mod scenes;
+mod starts;
 mod verified;

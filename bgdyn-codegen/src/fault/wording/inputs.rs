@@ -35,6 +35,15 @@ pub(crate) fn controller_without_joint(location: &Location, word: &str) -> Fault
         .with_help("use `constant`, `harmonic`, `table` or `given`")
 }
 
+pub(crate) fn controller_of_dependent(location: &Location, velocity: &str) -> Fault {
+    let message = format!(
+        "a controller follows a position, and `{velocity}` is a velocity in link axes that follows from others: no position has it as its rate"
+    );
+    Fault::new(location, "drive", message).with_help(
+        "control independent joints, or write `given` and compute the effort in Rust code",
+    )
+}
+
 pub(crate) fn hold_of_constrained(location: &Location, joint: &str) -> Fault {
     let message = format!(
         "some velocities of `{joint}` follow from others through constraints: a controller cannot hold its pose"

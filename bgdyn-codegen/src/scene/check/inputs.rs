@@ -121,6 +121,13 @@ pub(super) fn drives(
                 let found = layout.coordinate_named(name);
                 found.is_some_and(|j| layout.coordinates[j].is_quasi_velocity())
             });
+            let dependent = followed.and_then(|name| layout.dependent_named(name));
+            let dependent = dependent.filter(|joint| joint.position.is_none());
+            if let (Some(joint), true) = (dependent, drive.is_controller()) {
+                let location = &raw.name.location;
+                faults.push(wording::controller_of_dependent(location, &joint.name));
+                continue;
+            }
             if let (Some(velocity), true) = (quasi, drive.is_controller()) {
                 let location = &raw.name.location;
                 let index = layout.coordinate_named(velocity).unwrap_or_default();

@@ -1,0 +1,163 @@
+//! Starts of scenes with loops: what is given is kept, the loops are closed, and the rest does not move.
+
+use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::Dd;
+
+use super::references::spec;
+
+/// Reads a scene of a mechanism of `specs/loops` with this start.
+fn scene(mechanism: &str, initial: &str) -> Result<SceneEquations, Refusal> {
+    let text = format!(
+        "scene: 1\nmechanism: {mechanism}.yaml\neffects: [inertia]\ninitial: {{ {initial} }}\n"
+    );
+    let own = spec(mechanism);
+    bgdyn_codegen::read_scene(&text, "scene", |_| Ok(own)).map(|(system, _)| system)
+}
+
+fn started(mechanism: &str, initial: &str) -> SceneEquations {
+    scene(mechanism, initial).unwrap_or_else(|refusal| panic!("{initial}: {refusal:?}"))
+}
+
+/// Returns a position or the velocity of a joint at the start.
+fn at(system: &SceneEquations, name: &str) -> f64 {
+    let (layout, start) = (&system.scene.layout, &system.initial);
+    let positions = layout.positions.iter().zip(&start.q);
+    let mut found = positions.filter(|(p, _)| p.name == name);
+    if let Some((_, q)) = found.next() {
+        return q.to_f64();
+    }
+    let closure = system.scene.mechanism.closure().expect("loops");
+    let map = closure.velocity_map(&start.q).expect("a regular start");
+    let tree = system.scene.mechanism.open().joint_names();
+    let joint = name.strip_suffix("_rate").expect("a velocity");
+    let j = tree.iter().position(|own| own == joint).expect("a joint");
+    let terms = map[j].iter().zip(&start.v);
+    terms.fold(Dd::ZERO, |sum, (s, u)| sum + *s * *u).to_f64()
+}
+
+fn open(system: &SceneEquations) -> f64 {
+    let closure = system.scene.mechanism.closure().expect("loops");
+    let (residuals, _) = closure.values(&closure.rows, &system.initial.q);
+    residuals
+        .iter()
+        .map(|x| x.to_f64().abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn given_positions_are_kept_and_loops_closed() {
+    for (given, kept) in [
+        (
+            "proximal1_angle: 2, proximal2_angle: 1.1",
+            &["proximal1_angle", "proximal2_angle"][..],
+        ),
+        (
+            "proximal1_angle: 1.8, distal2_angle: 1.2",
+            &["proximal1_angle", "distal2_angle"][..],
+        ),
+        (
+            "distal1_angle: -1.3, distal2_angle: 1.2",
+            &["distal1_angle", "distal2_angle"][..],
+        ),
+    ] {
+        let system = started("five_bar", given);
+        assert!(
+            open(&system) < 1e-25,
+            "{given}: open by {:e}",
+            open(&system)
+        );
+        for name in kept {
+            let value = given.split(&format!("{name}: ")).nth(1).expect("a value");
+            let value: f64 = value
+                .split(',')
+                .next()
+                .expect("a value")
+                .parse()
+                .expect("a number");
+            assert!((at(&system, name) - value).abs() < 1e-15, "{given}: {name}");
+        }
+    }
+}
+
+/// A platform stays where the mechanism has it, but for what is given.
+#[test]
+fn positions_that_are_not_given_do_not_move() {
+    let system = started("stewart_platform", "pz_position: 0.7, px_position: 0.05");
+    assert!(open(&system) < 1e-25);
+    let closure = system.scene.mechanism.closure().expect("loops");
+    let (start, moved) = (&closure.start, &system.initial.q);
+    let names = system
+        .scene
+        .layout
+        .positions
+        .iter()
+        .map(|p| p.name.as_str());
+    for (p, name) in names.enumerate() {
+        let value = moved[p].to_f64();
+        let wanted = match name {
+            "px_position" => 0.05,
+            "pz_position" => 0.7,
+            "py_position" | "yaw_angle" | "pitch_angle" | "platform_angle" => start[p].to_f64(),
+            _ => continue,
+        };
+        assert!(
+            (value - wanted).abs() < 1e-15,
+            "{name}: {value} instead of {wanted}"
+        );
+    }
+}
+
+/// Velocities of dependent joints determine those of independent ones that are not given.
+#[test]
+fn given_velocities_are_kept() {
+    let positions = "proximal1_angle: 2, proximal2_angle: 1.1";
+    for (given, wanted) in [
+        (
+            "proximal1_angle_rate: 0.7",
+            &[("proximal1_angle_rate", 0.7), ("proximal2_angle_rate", 0.0)][..],
+        ),
+        (
+            "proximal1_angle_rate: 0.7, distal2_angle_rate: -0.4",
+            &[("proximal1_angle_rate", 0.7), ("distal2_angle_rate", -0.4)],
+        ),
+        (
+            "distal1_angle_rate: 0.3, distal2_angle_rate: -0.4",
+            &[("distal1_angle_rate", 0.3), ("distal2_angle_rate", -0.4)],
+        ),
+    ] {
+        let system = started("five_bar", &format!("{positions}, {given}"));
+        for &(name, value) in wanted {
+            let found = at(&system, name);
+            assert!((found - value).abs() < 1e-14, "{given}: {name} is {found}");
+        }
+    }
+}
+
+#[test]
+fn starts_that_do_not_exist_are_refused() {
+    for (mechanism, given, rule) in [
+        ("slider_crank", "slider_position: 0.8", "open-start"),
+        (
+            "five_bar",
+            "proximal1_angle: 0, proximal2_angle: 3.1",
+            "other-branch",
+        ),
+        (
+            "five_bar",
+            "proximal1_angle: 2, proximal2_angle: 1.1, distal1_angle: 0.5",
+            "contradicting-start",
+        ),
+        (
+            "five_bar",
+            "proximal1_angle_rate: 1, proximal2_angle_rate: 0, distal1_angle_rate: 9",
+            "contradicting-start",
+        ),
+    ] {
+        let Err(Refusal::Spec(faults)) = scene(mechanism, given) else {
+            panic!("{given}: accepted");
+        };
+        let rules: Vec<&str> = faults.0.iter().map(|fault| fault.rule).collect();
+        assert_eq!(rules, [rule], "{given}: {:?}", faults.0);
+    }
+}
