@@ -241,3 +241,24 @@ fn planes_have_a_link_a_normal_and_an_offset() {
         refused_text(&text, rule, &format!("planes.low{key}"), &[]);
     }
 }
+
+#[test]
+fn all_mistakes_of_a_plane_are_reported_once() {
+    let text = format!(
+        "{}\nconstraints:\n  {WHEEL}\n",
+        LINKS.replace("normal: z", "link: flor, normal: [0, 0, 0]")
+    );
+    let reported = found(&text).0;
+    let mut rules: Vec<_> = reported
+        .iter()
+        .map(|fault| (fault.rule, fault.path.as_str()))
+        .collect();
+    rules.sort_unstable();
+    assert_eq!(
+        rules,
+        [
+            ("unknown-link", "planes.floor.link"),
+            ("zero-axis", "planes.floor.normal"),
+        ]
+    );
+}

@@ -25,7 +25,7 @@ const FLAT: f64 = 1e-6;
 /// Reads a wheel, a ball or a knife edge. `None` if a rule is broken.
 pub(super) fn read(
     entry: &ContactEntry,
-    context: Context<'_>,
+    (context, planes): (Context<'_>, &planes::Planes<'_>),
     faults: &mut Faults,
 ) -> Option<ReadLoop> {
     let (_, mechanism, directions) = context;
@@ -34,7 +34,7 @@ pub(super) fn read(
         ContactKind::Edge { .. } => None,
         ContactKind::Rolling { on, .. } => on.as_ref(),
     };
-    let (plane_link, plane) = planes::plane(on, context, faults)?;
+    let (plane_link, plane) = planes::plane(on, planes, faults)?;
     let contact = |shape, radius, rows| PlaneContact {
         shape,
         radius,

@@ -40,13 +40,13 @@ pub(super) fn close(
     let before = faults.count();
     let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
     let context = (spec, &*mechanism, directions);
-    planes::check(context, faults);
+    let planes = planes::planes(context, faults);
     let loops = specs.iter().map(|one| read::read(one, context, faults));
     let mut read: Vec<Option<read::ReadLoop>> = loops.collect();
     read.extend(
         entries
             .iter()
-            .map(|one| contacts::read(one, context, faults)),
+            .map(|one| contacts::read(one, (context, &planes), faults)),
     );
     let read: Vec<read::ReadLoop> = read.into_iter().collect::<Option<_>>()?;
     if faults.count() > before {

@@ -34,30 +34,32 @@ pub const PLANE_KEYS: [Key; 3] = [
 /// A plane: its link, and a place on it with z along its normal.
 pub(super) type Plane = (Option<LinkId>, Pose);
 
+/// The planes of the file by name; `None` for one that breaks a rule.
+pub(super) type Planes<'a> = Vec<(&'a str, Option<Plane>)>;
+
+/// Reads the planes of the file, also those that nothing touches.
+pub(super) fn planes<'a>(context: Context<'a>, faults: &mut Faults) -> Planes<'a> {
+    let raws = context.0.planes.value().map_or(&[][..], Vec::as_slice);
+    let named = |raw: &'a Raw| (raw.name.value.as_str(), read(raw, context, faults));
+    raws.iter().map(named).collect()
+}
+
 /// Returns the plane of this name; the world's x–y plane for none.
 pub(super) fn plane(
     name: Option<&Located<String>>,
-    context: Context<'_>,
+    planes: &Planes<'_>,
     faults: &mut Faults,
 ) -> Option<Plane> {
     let Some(name) = name else {
         return Some((None, Directions::identity()));
     };
-    let raws = context.0.planes.value().map_or(&[][..], Vec::as_slice);
-    match raws.iter().find(|raw| raw.name.value == name.value) {
-        Some(raw) => read(raw, context, faults),
+    match planes.iter().find(|(known, _)| *known == name.value) {
+        Some((_, plane)) => *plane,
         None => {
-            let known: Vec<&str> = raws.iter().map(|raw| raw.name.value.as_str()).collect();
+            let known: Vec<&str> = planes.iter().map(|(known, _)| *known).collect();
             faults.push(wording::unknown_plane(&name.location, &name.value, &known));
             None
         }
-    }
-}
-
-/// Reports planes with invalid keys, also those that nothing touches.
-pub(super) fn check(context: Context<'_>, faults: &mut Faults) {
-    for raw in context.0.planes.value().into_iter().flatten() {
-        read(raw, context, faults);
     }
 }
 
@@ -68,8 +70,8 @@ fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
         Some(Located {
             value: ParsedValue::Text(name),
             location,
-        }) => find_link(name, location, context.1, faults)?,
-        _ => None,
+        }) => find_link(name, location, context.1, faults),
+        _ => Some(None),
     };
     let up = Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]);
     let normal = match fields.get("normal") {
@@ -81,14 +83,15 @@ fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
                 value: (**vector).clone(),
                 location: location.clone(),
             };
-            context.2.axis(&axis, faults)?
+            context.2.axis(&axis, faults)
         }
-        _ => up,
+        _ => Some(up),
     };
     let offset = match fields.get("offset") {
-        Some(entry) => offset(&entry.value, &entry.location, faults)?,
-        None => Dd::ZERO,
+        Some(entry) => offset(&entry.value, &entry.location, faults),
+        None => Some(Dd::ZERO),
     };
+    let (link, normal, offset) = (link?, normal?, offset?);
     let rotation = match normal == up {
         true => Directions::identity().rotation,
         false => turn_to_axis(normal),
