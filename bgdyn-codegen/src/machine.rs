@@ -1,11 +1,14 @@
 //! A machine: a mechanism and the effects that its file declares for scenes.
 
+use bgdyn_runtime::Dd;
+
 use crate::declaration::{
     Declaration, EffectKinds, NameScope, RejectedEffects, check_unique_names, parse_declaration,
 };
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
-use crate::mechanism::{self, Mechanism};
+use crate::mechanism::closure::Unreached;
+use crate::mechanism::{self, LinkId, LockedTree, Mechanism};
 
 /// A mechanism that passed every check, with its declared effects.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +17,32 @@ pub struct Machine {
     pub mechanism: Mechanism,
     /// The declared effects, in the file's order.
     pub effects: Vec<Declaration>,
+    /// The file, if it has loops: with locked joints they are closed anew.
+    closed_spec: Option<Box<Spec>>,
+}
+
+/// The reason why joints cannot be locked.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NotLocked {
+    /// The loops do not close with the joints at these positions.
+    Unreached(Unreached),
+    /// The mechanism with locked joints breaks rules.
+    Refused(Faults),
+}
+
+impl Machine {
+    /// Returns the mechanism with the joints of these links locked at these positions, rad or m. Loops are closed
+    /// anew, on the branch of the mechanism; joints that the loops hold then are locked as well.
+    ///
+    /// # Errors
+    /// If the loops do not close there, or their rows contradict each other.
+    pub fn locked(&self, locks: &[(LinkId, Dd)]) -> Result<Mechanism, NotLocked> {
+        let (Some(spec), false) = (&self.closed_spec, locks.is_empty()) else {
+            return Ok(self.mechanism.locked(locks));
+        };
+        let locked = LockedTree::new(&self.mechanism, locks).map_err(NotLocked::Unreached)?;
+        mechanism::check_locked(spec, &locked).map_err(NotLocked::Refused)
+    }
 }
 
 /// Checks a spec against every rule. `stem` is the file's name without its extension, if there is a file;
@@ -36,6 +65,7 @@ pub fn check(
         }
         Some(mechanism) => Some(Machine {
             effects: effects(spec, &mechanism, kinds, &mut faults),
+            closed_spec: mechanism.closure().map(|_| Box::new(spec.clone())),
             mechanism,
         }),
     };

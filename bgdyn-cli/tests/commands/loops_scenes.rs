@@ -112,8 +112,8 @@ fn starts_that_loops_do_not_reach_are_refused() {
         ),
         (
             "locked",
-            "lock: { crank_angle: 0 }",
-            ["lock-with-loops", "`crank_angle`", "`rod_pin`"],
+            "lock: { slider_position: 0.8 }",
+            ["open-start", "lock.slider_position", "`rod_pin`"],
         ),
         (
             "torque",

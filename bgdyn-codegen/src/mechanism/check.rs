@@ -16,7 +16,7 @@ mod solid;
 
 use bgdyn_runtime::Dd;
 
-use super::{BaseMotion, Frame, Inertial, Link, LinkId, Mechanism, Tensor, Value};
+use super::{BaseMotion, Frame, Inertial, Link, LinkId, LockedTree, Mechanism, Tensor, Value};
 use crate::fault::{Faults, wording};
 use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
@@ -41,6 +41,30 @@ pub(crate) fn check(
     spec: &Spec,
     stem: Option<&str>,
     methods: &[String],
+    faults: &mut Faults,
+) -> Option<Mechanism> {
+    checked(spec, stem, (methods, None), faults)
+}
+
+/// Returns the mechanism of a valid spec with loops, with joints locked and the loops closed anew.
+///
+/// # Errors
+/// The faults of the locked mechanism, at their places in the file of the mechanism.
+pub(crate) fn check_locked(spec: &Spec, locked: &LockedTree<'_>) -> Result<Mechanism, Faults> {
+    let mut faults = Faults::default();
+    let mechanism = checked(
+        &locked.spec(spec),
+        Some(locked.name()),
+        (&[], Some(locked)),
+        &mut faults,
+    );
+    mechanism.ok_or(faults)
+}
+
+fn checked(
+    spec: &Spec,
+    stem: Option<&str>,
+    (methods, locked): (&[String], Option<&LockedTree<'_>>),
     faults: &mut Faults,
 ) -> Option<Mechanism> {
     format(spec, faults);
@@ -95,8 +119,12 @@ pub(crate) fn check(
             closure: None,
         };
         mechanism.number();
-        let contacts = &constraints.contacts;
-        loops::close((spec, contacts), &mut mechanism, &directions, faults)?;
+        if let Some(locked) = locked {
+            mechanism = locked.lock(&mechanism);
+        }
+        let start = locked.map(|locked| locked.start(&mechanism));
+        let entries = (spec, &constraints.contacts[..], start);
+        loops::close(entries, &mut mechanism, &directions, faults)?;
         mechanism.snapped = directions.into_snapped();
         Some(mechanism)
     };

@@ -14,6 +14,7 @@ mod findings;
 mod counts;
 mod faults;
 mod frame_rows;
+mod locks;
 mod multipliers;
 mod random_loops;
 mod references;

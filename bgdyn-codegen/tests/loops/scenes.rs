@@ -13,7 +13,7 @@ use super::random_loops::{Text, noisy};
 use super::robot::{Robot, State, close, dot, largest};
 
 /// Returns the scene with a mechanism.
-fn scene(text: &str, mechanism: &str) -> SceneEquations {
+pub fn scene(text: &str, mechanism: &str) -> SceneEquations {
     match bgdyn_codegen::read_scene(text, "scene", |_| Ok(mechanism.to_owned())) {
         Ok((system, _)) => system,
         Err(Refusal::Spec(faults)) => panic!("{}", faults.render("scene.yaml", text)),
@@ -22,7 +22,7 @@ fn scene(text: &str, mechanism: &str) -> SceneEquations {
 }
 
 /// Effects at joints of loops, between links, with states and with coordinates of their own.
-const EFFECTS: &str = "scene: 1
+pub const EFFECTS: &str = "scene: 1
 mechanism: looped.yaml
 effects:
   - gravity

@@ -42,14 +42,12 @@ pub(crate) fn unknown_locked_joint(location: &Location, name: &str, joints: &[&s
         .with_help("`lock` takes joints and the positions that they keep: `wrist: 30 deg`")
 }
 
-pub(crate) fn lock_with_loops(location: &Location, joint: &str, loops: &[&str]) -> Fault {
-    let message = format!(
-        "`{joint}` is locked, and the mechanism has loops ({}): scenes do not lock joints of such mechanisms yet",
-        quoted_list(loops.iter().copied())
-    );
-    Fault::new(location, "lock-with-loops", message).with_help(format!(
-        "hold `{joint}` by a stiff spring and a damper, or write a mechanism in which it is fixed"
-    ))
+/// `why` is the message of a fault of the mechanism with locked joints.
+pub(crate) fn locks_contradict(location: &Location, joints: &[&str], why: &str) -> Fault {
+    let names = quoted_list(joints.iter().copied());
+    let message = format!("the loops of the mechanism do not allow {names} to be locked: {why}");
+    Fault::new(location, "locks-contradict", message)
+        .with_help("lock fewer joints: those that the loops hold then are locked with them")
 }
 
 pub(crate) fn lock_of_follower(location: &Location, joint: &str, leaders: &[String]) -> Fault {
@@ -208,7 +206,7 @@ pub(crate) fn start_is_open(
 ) -> Fault {
     let percent = 100.0 * part;
     let message = format!(
-        "the loop `{closes}` does not close at this start: its row {row} stays open by {gap:.3e} m or rad"
+        "the loop `{closes}` does not close at these positions: its row {row} stays open by {gap:.3e} m or rad"
     );
     Fault::new(location, "open-start", message).with_help(format!(
         "from the closed position of the mechanism (`bgdyn check`) the loops close up to {percent:.0} % of the way; give fewer positions, or others"
@@ -218,7 +216,7 @@ pub(crate) fn start_is_open(
 pub(crate) fn start_on_other_branch(location: &Location, loops: &[String]) -> Fault {
     let names = quoted_list(loops.iter().map(String::as_str));
     let message = format!(
-        "this start is on another branch of the loops ({names}) than the mechanism, or at a singular position"
+        "these positions are on another branch of the loops ({names}) than the mechanism, or singular"
     );
     Fault::new(location, "other-branch", message).with_help(
         "give other positions, or choose the branch in the mechanism with `branch` or `near`",
@@ -232,7 +230,7 @@ pub(crate) fn start_contradicts(
     unit: &str,
 ) -> Fault {
     let message = format!(
-        "`{name}` is {given} {unit} here, but the loops and the other values at the start make it {closed:.6} {unit}"
+        "`{name}` is {given} {unit} here, but the loops and the other values given make it {closed:.6} {unit}"
     );
     Fault::new(location, "contradicting-start", message)
         .with_help(format!("leave `{name}` out, or one of the others"))

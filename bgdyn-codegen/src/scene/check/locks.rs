@@ -2,67 +2,67 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{effects, joints};
+use super::super::closed_start;
+use super::{effects, joints, state};
 use crate::fault::{Fault, Faults, Location, wording};
-use crate::format::{Dimension, SceneSpec};
-use crate::mechanism::{LinkId, Mechanism, Motion};
+use crate::format::{Located, SceneSpec};
+use crate::machine::{Machine, NotLocked};
+use crate::mechanism::{Joint, LinkId, Mechanism, Motion};
 
-/// Returns the links whose joints are locked, with the positions of the joints.
-pub(super) fn locks(
+/// Returns the mechanism of the machine with the joints locked that the scene locks. Faults are those of the entries,
+/// and of loops that do not close with the joints there.
+pub(super) fn locked(spec: &SceneSpec, machine: &Machine, faults: &mut Faults) -> Mechanism {
+    let locks = locks(spec, &machine.mechanism, faults);
+    let all: Vec<(LinkId, Dd)> = locks.iter().map(|(link, at, _)| (*link, *at)).collect();
+    machine.locked(&all).unwrap_or_else(|reason| {
+        let entry = |name: &str| locks.iter().find(|(_, _, entry)| entry.value == name);
+        let first = effects::given(&spec.lock).first().map(|raw| &raw.name);
+        let place = |name: &str| entry(name).map(|(.., entry)| entry).or(first);
+        let location = |name: &str| place(name).map_or_else(Location::file, |n| n.location.clone());
+        match reason {
+            NotLocked::Unreached(reason) => {
+                let layout = state::layout(&machine.mechanism, &[]);
+                faults.push(closed_start::fault(&layout, &reason, location));
+            }
+            NotLocked::Refused(found) => {
+                let why = found.0.first().map_or("", |fault| &fault.message);
+                let names: Vec<&str> = locks.iter().map(|(.., name)| name.value.as_str()).collect();
+                faults.push(wording::locks_contradict(&location(""), &names, why));
+            }
+        }
+        machine.mechanism.clone()
+    })
+}
+
+/// Returns the links whose joints are locked, with the positions of the joints, and their names in the file.
+fn locks(
     spec: &SceneSpec,
     mechanism: &Mechanism,
     faults: &mut Faults,
-) -> Vec<(LinkId, Dd)> {
+) -> Vec<(LinkId, Dd, Located<String>)> {
     let mut locked = Vec::new();
-    if let (Some(closure), Some(raw)) = (mechanism.closure(), effects::given(&spec.lock).first()) {
-        let loops: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
-        let name = &raw.name;
-        faults.push(wording::lock_with_loops(
-            &name.location,
-            &name.value,
-            &loops,
-        ));
-        return locked;
-    }
     for raw in effects::given(&spec.lock) {
         let name = &raw.name.value;
-        let links = mechanism.coordinates().iter().copied();
-        let found = links
-            .enumerate()
-            .find(|(_, l)| mechanism.links()[l.0].joint.name == *name);
-        let Some((j, link)) = found else {
-            // `lock` is the constant case of a prescribed motion.
-            match prescribed(mechanism, name) {
-                Some((link, position)) => {
-                    let at = raw.number(&[position], faults);
-                    locked.extend(at.map(|at| (link, at.value.value)));
-                }
-                None => faults.push(not_lockable(mechanism, &raw.name.location, name)),
+        match lockable(mechanism, name) {
+            Some((link, joint)) => {
+                let [position, ..] = joints::dimensions(joint.kind.motion == Motion::Translation);
+                let at = raw.number(&[position], faults);
+                locked.extend(at.map(|at| (link, at.value.value, raw.name.clone())));
             }
-            continue;
-        };
-        let joint = &mechanism.links()[link.0].joint;
-        if joint.degrees.velocities.len() > 1 {
-            let keyword = joint.kind.keyword;
-            faults.push(wording::lock_of_several(&raw.name.location, name, keyword));
-            continue;
-        }
-        let [position, ..] =
-            joints::dimensions(mechanism.linear(crate::mechanism::CoordinateId(j)));
-        if let Some(at) = raw.number(&[position], faults) {
-            locked.push((link, at.value.value));
+            None => faults.push(not_lockable(mechanism, &raw.name.location, name)),
         }
     }
     locked
 }
 
-/// Returns the link of a prescribed joint, and the dimension of its position.
-fn prescribed(mechanism: &Mechanism, name: &str) -> Option<(LinkId, Dimension)> {
-    let mut all = mechanism.prescribed().iter();
-    let found = all.find(|p| mechanism.prescribed_joint(p).name == name)?;
-    let joint = mechanism.prescribed_joint(found);
-    let [position, ..] = joints::dimensions(joint.kind.motion == Motion::Translation);
-    Some((found.link, position))
+/// Returns a joint of one degree that follows no other: also a dependent one of loops, and a prescribed one, of whose
+/// motion `lock` is the constant case.
+fn lockable<'a>(mechanism: &'a Mechanism, name: &str) -> Option<(LinkId, &'a Joint)> {
+    let mut links = mechanism.links().iter().enumerate();
+    let (i, link) = links.find(|(_, link)| link.joint.name == name)?;
+    let joint = &link.joint;
+    let one = joint.kind.motion.nv() == 1 && joint.degrees.coupling.is_none();
+    one.then_some((LinkId(i), joint))
 }
 
 /// Returns the fault of a name that is not that of a joint with coordinates: a velocity of a joint with
@@ -74,8 +74,11 @@ fn not_lockable(mechanism: &Mechanism, location: &Location, name: &str) -> Fault
         return wording::lock_of_several(location, &joint.name, joint.kind.keyword);
     }
     let mut joints = mechanism.links().iter().map(|link| &link.joint);
-    let follower = joints.find(|joint| joint.name == name);
-    if let Some(coupling) = follower.and_then(|joint| joint.degrees.coupling.as_ref()) {
+    let found = joints.find(|joint| joint.name == name);
+    if let Some(joint) = found.filter(|joint| joint.kind.motion.nv() > 1) {
+        return wording::lock_of_several(location, name, joint.kind.keyword);
+    }
+    if let Some(coupling) = found.and_then(|joint| joint.degrees.coupling.as_ref()) {
         return wording::lock_of_follower(location, name, &mechanism.leaders(coupling));
     }
     let known = mechanism.one_degree_names();

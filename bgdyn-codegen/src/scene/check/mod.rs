@@ -87,8 +87,7 @@ fn scene(
 ) -> (Scene, bool) {
     version(spec, faults);
     let name = name(spec, stem, faults);
-    let locked = locks::locks(spec, &whole.mechanism, faults);
-    let mechanism = whole.mechanism.locked(&locked);
+    let mechanism = locks::locked(spec, whole, faults);
     let before = faults.count();
     let effects::Called {
         elements,

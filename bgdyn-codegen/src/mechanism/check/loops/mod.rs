@@ -30,9 +30,10 @@ use crate::format::Spec;
 use crate::mechanism::closure::{ChainStep, Closure, KinematicLoop};
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, PositionId};
 
-/// Closes the loops of a numbered open tree. `None` if a rule is broken.
+/// Closes the loops of a numbered open tree. `None` if a rule is broken. The search for a closed position begins at
+/// `start`, or where all joints are at zero.
 pub(super) fn close(
-    (spec, entries): (&Spec, &[ContactEntry]),
+    (spec, entries, start): (&Spec, &[ContactEntry], Option<Vec<bgdyn_runtime::Dd>>),
     mechanism: &mut Mechanism,
     directions: &Directions,
     faults: &mut Faults,
@@ -56,6 +57,9 @@ pub(super) fn close(
         return Some(());
     }
     let mut closure = unsolved(mechanism, &read);
+    if let Some(start) = start {
+        closure.start = start;
+    }
     let positions = structure::positions(&closure);
     contacts::find_upward(&mut closure, &positions, faults);
     if faults.count() > before {
