@@ -12,11 +12,14 @@ mod robot;
 mod findings;
 
 mod counts;
+mod drawn;
 mod faults;
 mod frame_rows;
 mod multipliers;
 mod random_loops;
+mod rank;
 mod references;
 mod scenes;
+mod specs;
 mod starts;
 mod verified;
