@@ -16,7 +16,7 @@ use crate::spec_file::{SpecFile, shown};
 /// Check specs; report every fault with its location
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn check specs/scara.yaml\n  bgdyn check specs/*.yaml --json\n\nExit 1 if any file has an error. --json prints one report, or a list of reports for several files."
+    after_help = "Example:\n  bgdyn check specs/scara.yaml\n  bgdyn check specs/*.yaml --json\n  bgdyn check --loops specs/loops/four_bar.yaml\n\nExit 1 if any file has an error. --json prints one report, or a list of reports for several files."
 )]
 pub(crate) struct Check {
     /// Mechanisms and scenes; `-` is standard input
@@ -25,6 +25,9 @@ pub(crate) struct Check {
     /// Print the findings as JSON
     #[arg(long)]
     json: bool,
+    /// Print the ranks of loops, and the range of each independent joint in which they close
+    #[arg(long)]
+    loops: bool,
 }
 
 /// The findings of one file.
@@ -49,7 +52,7 @@ impl Check {
         let several = self.files.len() > 1;
         let (mut sound, mut reports) = (true, Vec::new());
         for path in &self.files {
-            let found = check(path);
+            let found = check(path, self.loops);
             sound &= found.ok;
             if self.json {
                 let (kind, model) = found.model.unwrap_or(("model", Value::Null));
@@ -87,7 +90,7 @@ impl Check {
     }
 }
 
-fn check(path: &Path) -> CheckedFile {
+fn check(path: &Path, loops: bool) -> CheckedFile {
     let spec = match SpecFile::read_any(path) {
         Ok(spec) => spec,
         Err(error) => {
@@ -108,18 +111,21 @@ fn check(path: &Path) -> CheckedFile {
         };
     }
     match spec.is_scene() {
-        true => scene(&spec),
-        false => mechanism(&spec),
+        true => scene(&spec, loops),
+        false => mechanism(&spec, loops),
     }
 }
 
-fn mechanism(spec: &SpecFile) -> CheckedFile {
+fn mechanism(spec: &SpecFile, loops: bool) -> CheckedFile {
     let (mechanism, faults) = spec.read();
     let mut found = CheckedFile {
         ok: mechanism.is_some(),
         message: spec.render(&faults),
         tally: mechanism.is_none().then(|| faults.tally()),
-        model: Some(("model", mechanism.as_ref().map_or(Value::Null, model))),
+        model: Some((
+            "model",
+            mechanism.as_ref().map_or(Value::Null, |m| model(m, loops)),
+        )),
         findings: faults.0.iter().map(finding).collect(),
         ..CheckedFile::default()
     };
@@ -132,7 +138,7 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
         found
             .lines
             .extend(m.followers().map(|follower| follows(&m, follower)));
-        found.lines.extend(super::loops::lines(&m));
+        found.lines.extend(closure_lines(&m, loops));
         let prescribed = m.prescribed_names().join(", ");
         let line = format!("prescribed: {prescribed}");
         found.lines.extend((!prescribed.is_empty()).then_some(line));
@@ -144,7 +150,7 @@ fn mechanism(spec: &SpecFile) -> CheckedFile {
     found
 }
 
-fn scene(spec: &SpecFile) -> CheckedFile {
+fn scene(spec: &SpecFile, loops: bool) -> CheckedFile {
     let null = Some(("scene", Value::Null));
     let (system, faults) = match spec.read_scene() {
         Ok(read) => read,
@@ -185,12 +191,12 @@ fn scene(spec: &SpecFile) -> CheckedFile {
     CheckedFile {
         ok: true,
         lines: std::iter::once(ok)
-            .chain(super::loops::lines(&system.scene.mechanism))
+            .chain(closure_lines(&system.scene.mechanism, loops))
             .chain(solved)
             .collect(),
         message: spec.render(&faults),
         tally: None,
-        model: Some(("scene", scene_model(&system))),
+        model: Some(("scene", scene_model(&system, loops))),
         findings: faults.0.iter().map(finding).collect(),
         names_its_file: false,
     }
@@ -221,7 +227,7 @@ fn words(solved: &Solved) -> String {
     format!("{elements}{nodes}: {}", solved.how)
 }
 
-fn scene_model(system: &SceneEquations) -> Value {
+fn scene_model(system: &SceneEquations, loops: bool) -> Value {
     let scene = &system.scene;
     let layout = &scene.layout;
     let names = |parts: &[Variable]| parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
@@ -243,11 +249,29 @@ fn scene_model(system: &SceneEquations) -> Value {
         "inputs": names(&layout.inputs),
         "effects": effects,
         "solved": solved,
-        "closure": super::loops::model(&scene.mechanism),
+        "closure": closure(&scene.mechanism, loops),
     })
 }
 
-fn model(mechanism: &Mechanism) -> Value {
+/// Returns the lines about loops; with `ranges` those of `--loops`.
+fn closure_lines(mechanism: &Mechanism, ranges: bool) -> Vec<String> {
+    let mut lines = super::loops::lines(mechanism);
+    if ranges {
+        lines.extend(super::loop_ranges::lines(mechanism));
+    }
+    lines
+}
+
+/// Returns the same as JSON.
+fn closure(mechanism: &Mechanism, ranges: bool) -> Value {
+    let mut model = super::loops::model(mechanism);
+    if ranges {
+        super::loop_ranges::add(mechanism, &mut model);
+    }
+    model
+}
+
+fn model(mechanism: &Mechanism, loops: bool) -> Value {
     let parameter = |p: &Parameter| {
         json!({
             "name": p.name,
@@ -267,7 +291,7 @@ fn model(mechanism: &Mechanism) -> Value {
         "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.location.path })),
     });
     if mechanism.closure().is_some() {
-        model["closure"] = super::loops::model(mechanism);
+        model["closure"] = closure(mechanism, loops);
     }
     model
 }

@@ -25,6 +25,15 @@ pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
         if !dropped.is_empty() {
             line += &format!("; always closed: {dropped}");
         }
+        for (always, word) in [
+            (true, "follows everywhere"),
+            (false, "follows where closed"),
+        ] {
+            let following = following(closure, closes, always).join(", ");
+            if !following.is_empty() {
+                line += &format!("; {word}: {following}");
+            }
+        }
         if let Some(side) = side(closure, closes) {
             line += &format!("; branch {side}");
         }
@@ -55,6 +64,8 @@ pub(super) fn model(mechanism: &Mechanism) -> Value {
             "type": one.kind.keyword,
             "rows": names(&closure.rows, closes),
             "dropped_rows": names(&closure.dropped, closes),
+            "redundant_rows": following(closure, closes, true),
+            "paradoxical_rows": following(closure, closes, false),
             "branch": side(closure, closes),
         })
     };
@@ -79,6 +90,13 @@ fn names(of: &[LoopRow], closes: usize) -> Vec<&'static str> {
         .filter(|row| row.closes == closes)
         .map(|row| row.name)
         .collect()
+}
+
+/// Returns the rows of a loop that follow from others, at every position or at closed ones only.
+fn following(closure: &Closure, closes: usize, always: bool) -> Vec<&'static str> {
+    let all = closure.following.iter();
+    let own = all.filter(|one| one.row.closes == closes && one.always == always);
+    own.map(|one| one.row.name).collect()
 }
 
 fn rows(of: &[LoopRow], closes: usize) -> String {

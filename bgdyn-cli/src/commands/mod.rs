@@ -6,6 +6,7 @@ pub(crate) mod equations;
 pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod graph;
+mod loop_ranges;
 mod loops;
 pub(crate) mod ops;
 mod per_effect;

@@ -71,6 +71,20 @@ pub(super) fn closing() -> Value {
                 described(side, json!({ "enum": ["left", "right"] })),
             ),
             ("near", near),
+            (
+                "redundant",
+                described(
+                    "rows that follow from others at every position are left out",
+                    json!({ "const": "allow" }),
+                ),
+            ),
+            (
+                "tolerance",
+                described(
+                    "the gap by which rounded lengths may leave rows open that follow from others",
+                    quantity(&[Dimension::Length]),
+                ),
+            ),
         ],
         &["name", "type", "a", "b"],
     )

@@ -10,11 +10,12 @@ use std::path::Path;
 use super::{bgdyn, bgdyn_in, root, scratch};
 
 /// Pages, and the folders of their commands.
-const PAGES: [(&str, &str); 4] = [
+const PAGES: [(&str, &str); 5] = [
     ("docs/first_model.md", "examples/first_model"),
     ("docs/tests_to_copy.md", "examples/first_model"),
     ("docs/generated_code.md", "."),
     ("docs/paper_to_code.md", "."),
+    ("docs/loops.md", "."),
 ];
 
 /// A command with its output on the page.

@@ -92,3 +92,56 @@ fn eval_names_the_loop_on_another_branch() {
         "{said}"
     );
 }
+
+/// `--loops` adds ranks, and the range of each independent joint in a loop: of the slider-crank a whole turn, of the
+/// five-bar's cranks as far as two rods of 0.35 m reach.
+#[test]
+fn check_prints_ranks_and_ranges() {
+    let closure = |spec: &str| -> Value {
+        let run = bgdyn(&["check", spec, "--json", "--loops"]).good();
+        let report: Value = serde_json::from_str(&run).expect("JSON");
+        report["model"]["closure"].clone()
+    };
+    let turning = closure("specs/loops/slider_crank.yaml");
+    assert_eq!(turning["rank"], json!({ "closed": 2, "open": 2 }));
+    assert_eq!(turning["ranges"][0]["joint"], "crank_angle");
+    assert_eq!(turning["ranges"][0]["whole_turn"], true);
+
+    let five_bar = closure(FIVE_BAR);
+    let start = 1.1_f64;
+    let elbow = [0.3 + 0.25 * start.cos(), 0.25 * start.sin()];
+    for (range, end) in [("lower", -1.0), ("upper", 1.0)] {
+        let found = &five_bar["ranges"][0][range];
+        assert_eq!(found["why"], "reach", "{range}");
+        let angle = found["position"].as_f64().expect("a number");
+        // The elbows are 0.7 m apart there, the rods stretched.
+        let [x, y] = [0.25 * angle.cos(), 0.25 * angle.sin()];
+        let apart = (x - elbow[0]).hypot(y - elbow[1]);
+        assert!(
+            (apart - 0.7).abs() < 1e-6 && angle * end > 0.0,
+            "{range}: {apart}"
+        );
+    }
+    let value = |k: &str| five_bar["ranges"][0]["condition"][k]["value"].as_f64();
+    assert!(value("least") >= Some(1.0) && value("largest") > value("least"));
+
+    // Of the excavator's rocker the limits, of Bricard's rows the rank.
+    let rocker = &closure("specs/loops/excavator.yaml")["ranges"][0];
+    assert_eq!(
+        rocker["upper"],
+        json!({ "joint": "rocker_angle", "position": 0.6981317007977318, "why": "limit" })
+    );
+    let bricard = closure("specs/loops/bricard.yaml");
+    assert_eq!(
+        bricard["loops"][0]["rank"],
+        json!({ "closed": 4, "open": 5 })
+    );
+    assert_eq!(bricard["loops"][0]["paradoxical_rows"], json!(["tilt y"]));
+    // At the flat position both parallelograms may turn over.
+    let flat = &closure("specs/loops/parallelograms.yaml")["ranges"][0];
+    for (end, angle) in [("lower", 0.0), ("upper", std::f64::consts::PI)] {
+        let found = flat[end]["position"].as_f64().expect("a number");
+        assert!((found - angle).abs() < 1e-6, "{end}: {found}");
+        assert_eq!(flat[end]["why"], "reach");
+    }
+}

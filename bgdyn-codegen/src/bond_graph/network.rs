@@ -281,10 +281,14 @@ impl BondNetwork {
             };
             let source = self.add_on(junction, NodeKind::FlowSource, "0, effort λ");
             let dropped = of_loop(&closure.dropped);
-            let more = match dropped.as_str() {
-                "" => of_loop(&closure.rows),
-                _ => format!("{}; always 0: {dropped}", of_loop(&closure.rows)),
-            };
+            let following: Vec<LoopRow> = closure.following.iter().map(|one| one.row).collect();
+            let following = of_loop(&following);
+            let mut more = of_loop(&closure.rows);
+            for (what, rows) in [("always 0", dropped), ("following", following)] {
+                if !rows.is_empty() {
+                    more += &format!("; {what}: {rows}");
+                }
+            }
             self.set_more(source, Some(more));
         }
     }

@@ -106,5 +106,12 @@ pub(super) fn row_docs(closed: &ClosedTree, what: &str) -> Vec<String> {
             " Left out, because they hold at every position of the joints: {dropped}."
         ));
     }
+    if !closure.following.is_empty() {
+        let following: Vec<LoopRow> = closure.following.iter().map(|one| one.row).collect();
+        let following = rows(&following);
+        docs.push(format!(
+            " Left out, because they follow from the others; their multipliers are not determined: {following}."
+        ));
+    }
     docs
 }

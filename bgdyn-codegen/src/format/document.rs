@@ -188,6 +188,10 @@ pub struct LoopSpec {
     pub branch: Field<String>,
     /// Positions of joints near the branch.
     pub near: Field<Vec<(Located<String>, Located<Number>)>>,
+    /// Whether its rows may follow from others: `allow`.
+    pub redundant: Field<String>,
+    /// The gap by which rows that follow from others may be open.
+    pub tolerance: Field<Number>,
 }
 
 /// One place of a loop: a link with an origin on it, or a frame.

@@ -6,7 +6,18 @@ use crate::unit::Dimension;
 
 impl Reader {
     pub(super) fn closing(&mut self, at: &At<'_>) -> Option<LoopSpec> {
-        let keys = ["name", "type", "a", "b", "axis", "length", "branch", "near"];
+        let keys = [
+            "name",
+            "type",
+            "a",
+            "b",
+            "axis",
+            "length",
+            "branch",
+            "near",
+            "redundant",
+            "tolerance",
+        ];
         let example = "`- { name: …, type: hinge, a: { link: … }, b: { link: … } }`";
         let map = self.mapping(at, ("a loop", example), &keys)?;
         Some(LoopSpec {
@@ -31,6 +42,8 @@ impl Reader {
                 let fit = [Dimension::Angle, Dimension::Length];
                 r.coefficients(at, &fit, ("positions by joint", "`{ elbow: 30 deg }`"))
             }),
+            redundant: self.text_field(&map, "redundant"),
+            tolerance: self.number_field(&map, "tolerance", &[Dimension::Length]),
             location: map.location,
         })
     }

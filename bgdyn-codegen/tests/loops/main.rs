@@ -12,12 +12,15 @@ mod robot;
 mod findings;
 
 mod counts;
+mod drawn;
 mod faults;
 mod frame_rows;
 mod locks;
 mod multipliers;
 mod random_loops;
+mod rank;
 mod references;
 mod scenes;
+mod specs;
 mod starts;
 mod verified;

@@ -49,7 +49,7 @@ pub fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
 }
 
 /// Compares at closed positions with random velocities and efforts.
-fn compare(text: &Text, what: &str) {
+pub fn compare(text: &Text, what: &str) {
     let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.closed()));
     let closure = robot.mechanism.closure().expect("loops").clone();
     assert_eq!(robot.nv() + closure.rows.len(), tree.nv(), "{what}");

@@ -141,7 +141,91 @@ pub(crate) fn loop_closes_to_rounding(
         quote(name)
     );
     Fault::new(location, "loop-closes-to-rounding", message).with_help(
-        "rows depend on each other for exact lengths only: write lengths and angles with all their digits, or free a joint of the loop",
+        "the joints are at the end of their reach there: correct the lengths, or free a joint of the loop",
+    )
+}
+
+/// `gaps`: that of the best position, and the largest along the motion without the rows that others determine.
+pub(crate) fn loop_moves_but_for_rounding(
+    location: &Location,
+    name: &str,
+    (left, open): (f64, f64),
+) -> Fault {
+    let message = format!(
+        "the loop {} closes only to {} m, and would move if it closed: lengths or angles seem to be rounded",
+        quote(name),
+        six_digits(left)
+    );
+    let help = format!(
+        "write them exactly (more digits, fractions of pi); or let rows that follow from others be open by `tolerance: {:.0e} m` in the loop: they are up to {} m in closed positions around the start",
+        10.0_f64.powf(open.log10().ceil()),
+        six_digits(open)
+    );
+    Fault::new(location, "loop-closes-to-rounding", message).with_help(help)
+}
+
+pub(crate) fn tolerance_out_of_range(location: &Location, text: &str) -> Fault {
+    let message = format!("the tolerance is {text}");
+    Fault::new(location, "tolerance-out-of-range", message).with_help(
+        "write a length above 0 and up to 1 mm, by which rounded lengths may leave the loop open",
+    )
+}
+
+pub(crate) fn tolerance_exceeded(
+    location: &Location,
+    name: &str,
+    (open, tolerance): (f64, f64),
+) -> Fault {
+    let message = format!(
+        "in positions around the start the loop {} is open by up to {} m, more than its `tolerance` of {} m",
+        quote(name),
+        six_digits(open),
+        six_digits(tolerance)
+    );
+    Fault::new(location, "tolerance-exceeded", message)
+        .with_help("correct the lengths, or raise `tolerance` if that gap is meant")
+}
+
+pub(crate) fn redundant_word(location: &Location, word: &str) -> Fault {
+    let message = format!("{} is not a value of `redundant`", quote(word));
+    Fault::new(location, "redundant-word", message)
+        .with_help("write `redundant: allow`, or leave it out")
+}
+
+pub(crate) fn loop_closes_at_single_positions(
+    location: &Location,
+    (name, row): (&str, &str),
+) -> Fault {
+    let message = format!(
+        "the loop {} closes at single positions only: there its row `{row}` follows from others, and it opens where these move",
+        quote(name)
+    );
+    Fault::new(location, "loop-at-single-position", message).with_help(
+        "correct the lengths: the joints are at the end of their reach, or hold each other",
+    )
+}
+
+/// `counts`: velocities of the joints in loops, rows that are independent somewhere, rows at closed positions.
+pub(crate) fn paradoxical_loop(
+    location: &Location,
+    (name, rows): (&str, &[String]),
+    (moving, off, on): (usize, usize, usize),
+) -> Fault {
+    let message = format!(
+        "the loop {} moves by its lengths only (paradoxical): {moving} velocities less {off} rows would leave {}, and at closed positions {} move, because {} from others there",
+        quote(name),
+        moving.saturating_sub(off),
+        moving.saturating_sub(on),
+        match rows {
+            [one] => format!("the row `{one}` follows"),
+            _ => format!(
+                "the rows {} follow",
+                quoted_list(rows.iter().map(String::as_str))
+            ),
+        }
+    );
+    Fault::new(location, "paradoxical-loop", message).with_help(
+        "nothing, if that is meant: these rows are left out, and their forces are not determined",
     )
 }
 
@@ -169,7 +253,7 @@ pub(crate) fn dependent_loop_row(
         ),
     };
     Fault::new(location, "dependent-row", message).with_help(
-        "choose a type of loop with fewer rows (`point` in place of `hinge`), or free a joint: an overconstrained loop has forces that its motion does not determine",
+        "choose a type of loop with fewer rows (`point` in place of `hinge`), or free a joint; or write `redundant: allow` in the loop: such rows are then left out, and their forces are not determined",
     )
 }
 

@@ -341,6 +341,13 @@ impl<E: Ring> ChainFrames<E> {
         [self.segments[0], end]
     }
 
+    /// Returns the axes and the origin of the link after this many steps.
+    pub fn link(&self, steps: usize) -> (Mat3<E>, Vec3<E>) {
+        let zero = Vec3([self.zero; 3]);
+        let origin = self.segments[..=steps].iter().fold(zero, |sum, s| sum + *s);
+        (self.rotations[steps], origin)
+    }
+
     /// Returns the origin of place b.
     pub fn end(&self) -> Vec3<E> {
         let zero = Vec3([self.zero; 3]);

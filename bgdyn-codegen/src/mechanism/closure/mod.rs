@@ -17,6 +17,7 @@
 //! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
+//! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
 //! | `reach.rs` | closed positions and velocities with given ones |
 //! | `solve.rs` | linear equations |
 
@@ -25,6 +26,7 @@ mod closing;
 mod contact;
 mod contact_types;
 mod numeric;
+mod ranges;
 mod reach;
 mod row;
 mod rows_at;
@@ -42,6 +44,7 @@ pub use contact::{
     SPHERE_ROWS,
 };
 pub use contact_types::{DISC, KNIFE_EDGE, SPHERE};
+pub use ranges::{ClosedRange, RangeEnd, TreeLimits};
 pub use reach::Unreached;
 pub use row::{ClosingRow, RowKind};
 pub use rows_at::{RowAxes, RowsAt};
@@ -101,6 +104,15 @@ pub struct LoopRow {
     pub kind: RowKind,
 }
 
+/// A row that is left out because it follows from others; its multiplier is not determined.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FollowingRow {
+    /// The row.
+    pub row: LoopRow,
+    /// Whether it follows at every position of the tree, not at closed ones only.
+    pub always: bool,
+}
+
 /// Rows that are solved together for as many dependent velocities, after those of earlier blocks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClosureBlock {
@@ -119,6 +131,8 @@ pub struct Closure {
     pub rows: Vec<LoopRow>,
     /// The rows that hold at every position of the tree.
     pub dropped: Vec<LoopRow>,
+    /// The rows that follow from [`Closure::rows`].
+    pub following: Vec<FollowingRow>,
     /// The independent velocities, in the order of v.
     pub independents: Vec<CoordinateId>,
     /// The other velocities, block by block.
@@ -151,6 +165,20 @@ pub struct Closure {
 }
 
 impl Closure {
+    /// Returns the length of the largest loop, m: the sum of its constant segments; 1 without one.
+    pub fn size(&self) -> f64 {
+        let length = |one: &KinematicLoop| {
+            let places = [one.chain.start.translation, one.chain.end.translation];
+            let origins = one.chain.steps.iter().map(|step| step.origin.translation);
+            let lengths = origins.chain(places).map(|v| v.dot(v).to_f64().sqrt());
+            lengths.sum::<f64>()
+        };
+        match self.loops.iter().map(length).fold(0.0, f64::max) {
+            0.0 => 1.0,
+            size => size,
+        }
+    }
+
     /// Returns the name of a row: "rocker_pin x".
     pub fn row_name(&self, row: &LoopRow) -> String {
         format!("{} {}", self.loops[row.closes].name, row.name)

@@ -68,6 +68,16 @@ pub(crate) fn eliminate(a: &mut [Vec<Dd>], columns: usize) -> (Vec<(usize, usize
     (pivots, ratio)
 }
 
+/// Returns the number of pivots that are no less than 1e-18 of the largest one.
+pub(super) fn rank(a: &mut [Vec<Dd>], columns: usize) -> usize {
+    let (pivots, _) = eliminate(a, columns);
+    let sizes = pivots
+        .iter()
+        .map(|&(row, column)| a[row][column].to_f64().abs());
+    let largest = sizes.clone().fold(0.0, f64::max);
+    sizes.filter(|size| *size > 1e-18 * largest).count()
+}
+
 /// Returns the largest entry of the rows and columns without a pivot.
 fn best_pivot(
     a: &[Vec<Dd>],

@@ -1,8 +1,10 @@
-//! Finds a closed position on the branch of the file, and closed positions at random from there.
+//! Finds a closed position on the branch of the file.
 
 use bgdyn_runtime::Dd;
 
+use super::rank;
 use super::read::ReadLoop;
+use super::samples::sample;
 use crate::fault::{Faults, wording};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::Closure;
@@ -11,23 +13,24 @@ use crate::random::Random;
 /// Starts of the search, the given position first.
 const STARTS: u64 = 200;
 
-/// Closed positions at random.
-const SAMPLES: u64 = 12;
-
 /// A residual below this is that of a closed position.
 const CLOSED: f64 = 1e-25;
 
-/// A gap below this would be one of rounded lengths, m or rad.
-const ROUNDED: f64 = 1e-5;
+/// Positions with such a gap that are tried for motion.
+const NEAR: usize = 8;
+
+/// A gap below this, relative to the size of the largest loop, would be one of rounded lengths.
+const ROUNDED: f64 = 1e-4;
 
 /// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
-/// independent: their positions stay those of the start if they can.
+/// independent: their positions stay those of the start if they can. Returns by how much the start is open: 0, or a gap
+/// within the `tolerance` of the file.
 pub(super) fn assemble(
     closure: &mut Closure,
     read: &[ReadLoop],
     kept: &[CoordinateId],
     faults: &mut Faults,
-) -> Option<()> {
+) -> Option<f64> {
     let mut given = closure.start.clone();
     for (position, value) in read.iter().flat_map(|one| &one.near) {
         given[position.0] = *value;
@@ -40,7 +43,11 @@ pub(super) fn assemble(
         .filter(|j| !kept.contains(&CoordinateId(*j)))
         .collect();
     let mut best = (f64::INFINITY, given.clone());
+    let mut near: Vec<(f64, Vec<Dd>)> = Vec::new();
+    let rounded = ROUNDED * closure.size();
     let mut wrong: Option<usize> = None;
+    let tolerance = read.iter().filter_map(|one| one.tolerance);
+    let tolerance = tolerance.fold(0.0, f64::max);
     for seed in 0..STARTS {
         let mut q = given.clone();
         let mut random = Random(seed);
@@ -54,7 +61,10 @@ pub(super) fn assemble(
         if left > CLOSED {
             left = closure.assemble(&rows, &mut q, &moving);
         }
-        if left > CLOSED {
+        if left > f64::max(CLOSED, tolerance) {
+            if left < rounded && near.len() < NEAR {
+                near.push((left, q.clone()));
+            }
             if left < best.0 {
                 best = (left, q);
             }
@@ -64,7 +74,7 @@ pub(super) fn assemble(
             None => {
                 closure.start = q;
                 closure.samples = sample(closure);
-                return Some(());
+                return Some(if left > CLOSED { left } else { 0.0 });
             }
             Some(one) => wrong = wrong.or(Some(one)),
         }
@@ -77,7 +87,7 @@ pub(super) fn assemble(
                 .map_or(&read[one].closes.location, |b| &b.location);
             faults.push(wording::branch_not_found(location, &read[one].closes.name));
         }
-        None => report_gap(closure, best, faults),
+        None => report_gap(closure, (best, &near), faults),
     }
     None
 }
@@ -92,8 +102,21 @@ fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usi
     })
 }
 
-/// Reports the loop with the largest gap at the best position.
-fn report_gap(closure: &Closure, (left, q): (f64, Vec<Dd>), faults: &mut Faults) {
+/// Reports the loop with the largest gap at the best position, or the one that would move if it closed.
+fn report_gap(
+    closure: &Closure,
+    ((left, q), near): ((f64, Vec<Dd>), &[(f64, Vec<Dd>)]),
+    faults: &mut Faults,
+) {
+    let rounded = ROUNDED * closure.size();
+    let moves = |(left, q): &(f64, Vec<Dd>)| rank::almost_moves(closure, (q, *left), rounded);
+    if let Some(almost) = near.iter().find_map(moves) {
+        let one = &closure.loops[almost.closes];
+        let gaps = (almost.gap, almost.open);
+        let fault = wording::loop_moves_but_for_rounding(&one.location, &one.name, gaps);
+        faults.push(fault);
+        return;
+    }
     let rows = closure.position_rows();
     let (residuals, _) = closure.values(&rows, &q);
     let sizes = residuals.iter().map(|x| x.to_f64().abs());
@@ -102,20 +125,8 @@ fn report_gap(closure: &Closure, (left, q): (f64, Vec<Dd>), faults: &mut Faults)
     let row = &rows[row];
     let one = &closure.loops[row.closes];
     let names = (one.name.as_str(), row.name);
-    faults.push(match left < ROUNDED {
+    faults.push(match left < rounded {
         true => wording::loop_closes_to_rounding(&one.location, names, left),
         false => wording::loop_not_assembled(&one.location, names, left),
     });
-}
-
-/// Returns closed positions at random; once the blocks are known, on the branch of the start.
-pub(super) fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
-    let mut q = closure.start.clone();
-    let mut random = Random(17);
-    let rows = closure.position_rows();
-    let next = |_| {
-        closure.walk(&rows, &mut q, &mut random);
-        q.clone()
-    };
-    (0..SAMPLES).map(next).collect()
 }

@@ -89,6 +89,8 @@ pub(super) fn read(
         closes,
         branch: None,
         near: Vec::new(),
+        redundant: false,
+        tolerance: None,
     })
 }
 

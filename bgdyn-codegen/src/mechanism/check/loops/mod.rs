@@ -2,23 +2,27 @@
 //!
 //! 1. `read.rs`: the entries of the file, and the chain of joints between the places; `contacts.rs`, `planes.rs`:
 //!    the same for wheels and knife edges.
-//! 2. `structure.rs`: a row that holds at every position of the tree is dropped; one that holds at none is a
-//!    fault.
-//! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; closed positions at
-//!    random from there.
-//! 4. `structure.rs`: rows that follow from others at all of these are a fault.
+//! 2. `axes.rs`: the axes of a loop's rows. `structure.rs`: a row that holds at every position of the tree is dropped;
+//!    one that holds at none is a fault.
+//! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; `samples.rs`: closed positions
+//!    at random from there.
+//! 4. `rank.rs`: rows that follow from others are left out, or are a fault.
 //!    `combine.rs`: rows of contacts are combined so that fewer velocities appear in each.
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
 //! 6. `blocks.rs`: the order in which blocks of rows are solved.
 
+mod allowed;
 mod assembly;
+mod axes;
 mod blocks;
 mod combine;
 mod contacts;
 mod independents;
 mod planes;
+mod rank;
 mod read;
+mod samples;
 mod structure;
 
 pub use planes::PLANE_KEYS;
@@ -65,18 +69,21 @@ pub(super) fn close(
     if faults.count() > before {
         return None;
     }
+    for one in &mut closure.loops {
+        axes::choose(one, &positions);
+    }
     structure::drop_rows(&mut closure, faults);
     if faults.count() > before {
         return None;
     }
     let kept = independents::named(spec, mechanism, faults)?;
-    assembly::assemble(&mut closure, &read, &kept, faults)?;
-    structure::check_rank(&closure, faults)?;
+    let gap = assembly::assemble(&mut closure, &read, &kept, faults)?;
+    rank::leave_out(&mut closure, (&read, gap), faults)?;
     combine::combine(&mut closure);
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
-    closure.samples = assembly::sample(&closure);
+    closure.samples = samples::sample(&closure);
     closure.along_planes = along_planes(&closure, (spec, mechanism)).map(Box::new);
     mechanism.close(closure);
     Some(())
@@ -122,6 +129,7 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
     Closure {
         rows,
         dropped: Vec::new(),
+        following: Vec::new(),
         independents: Vec::new(),
         blocks: Vec::new(),
         positions,

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::allowed;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Field, Located, LoopEndSpec, LoopSpec, Spec, check_unit};
 use crate::math::{Mat3, Vec3};
@@ -17,6 +18,10 @@ pub(super) struct ReadLoop {
     pub(super) branch: Option<Located<bool>>,
     /// Positions to start from.
     pub(super) near: Vec<(PositionId, Dd)>,
+    /// Whether its rows may follow from others.
+    pub(super) redundant: bool,
+    /// The gap by which rows that follow from others may be open, m or rad.
+    pub(super) tolerance: Option<f64>,
 }
 
 /// What the entries of `loops` refer to.
@@ -70,7 +75,12 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
         axis.is_some() && a.0.is_some() && b.0.is_some() && kind.coincident,
         faults,
     );
-    suitable.then(|| ReadLoop {
+    let redundant = allowed::redundant(one, faults);
+    let tolerance = allowed::tolerance(one, faults);
+    if !suitable {
+        return None;
+    }
+    Some(ReadLoop {
         closes: KinematicLoop {
             name: name.value.clone(),
             kind,
@@ -84,6 +94,8 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
         },
         branch,
         near,
+        redundant: redundant?,
+        tolerance: tolerance?,
     })
 }
 

@@ -1,9 +1,9 @@
-//! Rows that hold at every position of the tree, at none, or whenever others hold.
+//! Rows that hold at every position of the tree, or at none.
 
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, wording};
-use crate::mechanism::closure::{ClosingRow, Closure, LoopRow, RowAxes, RowKind, eliminate};
+use crate::mechanism::closure::{ClosingRow, Closure, RowAxes, RowKind};
 use crate::mechanism::joint::DoubleDouble;
 use crate::random::Random;
 
@@ -115,62 +115,4 @@ fn random_position(closure: &Closure, seed: u64) -> Vec<Dd> {
     }
     closure.normalize(&mut q);
     q
-}
-
-/// Reports rows that follow from earlier ones at all sampled positions, and loops that leave no velocity.
-pub(super) fn check_rank(closure: &Closure, faults: &mut Faults) -> Option<()> {
-    let before = faults.count();
-    let jacobians: Vec<Vec<Vec<Dd>>> = closure
-        .samples
-        .iter()
-        .map(|q| closure.values(&closure.rows, q).1)
-        .collect();
-    let mut independent: Vec<usize> = Vec::new();
-    for r in 0..closure.rows.len() {
-        let follows = |jacobian: &Vec<Vec<Dd>>| combination(jacobian, &independent, r);
-        let found: Option<Vec<Vec<f64>>> = jacobians.iter().map(follows).collect();
-        let Some(combinations) = found else {
-            independent.push(r);
-            continue;
-        };
-        let row: &LoopRow = &closure.rows[r];
-        let one = &closure.loops[row.closes];
-        let factors = combinations.into_iter().next().unwrap_or_default();
-        let terms = independent
-            .iter()
-            .zip(factors)
-            .filter(|(_, factor)| factor.abs() > 1e-9);
-        let terms: Vec<(String, f64)> = terms
-            .map(|(&k, f)| (closure.row_name(&closure.rows[k]), f))
-            .collect();
-        let (location, names) = (&one.location, (one.name.as_str(), row.name));
-        faults.push(match one.contact {
-            Some(_) => wording::dependent_contact_row(location, names, &terms),
-            None => wording::dependent_loop_row(location, names, &terms),
-        });
-    }
-    (faults.count() == before).then_some(())
-}
-
-/// Returns the factors of the rows `of` whose sum is row r; `None` if it is independent of them.
-fn combination(jacobian: &[Vec<Dd>], of: &[usize], r: usize) -> Option<Vec<f64>> {
-    // Columns are the rows of B: Σ factor · row = row r.
-    let n = jacobian[r].len();
-    let mut system: Vec<Vec<Dd>> = (0..n)
-        .map(|j| of.iter().chain([&r]).map(|&k| jacobian[k][j]).collect())
-        .collect();
-    let size = jacobian[r]
-        .iter()
-        .map(|x| x.to_f64().abs())
-        .fold(0.0, f64::max);
-    let (pivots, _) = eliminate(&mut system, of.len());
-    let mut factors = vec![0.0; of.len()];
-    for &(row, column) in &pivots {
-        factors[column] = (system[row][of.len()] / system[row][column]).to_f64();
-    }
-    let used = |i: usize| pivots.iter().any(|(row, _)| *row == i);
-    let left = (0..n)
-        .filter(|&i| !used(i))
-        .map(|i| system[i][of.len()].to_f64().abs());
-    (left.fold(0.0, f64::max) <= 1e-18 * size.max(1e-6)).then_some(factors)
 }

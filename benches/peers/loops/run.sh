@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# Mechanisms with closed loops in bgdyn, Pinocchio, MuJoCo and Drake: gaps, errors, energies, times.
+#
+#   benches/peers/loops/run.sh [--quick | --without-times] [--docs]
+#
+# Needs a Rust toolchain and Python 3 with venv. Installs the peers in $PEERS_DIR/loops_venv (target/peers). --docs writes
+# docs/peers_loops.md and docs/peers_loops.svg, else they are written in $PEERS_DIR. --quick tests the scripts: short runs,
+# one round; --without-times measures errors alone. PEERS_ROUNDS (3) rounds of times otherwise, in which all runs take turns.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../../.." && pwd)
+export PEERS_DIR=${PEERS_DIR:-$root/target/peers}
+mkdir -p "$PEERS_DIR/bin"
+PEERS_DIR=$(cd "$PEERS_DIR" && pwd)
+venv=$PEERS_DIR/loops_venv
+if [ ! -e "$venv/installed" ]; then
+  python3 -m venv "$venv"
+  "$venv/bin/pip" install -q pin==4.1.0 mujoco==4.0.0 drake==1.51.1 numpy
+  touch "$venv/installed"
+fi
+# The generator runs while compiling, so it need not be fast itself.
+RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$root/Cargo.toml" --target-dir "$PEERS_DIR/rust" \
+  --config 'profile.release.package.bgdyn-codegen.opt-level=1' -p peers_loops
+cp "$PEERS_DIR/rust/release/loops" "$PEERS_DIR/bin/"
+"$venv/bin/python" "$here/measure.py" "$@"

@@ -1,0 +1,302 @@
+//! Rows that follow from others.
+//!
+//! - At every position of the tree: a fault, or left out where the loop says `redundant: allow`.
+//! - At closed positions only: the loop moves by its lengths alone (paradoxical). Left out, with a warning.
+//! - Almost, because lengths are rounded: the loop closes to a small gap only. Left out within its `tolerance`.
+//!
+//! The rows that stay close exactly.
+
+use bgdyn_runtime::Dd;
+
+use super::read::ReadLoop;
+use super::{samples, structure};
+use crate::fault::{Faults, wording};
+use crate::mechanism::closure::{Closure, FollowingRow, eliminate};
+
+/// Rows whose pivots are below this, relative to the first one, follow from others.
+const FOLLOWS: f64 = 1e-18;
+
+/// The same for loops that stay open, times their gap over their size.
+const FOLLOWS_TO_GAP: f64 = 1e3;
+
+/// A row that follows from others is open by less.
+const CLOSED: f64 = 1e-24;
+
+/// A row within this part of the best pivot is taken, if it comes first.
+const NEARLY_BEST: f64 = 0.5;
+
+/// B at one position, row by row.
+type Jacobian = Vec<Vec<Dd>>;
+
+/// Leaves out rows that follow from others; `gap` is by how much the start is open. `None` if a rule is broken.
+pub(super) fn leave_out(
+    closure: &mut Closure,
+    (read, gap): (&[ReadLoop], f64),
+    faults: &mut Faults,
+) -> Option<()> {
+    let before = faults.count();
+    let tolerance = read.iter().filter_map(|one| one.tolerance);
+    let tolerance = tolerance.fold(0.0, f64::max);
+    let least = match gap > 0.0 {
+        true => least(closure, tolerance),
+        false => FOLLOWS,
+    };
+    let of_rows = |q: &Vec<Dd>| closure.values(&closure.rows, q).1;
+    let on: Vec<Jacobian> = match gap > 0.0 {
+        true => vec![of_rows(&closure.start)],
+        false => closure.samples.iter().map(of_rows).collect(),
+    };
+    let off: Vec<Jacobian> = structure::positions(closure).iter().map(of_rows).collect();
+    let allowed = |r: &usize| read[closure.rows[*r].closes].redundant;
+    let (mut order, last): (Vec<usize>, Vec<usize>) =
+        (0..closure.rows.len()).partition(|r| !allowed(r));
+    order.extend(last);
+    let (somewhere, always) = split(&off, &order, least);
+    for &r in always.iter().filter(|r| !allowed(r)) {
+        report(closure, (r, &somewhere), &on, faults);
+    }
+    let (kept, closed_only) = split(&on, &somewhere, least);
+    let touches = |r: &usize| closure.loops[closure.rows[*r].closes].contact.is_some();
+    for &r in closed_only.iter().filter(|r| touches(r)) {
+        report(closure, (r, &kept), &on, faults);
+    }
+    if faults.count() > before {
+        return None;
+    }
+    if always.is_empty() && closed_only.is_empty() {
+        return Some(());
+    }
+    let kept = match closed_only.is_empty() {
+        true => kept,
+        false => best(&on, &somewhere, kept.len()),
+    };
+    let counts = [closure.rows.len(), somewhere.len(), kept.len()];
+    keep(closure, &kept, &always);
+    let open = close_again(closure);
+    match (gap > 0.0, open) {
+        (false, open) if open > CLOSED => report_isolated(closure, faults),
+        (true, open) if open > tolerance => {
+            let one = &closure.loops[closure.following[0].row.closes];
+            let (location, name) = (&one.location, one.name.as_str());
+            faults.push(wording::tolerance_exceeded(
+                location,
+                name,
+                (open, tolerance),
+            ));
+        }
+        _ if counts[1] > counts[2] => warn(closure, counts, faults),
+        _ => {}
+    }
+    (faults.count() == before).then_some(())
+}
+
+/// What becomes of loops that almost close.
+pub(super) struct Almost {
+    /// The index of a loop with a row that the others would determine.
+    pub(super) closes: usize,
+    /// The gap at the position, m or rad.
+    pub(super) gap: f64,
+    /// The most by which it is open along the motion of the others, m or rad.
+    pub(super) open: f64,
+}
+
+/// Returns whether loops that stay open by a gap at q would move if they closed: without the rows that almost follow
+/// from others they do, and those stay closed to `most`.
+pub(super) fn almost_moves(closure: &Closure, (q, gap): (&[Dd], f64), most: f64) -> Option<Almost> {
+    if closure.nonholonomic() {
+        return None;
+    }
+    let at = [closure.values(&closure.rows, q).1];
+    let order: Vec<usize> = (0..closure.rows.len()).collect();
+    let tried = (0..5).map(|k| least(closure, gap * 10_f64.powi(k)));
+    tried.into_iter().find_map(|least| {
+        let (kept, left) = split(&at, &order, least);
+        if left.is_empty() {
+            return None;
+        }
+        let mut trial = closure.clone();
+        trial.start = q.to_vec();
+        keep(&mut trial, &best(&at, &order, kept.len()), &[]);
+        let open = close_again(&mut trial);
+        let moved = |sample: &Vec<Dd>| {
+            let mut steps = sample.iter().zip(&trial.start);
+            steps.any(|(x, y)| (*x - *y).to_f64().abs() > 0.1)
+        };
+        let moves = open <= most && trial.samples.iter().any(moved);
+        let closes = trial.following.first()?.row.closes;
+        moves.then_some(Almost { closes, gap, open })
+    })
+}
+
+fn least(closure: &Closure, gap: f64) -> f64 {
+    f64::max(FOLLOWS, FOLLOWS_TO_GAP * gap / closure.size())
+}
+
+/// Takes these rows, and leaves out the others; those in `always` follow from others at every position.
+fn keep(closure: &mut Closure, kept: &[usize], always: &[usize]) {
+    let rows = std::mem::take(&mut closure.rows);
+    for (r, row) in rows.into_iter().enumerate() {
+        if kept.contains(&r) {
+            closure.rows.push(row);
+            continue;
+        }
+        // The rows of the other place are other rows, which may not be as many.
+        closure.loops[row.closes].reversible = false;
+        let always = always.contains(&r);
+        closure.following.push(FollowingRow { row, always });
+    }
+}
+
+/// Closes the rows that are left, at the start and at closed positions at random. Returns by how much the others are
+/// open there.
+fn close_again(closure: &mut Closure) -> f64 {
+    let rows = closure.position_rows();
+    let mut start = closure.start.clone();
+    let moving = closure.moving();
+    closure.assemble(&rows, &mut start, &moving);
+    closure.start = start;
+    closure.samples = samples::sample(closure);
+    let left: Vec<_> = closure.following.iter().map(|one| one.row).collect();
+    let at = |q: &Vec<Dd>| {
+        let (residuals, _) = closure.values(&left, q);
+        residuals
+            .iter()
+            .map(|x| x.to_f64().abs())
+            .fold(0.0, f64::max)
+    };
+    let all = closure.samples.iter().chain([&closure.start]);
+    all.map(at).fold(0.0, f64::max)
+}
+
+/// Returns the rows that are independent of those before them, in this order, and the others: those that follow from
+/// them at all positions.
+fn split(jacobians: &[Jacobian], order: &[usize], least: f64) -> (Vec<usize>, Vec<usize>) {
+    let mut independent: Vec<usize> = Vec::new();
+    let mut following = Vec::new();
+    for &r in order {
+        let mut all = jacobians.iter();
+        let follows =
+            |jacobian: &Jacobian| combination(jacobian, (&independent, r), least).is_some();
+        match all.all(follows) {
+            true => following.push(r),
+            false => independent.push(r),
+        }
+    }
+    (independent, following)
+}
+
+/// Returns as many rows, each the one with the largest part, at the worst position, that the others do not determine.
+fn best(jacobians: &[Jacobian], of: &[usize], count: usize) -> Vec<usize> {
+    let mut parts: Vec<Jacobian> = jacobians.to_vec();
+    let mut chosen: Vec<usize> = Vec::new();
+    let sizes: Vec<Vec<f64>> = jacobians
+        .iter()
+        .map(|rows| rows.iter().map(|r| size(r)).collect())
+        .collect();
+    while chosen.len() < count {
+        let share = |r: usize| {
+            let at = parts
+                .iter()
+                .zip(&sizes)
+                .map(|(rows, sizes)| size(&rows[r]) / sizes[r]);
+            at.fold(f64::INFINITY, f64::min)
+        };
+        let left: Vec<usize> = of.iter().copied().filter(|r| !chosen.contains(r)).collect();
+        let most = left.iter().map(|&r| share(r)).fold(0.0, f64::max);
+        let Some(&next) = left.iter().find(|&&r| share(r) >= NEARLY_BEST * most) else {
+            break;
+        };
+        chosen.push(next);
+        parts.iter_mut().for_each(|rows| project_out(rows, next));
+    }
+    chosen.sort_unstable();
+    chosen
+}
+
+fn size(row: &[Dd]) -> f64 {
+    row.iter()
+        .map(|x| x.to_f64() * x.to_f64())
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// Makes all other rows perpendicular to this one.
+fn project_out(rows: &mut Jacobian, along: usize) {
+    let unit = rows[along].clone();
+    let square = dot(&unit, &unit);
+    for (r, row) in rows.iter_mut().enumerate() {
+        if r != along && square > Dd::ZERO {
+            let factor = dot(row, &unit) / square;
+            row.iter_mut()
+                .zip(&unit)
+                .for_each(|(x, &y)| *x -= factor * y);
+        }
+    }
+}
+
+fn dot(x: &[Dd], y: &[Dd]) -> Dd {
+    x.iter().zip(y).fold(Dd::ZERO, |sum, (&x, &y)| sum + x * y)
+}
+
+/// Returns the factors of the rows `of` whose sum is row r; `None` if it is independent of them.
+fn combination(jacobian: &Jacobian, (of, r): (&[usize], usize), least: f64) -> Option<Vec<f64>> {
+    // Columns are the rows of B: Σ factor · row = row r.
+    let n = jacobian[r].len();
+    let mut system: Jacobian = (0..n)
+        .map(|j| of.iter().chain([&r]).map(|&k| jacobian[k][j]).collect())
+        .collect();
+    let largest = |row: &Vec<Dd>| row.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
+    let size = largest(&jacobian[r]);
+    let (pivots, _) = eliminate(&mut system, of.len());
+    let mut factors = vec![0.0; of.len()];
+    for &(row, column) in &pivots {
+        factors[column] = (system[row][of.len()] / system[row][column]).to_f64();
+    }
+    let used = |i: usize| pivots.iter().any(|(row, _)| *row == i);
+    let left = (0..n)
+        .filter(|&i| !used(i))
+        .map(|i| system[i][of.len()].to_f64().abs());
+    (left.fold(0.0, f64::max) <= least * size.max(1e-6)).then_some(factors)
+}
+
+/// Reports a row that follows from others, with the combination at the start.
+fn report(closure: &Closure, (r, of): (usize, &[usize]), on: &[Jacobian], faults: &mut Faults) {
+    let row = &closure.rows[r];
+    let one = &closure.loops[row.closes];
+    let earlier: Vec<usize> = of.iter().copied().filter(|&k| k != r).collect();
+    let factors = combination(&on[0], (&earlier, r), f64::INFINITY).unwrap_or_default();
+    let terms = earlier.iter().zip(factors);
+    let terms: Vec<(String, f64)> = terms
+        .filter(|(_, factor)| factor.abs() > 1e-9)
+        .map(|(&k, factor)| (closure.row_name(&closure.rows[k]), factor))
+        .collect();
+    let (location, names) = (&one.location, (one.name.as_str(), row.name));
+    faults.push(match one.contact {
+        Some(_) => wording::dependent_contact_row(location, names, &terms),
+        None => wording::dependent_loop_row(location, names, &terms),
+    });
+}
+
+/// Reports rows that hold at single positions only.
+fn report_isolated(closure: &Closure, faults: &mut Faults) {
+    let row = &closure.following[0].row;
+    let one = &closure.loops[row.closes];
+    let names = (one.name.as_str(), row.name);
+    faults.push(wording::loop_closes_at_single_positions(
+        &one.location,
+        names,
+    ));
+}
+
+/// Warns of loops that move by their lengths only; `counts` are all rows, those that are independent somewhere, and
+/// those at closed positions.
+fn warn(closure: &Closure, [_, off, on]: [usize; 3], faults: &mut Faults) {
+    let left = closure.following.iter().filter(|one| !one.always);
+    let rows: Vec<_> = left.map(|one| one.row).collect();
+    let Some(first) = rows.first() else { return };
+    let one = &closure.loops[first.closes];
+    let names: Vec<String> = rows.iter().map(|row| closure.row_name(row)).collect();
+    let moving = closure.moving().len();
+    let fault = wording::paradoxical_loop(&one.location, (&one.name, &names), (moving, off, on));
+    faults.push(fault.into_warning());
+}
