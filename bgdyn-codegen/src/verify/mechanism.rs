@@ -7,8 +7,10 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
 use super::dual::{Direction, along, rates, with_rates};
+use super::open_tree::OpenTree;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
+use crate::conditioning::tree_states::of_method;
 use crate::expr::Inputs;
 use crate::formulation::{Prepared, create, specification};
 use crate::function::{Function, in_triangle};
@@ -184,7 +186,8 @@ impl Subject<'_> {
     /// Returns the first law that the function violates at this state. A state in which it refuses a pivot
     /// is skipped.
     fn check(&self, state: &State) -> Option<Difference> {
-        let at = &state.at;
+        let graph = self.literal.prepared.graph;
+        let at = &of_method(graph, self.function.method, &state.at);
         let (found, refused) = self.function.evaluate(at.clone());
         if refused.is_some() {
             return None;
@@ -193,10 +196,15 @@ impl Subject<'_> {
         let size = match self.function.method {
             Method::Pose(_) | Method::Jacobian(_) => 1.0,
             Method::Velocity(_) => speed,
-            Method::JacobianDotV(_) => speed * speed,
+            Method::JacobianDotV(_) | Method::ConstraintBias => speed * speed,
+            method if method.of_tree() => 0.0,
             _ => state.size,
         };
-        let laws = self.laws(state, found).into_iter();
+        let laws = match self.function.method.of_tree() {
+            true => self.tree_laws(at, found),
+            false => self.laws(state, found),
+        };
+        let laws = laws.into_iter();
         laws.filter_map(|sides| {
             let pair = (&sides.found[..], &sides.expected[..]);
             let size = match self.function.method {
@@ -211,7 +219,11 @@ impl Subject<'_> {
     /// Returns a difference if the function refuses every state and the literal sum refuses none of them.
     fn refuses_all(&self, states: &[State]) -> Option<Difference> {
         let refuses = |function: &Function| {
-            let refused = |state: &State| function.evaluate(state.at.clone()).1.is_some();
+            let graph = self.literal.prepared.graph;
+            let refused = |state: &State| {
+                let at = of_method(graph, function.method, &state.at);
+                function.evaluate(at).1.is_some()
+            };
             states.iter().all(refused)
         };
         if states.is_empty() || !self.function.shape().checked() || !refuses(self.function) {
@@ -226,6 +238,29 @@ impl Subject<'_> {
         let subject = (self.name, self.function);
         let sides = (&[Dd::ONE][..], &[Dd::ZERO][..]);
         differs(subject, &law, sides, 0.0, &answered.at)
+    }
+
+    /// Returns the laws of a method that takes velocities of the open tree.
+    fn tree_laws(&self, at: &Inputs<Dd>, found: Vec<Dd>) -> Vec<Sides> {
+        let form = |method| self.literal.form(method);
+        let value = |method| form(method).map(|f| f.evaluate(at.clone()).0);
+        let closed = self.literal.prepared.graph.closed.as_deref();
+        let tree = || OpenTree::new(closed?, form, at);
+        let balances = match self.function.method {
+            Method::ConstraintBias => {
+                let expected = value(Method::ConstraintBias).unwrap_or_default();
+                return vec![Sides::new("its literal form", EXACT, found, expected)];
+            }
+            Method::ConstrainedDynamics => tree().map(|tree| tree.dynamics(at, &found)),
+            _ => {
+                let map = value(Method::VelocityMap).unwrap_or_default();
+                tree().map(|tree| tree.projection(at, &found, &map))
+            }
+        };
+        let balances = balances.unwrap_or_default().into_iter();
+        let sides =
+            |(text, found, expected, size)| Sides::new(text, SOLVED, found, expected).sized(size);
+        balances.map(sides).collect()
     }
 
     fn laws(&self, state: &State, found: Vec<Dd>) -> Vec<Sides> {

@@ -15,6 +15,7 @@ mod counts;
 mod faults;
 mod frame_rows;
 mod multipliers;
+mod open_tree;
 mod random_loops;
 mod references;
 mod scenes;

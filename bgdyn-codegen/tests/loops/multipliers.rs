@@ -12,7 +12,7 @@ use super::robot::{Robot, State, Way, close, dot, full, largest, times};
 const WAYS: [Way; 2] = [None, Some("subspaces")];
 
 /// Solves a system by elimination with complete pivoting; pivots below 1e-20 are those of dependent rows.
-fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
+pub fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
     let n = b.len();
     a.iter_mut().zip(b).for_each(|(row, &x)| row.push(x));
     let (mut rows, mut columns, mut found): (Vec<usize>, Vec<usize>, Vec<(usize, usize)>) =

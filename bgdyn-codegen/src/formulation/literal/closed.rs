@@ -25,7 +25,12 @@ pub(super) fn outputs<'g>(
     (graph, closed): (&Multibody, &ClosedTree),
     method: Method,
 ) -> Option<Vec<Expr<'g>>> {
-    let x = Arguments::new(b, graph, method);
+    let own = if method.of_tree() {
+        &closed.tree
+    } else {
+        graph
+    };
+    let x = Arguments::new(b, own, method);
     let places = RelativePoses::new(b, closed, &x.q);
     let closure = &closed.closure;
     let tangent = |j: usize| Tangent::new(along(unit_tangents(b, &closed.tree, j)));
@@ -62,7 +67,8 @@ pub(super) fn outputs<'g>(
         ..LoopForm::default()
     };
     let rows = (rows, form);
-    let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows, None), &x, bias);
+    let map = VelocityMap::new(b, &closed.closure, rows, None);
+    let motion = LoopMotion::new(map, (&x, method), bias);
     let prepared = Prepared::new(&closed.tree);
     let read = |method: Method| literal.function(&prepared, method).map(Rc::new);
     let rows = closure.rows.iter();

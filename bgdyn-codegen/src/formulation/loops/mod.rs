@@ -38,7 +38,9 @@ impl Formulation for Elimination {
     }
 
     fn knows(&self, method: Method) -> bool {
-        !self.reads_of_tree(method).is_empty() || Method::OF_LOOPS.contains(&method)
+        !self.reads_of_tree(method).is_empty()
+            || Method::OF_LOOPS.contains(&method)
+            || method == Method::ConstraintBias
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
@@ -69,6 +71,10 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::ConstraintResidual
             | Method::ConstraintJacobian
             | Method::ClosingStep
+            | Method::ConstraintBias
+            | Method::ConstrainedDynamics
+            | Method::Reactions
+            | Method::JointReactions
     );
     let reversible = !in_axes_of_a && loops.clone().any(|one| one.reversible);
     let vectors = matches!(
@@ -82,6 +88,8 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::TreeVelocity
             | Method::TreeAcceleration
             | Method::Multipliers
+            | Method::ConstraintBias
+            | Method::JointReactions
     );
     let choices = |can: bool| {
         if can {
@@ -118,9 +126,11 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
     let b = Builder::new();
     let early;
     let outputs: Vec<Signed> = {
-        let x = Arguments::new(&b, graph, method);
-        let first = method.shape().checked().then_some(graph.coordinates.len());
-        let motion = loop_motion(&b, closed, &x, (form, first));
+        let of_tree = method.of_tree();
+        let own: &Multibody = if of_tree { &closed.tree } else { graph };
+        let x = Arguments::new(&b, own, method);
+        let first = method.shape().checked().then_some(own.coordinates.len());
+        let motion = loop_motion(&b, closed, (&x, method), (form, first));
         early = motion.early_pivots();
         let residuals = loop_residuals(&b, &closed.closure, &x.q);
         let read = |method: Method| prepared.tree_function(method);
@@ -142,7 +152,7 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
 fn loop_motion<'a, 'g>(
     b: &'g Builder,
     closed: &'a ClosedTree,
-    x: &Arguments<'g>,
+    (x, method): (&Arguments<'g>, Method),
     (form, first): (LoopForm, FirstPivot),
 ) -> LoopMotion<'a, 'g> {
     let form = LoopForm {
@@ -154,7 +164,7 @@ fn loop_motion<'a, 'g>(
     let closure = other.unwrap_or(own);
     let rows = loop_rows(b, closure, &x.q, form);
     let map = VelocityMap::new(b, closure, (rows, form), first);
-    LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v), form))
+    LoopMotion::new(map, (x, method), |v| loop_bias(b, closure, (&x.q, v), form))
 }
 
 /// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, with a formulation of the
@@ -169,7 +179,7 @@ pub(super) fn mass_and_bias(
     let b = Builder::new();
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, Method::Bias);
-        let motion = loop_motion(&b, closed, &x, (LoopForm::default(), None));
+        let motion = loop_motion(&b, closed, (&x, Method::Bias), (LoopForm::default(), None));
         let of = |method| compose(&b, closed, method, (&x, &motion), (&read, &[]));
         let mut all = of(Method::MassMatrix)?;
         all.extend(of(Method::Bias)?);
