@@ -6,6 +6,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::size;
+use super::reactions::reaction_constants;
 use super::tokens::number;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
@@ -71,6 +72,7 @@ pub(super) fn tree_constants(
         }
     });
     let [nt, nc, np] = [of_tree.len(), rows.len(), pivots.len()].map(size);
+    let reactions = reaction_constants(closed, present);
     let docs = [
         format!(" Number of rows of the {what}."),
         format!(" Names of the rows of the {what}: {row}."),
@@ -91,6 +93,7 @@ pub(super) fn tree_constants(
         #[doc = #of_pivots]
         pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
         #tree_pivots
+        #reactions
     }
 }
 

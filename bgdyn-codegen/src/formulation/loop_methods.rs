@@ -67,8 +67,13 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
         }
     }
 
+    /// Returns the velocities of the open tree.
+    pub(super) fn velocities(&self) -> &[Expr<'g>] {
+        &self.velocities
+    }
+
     /// Returns S u̇ + z.
-    fn accelerations(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(super) fn accelerations(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
         self.map.accelerations(a, &self.bias)
     }
 

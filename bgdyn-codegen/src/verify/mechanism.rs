@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
 use super::dual::{Direction, along, rates, with_rates};
-use super::open_tree::OpenTree;
+use super::open_tree;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::tree_states::of_method;
@@ -200,9 +200,20 @@ impl Subject<'_> {
             method if method.of_tree() => 0.0,
             _ => state.size,
         };
-        let laws = match self.function.method.of_tree() {
-            true => self.tree_laws(at, found),
-            false => self.laws(state, found),
+        let laws = match (&graph.closed, self.function.method) {
+            (Some(closed), method) if method.of_tree() => {
+                let form = |method| self.literal.form(method);
+                let laws = open_tree::laws(closed, method, form, (at, found)).into_iter();
+                let allowed = match method {
+                    Method::ConstraintBias => EXACT,
+                    _ => SOLVED,
+                };
+                laws.map(|(text, found, expected, size)| {
+                    Sides::new(text, allowed, found, expected).sized(size)
+                })
+                .collect()
+            }
+            _ => self.laws(state, found),
         };
         let laws = laws.into_iter();
         laws.filter_map(|sides| {
@@ -240,29 +251,6 @@ impl Subject<'_> {
         differs(subject, &law, sides, 0.0, &answered.at)
     }
 
-    /// Returns the laws of a method that takes velocities of the open tree.
-    fn tree_laws(&self, at: &Inputs<Dd>, found: Vec<Dd>) -> Vec<Sides> {
-        let form = |method| self.literal.form(method);
-        let value = |method| form(method).map(|f| f.evaluate(at.clone()).0);
-        let closed = self.literal.prepared.graph.closed.as_deref();
-        let tree = || OpenTree::new(closed?, form, at);
-        let balances = match self.function.method {
-            Method::ConstraintBias => {
-                let expected = value(Method::ConstraintBias).unwrap_or_default();
-                return vec![Sides::new("its literal form", EXACT, found, expected)];
-            }
-            Method::ConstrainedDynamics => tree().map(|tree| tree.dynamics(at, &found)),
-            _ => {
-                let map = value(Method::VelocityMap).unwrap_or_default();
-                tree().map(|tree| tree.projection(at, &found, &map))
-            }
-        };
-        let balances = balances.unwrap_or_default().into_iter();
-        let sides =
-            |(text, found, expected, size)| Sides::new(text, SOLVED, found, expected).sized(size);
-        balances.map(sides).collect()
-    }
-
     fn laws(&self, state: &State, found: Vec<Dd>) -> Vec<Sides> {
         let lit = self.literal;
         let at = &state.at;
@@ -296,7 +284,13 @@ impl Subject<'_> {
             method => {
                 let form = self.form.get_or_init(|| lit.form(method)).as_ref();
                 let expected = form.map(|form| form.evaluate(at.clone()).0);
-                expected.map_or(vec![], |e| exact("its literal form", found, e))
+                let allowed = match method {
+                    // With accelerations from the mass matrix.
+                    Method::Reactions => SOLVED,
+                    _ => EXACT,
+                };
+                let text = "its literal form";
+                expected.map_or(vec![], |e| vec![Sides::new(text, allowed, found, e)])
             }
         }
     }

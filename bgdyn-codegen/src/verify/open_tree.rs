@@ -10,7 +10,7 @@ use crate::function::Function;
 use crate::method::Method;
 
 /// The literal sum of the open tree, and the rows of its loops.
-pub(super) struct OpenTree {
+struct OpenTree {
     inverse: Function,
     rows: Vec<Vec<Dd>>,
     bias: Vec<Dd>,
@@ -19,9 +19,31 @@ pub(super) struct OpenTree {
 /// A law's two sides, with the size of their terms.
 pub(super) type Balance = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
+/// Returns the laws of a method; `form` creates methods of the whole mechanism by the literal sum.
+pub(super) fn laws(
+    closed: &ClosedTree,
+    method: Method,
+    form: impl Fn(Method) -> Option<Function>,
+    (at, found): (&Inputs<Dd>, Vec<Dd>),
+) -> Vec<Balance> {
+    let value = |method| form(method).map(|f| f.evaluate(at.clone()).0);
+    let tree = || OpenTree::new(closed, &form, at);
+    let balances = match method {
+        Method::ConstraintBias => {
+            value(method).map(|expected| vec![("its literal form", found, expected, 0.0)])
+        }
+        Method::ConstrainedDynamics => tree().map(|tree| tree.dynamics(at, &found)),
+        _ => {
+            let map = value(Method::VelocityMap).unwrap_or_default();
+            tree().map(|tree| tree.projection(at, &found, &map))
+        }
+    };
+    balances.unwrap_or_default()
+}
+
 impl OpenTree {
     /// Returns it with the rows at a state; `form` creates methods of the whole mechanism.
-    pub(super) fn new(
+    fn new(
         closed: &ClosedTree,
         form: impl Fn(Method) -> Option<Function>,
         at: &Inputs<Dd>,
@@ -74,7 +96,7 @@ impl OpenTree {
     }
 
     /// Returns M q̈ + h = τ + Bᵀ λ and B q̈ = −Ḃ q̇.
-    pub(super) fn dynamics(&self, at: &Inputs<Dd>, found: &[Dd]) -> Vec<Balance> {
+    fn dynamics(&self, at: &Inputs<Dd>, found: &[Dd]) -> Vec<Balance> {
         let (accelerations, lambda) = found.split_at(at.v.len());
         let needed = self.efforts(at, &at.v, accelerations);
         let of_rows = self.of_rows(lambda, at.v.len());
@@ -90,7 +112,7 @@ impl OpenTree {
     }
 
     /// Returns B q̇ = 0 and Sᵀ M (q̇ − q̇₀) = 0; `map` is S.
-    pub(super) fn projection(&self, at: &Inputs<Dd>, found: &[Dd], map: &[Dd]) -> Vec<Balance> {
+    fn projection(&self, at: &Inputs<Dd>, found: &[Dd], map: &[Dd]) -> Vec<Balance> {
         let fast = largest(found).max(largest(&at.v));
         let left = self.inertial(at, &minus(found, &at.v));
         let n = map.len() / at.v.len().max(1);

@@ -7,6 +7,7 @@
 use std::rc::Rc;
 
 use super::relative_poses::RelativePoses;
+use super::sum::LiteralSum;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Tangent};
 use crate::formulation::arguments::Arguments;
@@ -73,5 +74,22 @@ pub(super) fn outputs<'g>(
     let read = |method: Method| literal.function(&prepared, method).map(Rc::new);
     let rows = closure.rows.iter();
     let conditions: Vec<Expr<'g>> = rows.map(|row| places.condition(row)).collect();
-    compose(b, closed, method, (&x, &motion), (&read, &conditions))
+    let mut outputs = compose(b, closed, method, (&x, &motion), (&read, &conditions))?;
+    if !matches!(method, Method::Reactions | Method::JointReactions) {
+        return Some(outputs);
+    }
+    let lambda = outputs.split_off(outputs.len() - closure.rows.len());
+    if method == Method::Reactions {
+        outputs.extend(places.reactions(&lambda));
+        return Some(outputs);
+    }
+    let accelerations = motion.accelerations(&x.a);
+    let of_tree = Arguments {
+        q: x.q.clone(),
+        v: motion.velocities().to_vec(),
+        a: accelerations,
+        ..Arguments::new(b, &closed.tree, method)
+    };
+    let sum = LiteralSum::new(b, &closed.tree, &x.q);
+    Some(sum.joint_loads(&of_tree, &places.loads(&lambda)))
 }

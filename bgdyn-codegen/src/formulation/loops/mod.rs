@@ -7,6 +7,7 @@
 use std::rc::Rc;
 
 use super::arguments::Arguments;
+use super::closing_loads::{add_to_joints, reactions};
 use super::loop_methods::{LoopMotion, compose, reads};
 use super::loop_rows::{LoopForm, loop_bias, loop_residuals, loop_rows};
 use super::velocity_map::{FirstPivot, VelocityMap};
@@ -135,6 +136,7 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
         let residuals = loop_residuals(&b, &closed.closure, &x.q);
         let read = |method: Method| prepared.tree_function(method);
         let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
+        let outputs = with_loads(&b, closed, (method, &x.q), outputs);
         outputs.into_iter().map(Expr::signed).collect()
     };
     let name = match reads(method).first() {
@@ -146,6 +148,25 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
     };
     let function = Function::flat(graph, method, name, b.into_graph(), outputs);
     Some((function, early))
+}
+
+/// Returns the results of [`compose`] with loads in place of the multipliers at their end, for reactions.
+fn with_loads<'g>(
+    b: &'g Builder,
+    closed: &ClosedTree,
+    (method, q): (Method, &[Expr<'g>]),
+    mut outputs: Vec<Expr<'g>>,
+) -> Vec<Expr<'g>> {
+    if !matches!(method, Method::Reactions | Method::JointReactions) {
+        return outputs;
+    }
+    let closure = &closed.closure;
+    let lambda = outputs.split_off(outputs.len() - closure.rows.len());
+    match method {
+        Method::Reactions => outputs.extend(reactions(b, closure, (q, &lambda))),
+        _ => add_to_joints(b, closed, (q, &lambda), &mut outputs),
+    }
+    outputs
 }
 
 /// Returns the motion of the open tree for the arguments of a method; with `first` pivots are checked.
