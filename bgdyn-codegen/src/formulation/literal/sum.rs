@@ -231,16 +231,12 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     /// Returns force and moment on each link from its parent, about the link's origin in link axes, without hidden
     /// links: the sums over the links outboard of the joint, less the loads `given` on them.
     pub(super) fn joint_loads(&self, x: &Arguments<'g>, given: &[PlacedLoad<'g>]) -> Vec<Expr<'g>> {
-        let own = self
-            .link_loads(x)
-            .into_iter()
-            .enumerate()
-            .map(|(k, load)| PlacedLoad {
-                link: LinkId(k),
-                point: self.positions[k],
-                force: load.force,
-                moment: load.moment,
-            });
+        let own = self.link_loads(x).enumerate().map(|(k, load)| PlacedLoad {
+            link: LinkId(k),
+            point: self.positions[k],
+            force: load.force,
+            moment: load.moment,
+        });
         let own: Vec<PlacedLoad<'g>> = own.collect();
         let frames = self.graph.frames.iter().enumerate();
         let shown = frames.filter(|(_, frame)| !frame.hidden).map(|(i, _)| i);
