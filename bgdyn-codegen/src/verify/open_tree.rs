@@ -17,7 +17,7 @@ struct OpenTree {
 }
 
 /// A law's two sides, with the size of their terms.
-pub(super) type Balance = (&'static str, Vec<Dd>, Vec<Dd>, f64);
+pub(super) type TreeLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
 /// Returns the laws of a method; `form` creates methods of the whole mechanism by the literal sum.
 pub(super) fn laws(
@@ -25,10 +25,10 @@ pub(super) fn laws(
     method: Method,
     form: impl Fn(Method) -> Option<Function>,
     (at, found): (&Inputs<Dd>, Vec<Dd>),
-) -> Vec<Balance> {
+) -> Vec<TreeLaw> {
     let value = |method| form(method).map(|f| f.evaluate(at.clone()).0);
     let tree = || OpenTree::new(closed, &form, at);
-    let balances = match method {
+    let laws = match method {
         Method::ConstraintBias => {
             value(method).map(|expected| vec![("its literal form", found, expected, 0.0)])
         }
@@ -38,7 +38,7 @@ pub(super) fn laws(
             tree().map(|tree| tree.projection(at, &found, &map))
         }
     };
-    balances.unwrap_or_default()
+    laws.unwrap_or_default()
 }
 
 impl OpenTree {
@@ -96,7 +96,7 @@ impl OpenTree {
     }
 
     /// Returns M q̈ + h = τ + Bᵀ λ and B q̈ = −Ḃ q̇.
-    fn dynamics(&self, at: &Inputs<Dd>, found: &[Dd]) -> Vec<Balance> {
+    fn dynamics(&self, at: &Inputs<Dd>, found: &[Dd]) -> Vec<TreeLaw> {
         let (accelerations, lambda) = found.split_at(at.v.len());
         let needed = self.efforts(at, &at.v, accelerations);
         let of_rows = self.of_rows(lambda, at.v.len());
@@ -112,7 +112,7 @@ impl OpenTree {
     }
 
     /// Returns B q̇ = 0 and Sᵀ M (q̇ − q̇₀) = 0; `map` is S.
-    fn projection(&self, at: &Inputs<Dd>, found: &[Dd], map: &[Dd]) -> Vec<Balance> {
+    fn projection(&self, at: &Inputs<Dd>, found: &[Dd], map: &[Dd]) -> Vec<TreeLaw> {
         let fast = largest(found).max(largest(&at.v));
         let left = self.inertial(at, &minus(found, &at.v));
         let n = map.len() / at.v.len().max(1);
