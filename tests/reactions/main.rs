@@ -69,6 +69,15 @@ fn redundant_coordinates_move_as_independent_ones() {
     assert!((model.constraint_jacobian(&q) * accelerations + bias).amax() < 1e-12);
     // The rows do no work.
     assert!(lambda.dot(&(model.constraint_jacobian(&q) * qd)).abs() < 1e-14);
+    // Efforts on all joints are those on the independent ones with the same power: P · q̇ = (Sᵀ P) · u.
+    let efforts = vector![2.0, 0.3, -0.5, 0.7];
+    let own = model.velocity_map(&q).transpose() * efforts;
+    assert!((efforts.dot(&qd) - own.dot(&v)).abs() < 1e-14);
+    let (moved, _) = model
+        .constrained_dynamics(&q, &qd, &efforts)
+        .expect("regular");
+    let a = model.forward_dynamics(&q, &v, &own).expect("regular");
+    assert!((moved - model.tree_acceleration(&q, &v, &a)).amax() < 1e-12);
     let kept = model.project_velocity(&q, &qd).expect("regular");
     assert!((kept - qd).amax() < 1e-14);
     let pushed = qd + vector![0.1, 0.2, -0.3, 0.4];

@@ -275,3 +275,43 @@ fn the_pin_of_a_four_bar_at_rest_carries_what_statics_says() {
         assert!((found.efforts[0].to_f64() - torque).abs() < 1e-12);
     }
 }
+
+/// Base parameters move masses across joints; loads are those of the links nevertheless, in `f64` to 64 roundings.
+#[test]
+fn loads_do_not_depend_on_where_base_parameters_are() {
+    let ways: [Way; 4] = [None, Some("recursion"), Some("subspaces"), Some("literal")];
+    for name in ["four_bar", "slider_crank", "five_bar"] {
+        let robot = Robot::read(&spec(name));
+        let closure = robot.mechanism.closure().expect("loops");
+        for seed in 0..4 {
+            let mut state = robot.state(seed);
+            state.q.clone_from(&closure.samples[seed as usize]);
+            for method in [Method::Reactions, Method::JointReactions] {
+                let exact: Vec<Dd> = state.value(&robot.function(Some("literal"), method));
+                let size = largest(&exact);
+                // The recursion knows no loads at joints.
+                let knows = |way: &Way| method == Method::Reactions || *way != Some("recursion");
+                for way in ways.into_iter().filter(knows) {
+                    let function = robot.function(way, method);
+                    let found: Vec<Dd> = state.value(&function);
+                    close(
+                        &found,
+                        &exact,
+                        1e-26,
+                        size,
+                        &format!("{name}, {way:?}, {method:?}"),
+                    );
+                    let short: Vec<f64> = state.rounded().value(&function);
+                    for (found, exact) in short.iter().zip(&exact) {
+                        let off = (found - exact.to_f64()).abs();
+                        let allowed = 64.0 * f64::EPSILON * size;
+                        assert!(
+                            off <= allowed,
+                            "{name}, {way:?}, {method:?}: {off:e} of {size}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
