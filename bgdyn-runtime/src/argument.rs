@@ -13,6 +13,8 @@ pub enum Argument {
     Q,
     /// Velocities `v`.
     V,
+    /// Velocities `qd` of the open tree of a mechanism with loops.
+    Qd,
     /// Joint efforts `tau`.
     Tau,
     /// The `state` of a scene.
@@ -35,6 +37,7 @@ impl Argument {
         match self {
             Argument::Q => "q",
             Argument::V => "v",
+            Argument::Qd => "qd",
             Argument::Tau => "tau",
             Argument::State => "state",
             Argument::Input => "input",

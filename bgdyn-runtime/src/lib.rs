@@ -58,6 +58,7 @@ mod state_vector;
 mod stiction;
 mod system;
 mod two_sum;
+mod wrench;
 
 pub use argument::{Argument, Look};
 pub use arrays::{inner_products, matrix, mirror, vector};
@@ -87,6 +88,7 @@ pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
 pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};
 #[cfg(feature = "wide")]
 pub use wide;
+pub use wrench::{Undetermined, Wrench};
 
 /// Without the feature `serde` it expands to nothing.
 #[cfg(not(feature = "serde"))]

@@ -20,6 +20,16 @@ const SPECS: [&str; 7] = [
     "specs/loops/five_bar.yaml",
 ];
 
+/// Methods that are generated if they are asked for.
+const ON_REQUEST: [&str; 6] = [
+    "dynamics",
+    "constraint_bias",
+    "constrained_dynamics",
+    "project_velocity",
+    "reactions",
+    "joint_reactions",
+];
+
 /// Scenes with effects of every kind.
 const SCENES: [&str; 7] = [
     "scara_everything",
@@ -37,6 +47,7 @@ fn main() {
     let mechanisms = SPECS
         .iter()
         .map(|spec| Build::new(format!("../../{spec}")).derivatives(true));
+    let on_request = Build::new("../../specs/loops/four_bar.yaml").methods(ON_REQUEST);
     let scenes = SCENES.iter().map(|name| {
         let scene = format!("../../specs/scenes/{name}.scene.yaml");
         Build::new(scene).jacobian(true).canonical(true)
@@ -44,7 +55,7 @@ fn main() {
     println!("cargo::rerun-if-changed=../../specs");
     println!("cargo::rerun-if-changed=../../firmware/specs");
     println!("cargo::rerun-if-changed=../free_joints");
-    for build in mechanisms.chain(scenes) {
+    for build in mechanisms.chain([on_request]).chain(scenes) {
         let source = build.source();
         let source = source.unwrap_or_else(|error| panic!("{error}"));
         let mut file: File = syn::parse_str(&source.text).expect("Rust");

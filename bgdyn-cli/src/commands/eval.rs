@@ -6,6 +6,7 @@ mod scene;
 mod states;
 
 use anyhow::Result;
+use bgdyn_codegen::bond_graph::{BondGraph, Coordinate};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion};
@@ -36,25 +37,33 @@ impl Eval {
         let states = states(&self.states)?;
         let function = bgdyn_codegen::pipeline::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
-        let value = |state: &Value| evaluate(&mechanism, &function, &parameters, state);
+        let value = |state: &Value| evaluate((&mechanism, &graph), &function, &parameters, state);
         self.report(vec![], &states, value)
     }
 }
 
 fn field(argument: Argument) -> &'static str {
     match argument {
-        Argument::Tau => "tau_in",
+        Argument::Tau | Argument::TreeTau => "tau_in",
         other => other.name(),
     }
 }
 
 fn evaluate(
-    mechanism: &Mechanism,
+    (mechanism, graph): (&Mechanism, &BondGraph),
     function: &Function,
     parameters: &[f64],
     state: &Value,
 ) -> Result<Value, Failure> {
-    let rates = mechanism.joint_names();
+    let names = |of: &[Coordinate]| of.iter().map(|c| c.name.clone()).collect::<Vec<String>>();
+    let own = names(&graph.coordinates);
+    // The velocities of the open tree, for mechanisms with loops.
+    let closed = graph.closed.as_deref();
+    let of_tree = closed.map_or_else(Vec::new, |closed| names(&closed.tree.coordinates));
+    let rates = match function.method.of_tree() {
+        true => &of_tree,
+        false => &own,
+    };
     let mut inputs = Inputs {
         parameters: parameters.to_vec(),
         ..Inputs::default()
@@ -62,15 +71,17 @@ fn evaluate(
     for &argument in function.method.arguments() {
         let values = match argument {
             // `tau` may be the effort of the state's own motion: `tau_in` has priority.
-            Argument::Tau if state.get("tau_in").is_none() => vector(&rates, state, "tau")?,
+            Argument::Tau | Argument::TreeTau if state.get("tau_in").is_none() => {
+                vector(rates, state, "tau")?
+            }
             Argument::Q => positions(mechanism, state)?,
-            _ => vector(&rates, state, field(argument))?,
+            _ => vector(rates, state, field(argument))?,
         };
         match argument {
             Argument::Q => inputs.q = values,
-            Argument::V => inputs.v = values,
+            Argument::V | Argument::TreeV => inputs.v = values,
             Argument::A => inputs.a = values,
-            Argument::Tau => inputs.u = values,
+            Argument::Tau | Argument::TreeTau => inputs.u = values,
             _ => return Err(plain("only a scene's function has this argument".into())),
         }
     }
@@ -86,11 +97,11 @@ fn evaluate(
             "the result is not finite: the input is too large".into(),
         ));
     }
-    // The velocities of the open tree, for mechanisms with loops.
-    let nt = mechanism
-        .closure()
-        .map_or(0, |closure| closure.positions.len());
-    Ok(shaped(function.shape(), (mechanism.nv(), nt), &values))
+    Ok(shaped(
+        function.shape(),
+        (own.len(), of_tree.len()),
+        &values,
+    ))
 }
 
 /// Returns the positions. A quaternion whose length differs from 1 by up to [`LENGTH`] is scaled to
@@ -155,6 +166,15 @@ fn vector(names: &[String], state: &Value, array: &str) -> Result<Vec<f64>, Fail
     Ok(numbers)
 }
 
+/// Returns forces and moments.
+fn wrenches(values: &[f64]) -> Value {
+    let each = values.chunks(6).map(|values| {
+        let (force, moment) = values.split_at(3);
+        json!({ "force": force, "moment": moment })
+    });
+    json!(each.collect::<Vec<_>>())
+}
+
 fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
     let rows = |values: &[f64], columns: usize| {
         json!(
@@ -179,7 +199,13 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
             let row = |i: usize| (0..nv).map(|j| entry(i, j)).collect::<Vec<_>>();
             json!((0..nv).map(row).collect::<Vec<_>>())
         }
-        Shape::TreeVector | Shape::RowVector => json!(values),
+        Shape::TreeVector | Shape::RowVector | Shape::CheckedTree => json!(values),
+        Shape::CheckedTreeAndRows => {
+            let (accelerations, multipliers) = values.split_at(nt);
+            json!({ "accelerations": accelerations, "multipliers": multipliers })
+        }
+        Shape::CheckedWrenches => wrenches(&values[nv..]),
+        Shape::LinkWrenches => wrenches(values),
         Shape::Square | Shape::Jacobian | Shape::TreeMatrix => rows(values, nv),
         Shape::RowMatrix => rows(values, nt),
         Shape::SquarePair => json!(squares(values)),

@@ -145,3 +145,49 @@ fn check_prints_ranks_and_ranges() {
         assert_eq!(flat[end]["why"], "reach");
     }
 }
+
+/// Methods with velocities and efforts of the open tree, and those whose results are forces and moments.
+#[test]
+fn eval_takes_velocities_of_the_tree_and_returns_loads() {
+    let q = [2.0, -1.269858316944471, 1.1, 1.293970919622041];
+    let states = json!({ "states": [{
+        "q": q, "v": [0, 0], "a": [0, 0], "qd": [0.3, 0.1, -0.2, 0.4], "tau": [1, 0],
+    }] });
+    let value = |method: &str, states: &Value| -> Value {
+        let file = scratch(
+            "loops_eval_tree",
+            &format!("{method}.json"),
+            states.to_string(),
+        );
+        let run = ["eval", FIVE_BAR, method, "--states", &file];
+        let report: Value = serde_json::from_str(&bgdyn(&run).good()).expect("JSON");
+        report["results"][0].clone()
+    };
+    let kept = value("project_velocity", &states);
+    assert_eq!(kept.as_array().map(Vec::len), Some(4), "{kept}");
+    let mut of_tree = states.clone();
+    of_tree["states"][0]["qd"] = kept.clone();
+    of_tree["states"][0]["tau"] = json!([1, 0, 0, 0]);
+    // What holds stays.
+    let again = value("project_velocity", &of_tree);
+    for j in 0..4 {
+        let [x, y] = [&kept, &again].map(|v| v[j].as_f64().expect("a number"));
+        assert!((x - y).abs() < 1e-14, "{x} {y}");
+    }
+    let found = value("constrained_dynamics", &of_tree);
+    assert_eq!(found["accelerations"].as_array().map(Vec::len), Some(4));
+    assert_eq!(found["multipliers"].as_array().map(Vec::len), Some(2));
+    let pin = value("reactions", &states);
+    assert_eq!(pin.as_array().map(Vec::len), Some(1), "{pin}");
+    assert_eq!(pin[0]["force"][2], json!(0.0));
+    let joints = value("joint_reactions", &states);
+    assert_eq!(joints.as_array().map(Vec::len), Some(4), "{joints}");
+    // Three efforts are missing: the file has those of the independent joints.
+    let file = scratch("loops_eval_tree", "short.json", states.to_string());
+    let refused = bgdyn(&["eval", FIVE_BAR, "constrained_dynamics", "--states", &file]);
+    let said = refused.stdout;
+    assert!(
+        said.contains("`tau` has 2 components instead of 4"),
+        "{said}"
+    );
+}

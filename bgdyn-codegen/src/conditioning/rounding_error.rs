@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::sample_states::{near_singular, random};
+use super::tree_states::{of_method, rounded};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -44,6 +45,11 @@ pub(crate) fn exact_results(ways: &[Function], graph: &BondGraph) -> Vec<ExactRe
     let mut states = random(graph);
     if ways.iter().any(|way| way.shape().checked()) {
         states.extend(near_singular(graph));
+    }
+    let of_tree = ways.iter().find(|way| way.method.of_tree());
+    if let Some(way) = of_tree {
+        let with_tree = |state| rounded(&of_method(graph, way.method, &in_double_double(&state)));
+        states = states.into_iter().map(with_tree).collect();
     }
     let answered = states.into_iter().filter_map(|state| {
         let exact = ways.iter().find_map(|way| {

@@ -166,6 +166,7 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
         let is_read = |j: usize| read.contains(&components[j].0);
         let joints = match argument {
             Argument::Q => &naming.positions,
+            Argument::TreeV | Argument::TreeTau => &naming.tree_joints,
             _ => &naming.joints,
         };
         let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
@@ -239,6 +240,26 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
             }
         }
+        Shape::CheckedTree => checked(method, &vector(values), &quote! { &TREE_PIVOT_NAMES }),
+        Shape::CheckedTreeAndRows => {
+            let (accelerations, multipliers) = values.split_at(sizes.of_tree.unwrap_or(nv));
+            let (found, multipliers) = (vector(accelerations), vector(multipliers));
+            let found = checked(method, &found, &quote! { &TREE_PIVOT_NAMES });
+            quote! {
+                let found = #found?;
+                ::core::result::Result::Ok((found, #multipliers))
+            }
+        }
+        Shape::CheckedWrenches => {
+            let (accelerations, rest) = values.split_at(nv);
+            let found = checked(method, &vector(accelerations), &pivots);
+            let wrenches = wrenches(rest);
+            quote! {
+                #found?;
+                ::core::result::Result::Ok(#wrenches)
+            }
+        }
+        Shape::LinkWrenches => wrenches(values),
         Shape::Spatial | Shape::Drives(_) => vector(values),
         Shape::Jacobian => matrix(nv, values),
         Shape::TreeVector | Shape::RowVector => vector(values),
@@ -250,6 +271,20 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
 
 pub(super) fn vector(values: &[TokenStream]) -> TokenStream {
     quote! { __rt::vector([#(#values),*]) }
+}
+
+/// Returns an array of forces and moments.
+fn wrenches(values: &[TokenStream]) -> TokenStream {
+    let each = values.chunks(6).map(|values| {
+        let (force, moment) = values.split_at(3);
+        quote! {
+            __rt::Wrench {
+                force: __na::Vector3::new(#(#force),*),
+                moment: __na::Vector3::new(#(#moment),*),
+            }
+        }
+    });
+    quote! { [#(#each),*] }
 }
 
 /// Returns a matrix with this number of columns from its entries, row by row.

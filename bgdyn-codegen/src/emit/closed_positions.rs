@@ -6,10 +6,12 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::constants::size;
+use super::reactions::reaction_constants;
 use super::tokens::number;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::LoopRow;
+use crate::method::Method;
 
 /// Returns a dependent joint with its position and its loop.
 pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
@@ -48,6 +50,7 @@ pub(super) fn tree_constants(
     closed: &ClosedTree,
     graph: &Multibody,
     (what, row): (&str, &str),
+    present: &[Method],
 ) -> TokenStream {
     let (tree, closure) = (&closed.tree, &closed.closure);
     let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
@@ -55,8 +58,21 @@ pub(super) fn tree_constants(
     let rows: Vec<String> = rows.collect();
     let joints = graph.coordinates.iter().map(|c| c.name.as_str());
     let loops = closure.loops.iter().map(|one| one.name.as_str());
-    let pivots: Vec<&str> = joints.chain(loops).collect();
+    let pivots: Vec<&str> = joints.chain(loops.clone()).collect();
+    let tree_pivots = present.iter().any(|m| m.of_tree() && m.shape().checked());
+    let tree_pivots = tree_pivots.then(|| {
+        let all: Vec<&str> = of_tree.iter().copied().chain(loops).collect();
+        let (n, doc) = (
+            size(all.len()),
+            format!(" Names of the joints of the open tree, and of the {what} after them."),
+        );
+        quote! {
+            #[doc = #doc]
+            pub const TREE_PIVOT_NAMES: [&str; #n] = [#(#all),*];
+        }
+    });
     let [nt, nc, np] = [of_tree.len(), rows.len(), pivots.len()].map(size);
+    let reactions = reaction_constants(closed, present);
     let docs = [
         format!(" Number of rows of the {what}."),
         format!(" Names of the rows of the {what}: {row}."),
@@ -76,6 +92,8 @@ pub(super) fn tree_constants(
         pub const CONSTRAINT_NAMES: [&str; NC] = [#(#rows),*];
         #[doc = #of_pivots]
         pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
+        #tree_pivots
+        #reactions
     }
 }
 

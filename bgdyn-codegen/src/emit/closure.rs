@@ -31,7 +31,7 @@ pub(super) fn closure_access(
         .collect();
     let [nl, nd, nf] = [closing.len(), dependents.len(), free.len()].map(size);
     let row = "the loop, and the direction in the axes of its place a";
-    let of_tree = tree_constants(closed, graph, ("loops", row));
+    let of_tree = tree_constants(closed, graph, ("loops", row), present);
     let constants = quote! {
         #of_tree
         /// Names of the positions, and of the loops after them: the causes of positions that do not close.

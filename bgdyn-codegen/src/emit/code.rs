@@ -55,6 +55,7 @@ pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
         Argument::Accelerations => matches!(leaf, Leaf::Acceleration(_)),
         Argument::Time => leaf == Leaf::Time,
         Argument::Q | Argument::V | Argument::A | Argument::Tau => false,
+        Argument::TreeV | Argument::TreeTau => false,
         Argument::Canonical | Argument::Modes => false,
     }
 }
@@ -65,6 +66,8 @@ pub(super) struct Naming<'a> {
     pub(super) positions: Vec<&'a str>,
     /// Coordinates.
     pub(super) joints: Vec<&'a str>,
+    /// Coordinates of the open tree of a mechanism with loops.
+    pub(super) tree_joints: Vec<&'a str>,
     /// Run-time parameters.
     pub(super) parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
@@ -79,7 +82,10 @@ impl<'a> Naming<'a> {
         let coordinates = model.bond_graph.coordinates.iter();
         let parameters = model.mechanism.parameters().iter();
         let positions = model.bond_graph.positions.iter();
+        let closed = model.bond_graph.closed.iter();
+        let of_tree = closed.flat_map(|closed| &closed.tree.coordinates);
         Naming {
+            tree_joints: of_tree.map(|c| c.name.as_str()).collect(),
             positions: positions.map(|p| p.name.as_str()).collect(),
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: parameters.map(|p| p.name.as_str()).collect(),
@@ -100,6 +106,7 @@ impl<'a> Naming<'a> {
                 .map(|p| p.name.as_str())
                 .collect(),
             joints,
+            tree_joints: Vec::new(),
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),
             plain,
@@ -121,6 +128,8 @@ impl<'a> Naming<'a> {
             (Argument::V, _) => of_joints(Leaf::Velocity),
             (Argument::A, _) => of_joints(Leaf::Acceleration),
             (Argument::Tau, _) => of_joints(Leaf::Input),
+            (Argument::TreeV, _) => named(&self.tree_joints, Leaf::Velocity),
+            (Argument::TreeTau, _) => named(&self.tree_joints, Leaf::Input),
             (Argument::Canonical, Some(layout)) => {
                 let names = layout.coordinates.iter().map(|c| &c.name).enumerate();
                 let places = layout.positions.iter().map(|p| &p.name).enumerate();

@@ -22,7 +22,7 @@ pub(super) fn contact_access(
     let independents = closure.independents.iter().map(|j| size(j.0));
     let closing = closes(closed).then(|| closing_constants(closed, graph, &constraints));
     let row = "the constraint, and the direction";
-    let of_tree = tree_constants(closed, graph, ("constraints", row));
+    let of_tree = tree_constants(closed, graph, ("constraints", row), present);
     let constants = quote! {
         #of_tree
         /// The independent velocities among those of the open tree.

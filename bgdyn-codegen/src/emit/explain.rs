@@ -55,6 +55,8 @@ fn name(method: Method) -> &'static str {
     match method {
         Method::Scene(SceneFunction::FromCanonical) => "explain_from_canonical",
         Method::Scene(SceneFunction::CanonicalRates) => "explain_canonical_rates",
+        Method::ConstrainedDynamics => "explain_tree",
+        Method::ProjectVelocity => "explain_velocities",
         _ => "explain",
     }
 }
@@ -77,6 +79,17 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
         ),
         Argument::V => look(quote! { V }, joints, quote! { #name.as_slice() }),
         Argument::Tau => look(quote! { Tau }, joints, quote! { #name.as_slice() }),
+        Argument::TreeV | Argument::TreeTau => {
+            let of = match argument {
+                Argument::TreeV => quote! { Qd },
+                _ => quote! { Tau },
+            };
+            look(
+                of,
+                quote! { &TREE_JOINT_NAMES },
+                quote! { #name.as_slice() },
+            )
+        }
         Argument::State => {
             let state = look(
                 quote! { State },

@@ -20,6 +20,7 @@ mod names;
 mod order;
 mod output_options;
 mod prescribed;
+mod reactions;
 mod scene;
 mod sines;
 #[cfg(feature = "source")]

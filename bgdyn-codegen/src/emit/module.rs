@@ -8,6 +8,7 @@ use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs, summary_of};
+use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{body, closure, code, constants, entries, explain, joint_segments, traits};
 use crate::bond_graph::{LinkFrame, PositionVariable};
@@ -200,6 +201,8 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             function.formulation
         ),
     ];
+    let closed = model.bond_graph.closed.as_deref();
+    docs.splice(1..1, reaction_docs(method, closed));
     let unread = body::unread(function, model);
     if !unread.is_empty() {
         docs.extend([
@@ -214,7 +217,6 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             " Names the joint whose pivot vanishes where the mass matrix is singular, or the argument".into(),
             " that is NaN or infinite.".into(),
         ]);
-        let closed = model.bond_graph.closed.as_deref();
         let slips = closed.is_some_and(|closed| closed.closure.nonholonomic());
         if slips {
             docs.push(" Names the constraint at a singular position, and beyond one.".into());

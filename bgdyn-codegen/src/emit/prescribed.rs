@@ -48,6 +48,7 @@ pub(super) fn prescribed_docs(mechanism: &Mechanism) -> Vec<String> {
 pub(super) fn joint_list(method: Method) -> &'static str {
     match method {
         Method::DriveEfforts(_) => "PRESCRIBED_NAMES",
+        method if method.of_tree() => "TREE_JOINT_NAMES",
         _ => "JOINT_NAMES",
     }
 }

@@ -85,6 +85,7 @@ pub(super) fn argument_type(argument: Argument) -> TokenStream {
     match argument {
         Argument::Q => quote! { &__na::SVector<T, NQ> },
         Argument::V | Argument::A | Argument::Tau => quote! { &__na::SVector<T, NV> },
+        Argument::TreeV | Argument::TreeTau => quote! { &__na::SVector<T, NT> },
         Argument::State => quote! { &State<T> },
         Argument::Input => quote! { &Input<T> },
         Argument::Accelerations => quote! { &Coordinates<T> },
@@ -115,6 +116,17 @@ pub(super) fn return_type(shape: Shape) -> TokenStream {
         Shape::TreeMatrix => quote! { __na::SMatrix<T, NT, NV> },
         Shape::RowVector => quote! { __na::SVector<T, NC> },
         Shape::RowMatrix => quote! { __na::SMatrix<T, NC, NT> },
+        Shape::CheckedTree => {
+            quote! { ::core::result::Result<__na::SVector<T, NT>, T::Singular<NT>> }
+        }
+        Shape::CheckedTreeAndRows => {
+            let both = quote! { (__na::SVector<T, NT>, __na::SVector<T, NC>) };
+            quote! { ::core::result::Result<#both, T::Singular<NT>> }
+        }
+        Shape::CheckedWrenches => {
+            quote! { ::core::result::Result<[__rt::Wrench<T>; NR], T::Singular<NV>> }
+        }
+        Shape::LinkWrenches => quote! { [__rt::Wrench<T>; LINK_NAMES.len()] },
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene names its own results"),
     }
 }

@@ -34,7 +34,7 @@ pub(super) struct Arguments<'g> {
 }
 
 impl<'g> Arguments<'g> {
-    /// Returns the arguments of a method.
+    /// Returns the arguments of a method; of one with the velocities of the open tree if the graph is that tree's.
     pub fn new(b: &'g Builder, graph: &Multibody, method: Method) -> Self {
         let read_all = |n: usize, on: bool, leaf: fn(usize) -> Leaf| -> Vec<Expr<'g>> {
             (0..n)
@@ -45,13 +45,20 @@ impl<'g> Arguments<'g> {
         let takes = |argument| method.arguments().contains(&argument);
         // Kinetic energy and velocities of frames always use the true velocities, also without velocity
         // products.
-        let kinematic = method.site().is_some() || method == Method::KineticEnergy;
+        let kinematic = method.site().is_some()
+            || matches!(method, Method::KineticEnergy | Method::ProjectVelocity);
         let turning = graph.velocity_products || kinematic;
         Arguments {
             q: read_all(graph.positions.len(), true, Leaf::Position),
-            v: read(takes(Argument::V) && turning, Leaf::Velocity),
+            v: read(
+                (takes(Argument::V) || takes(Argument::TreeV)) && turning,
+                Leaf::Velocity,
+            ),
             a: read(takes(Argument::A), Leaf::Acceleration),
-            tau: read(takes(Argument::Tau), Leaf::Input),
+            tau: read(
+                takes(Argument::Tau) || takes(Argument::TreeTau),
+                Leaf::Input,
+            ),
             active: true,
             base: graph
                 .base
@@ -73,6 +80,7 @@ fn moves_with_base(method: Method) -> bool {
             | Method::CoriolisMatrix
             | Method::InverseDynamicsDerivatives
             | Method::ForwardDynamicsDerivatives
+            | Method::JointReactions
     )
 }
 

@@ -32,6 +32,11 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
         Method::KineticEnergy | Method::PotentialEnergy => vec![method],
         Method::CoriolisMatrix => vec![method, Method::MassMatrix],
         Method::Multipliers => vec![Method::InverseDynamics],
+        Method::ConstrainedDynamics | Method::Reactions => {
+            vec![Method::InverseDynamics, Method::MassMatrix]
+        }
+        Method::ProjectVelocity => vec![Method::MassMatrix],
+        Method::JointReactions => vec![Method::JointReactions, Method::InverseDynamics],
         Method::Pose(_) | Method::Velocity(_) | Method::Jacobian(_) => vec![method],
         Method::JacobianDotV(site) => vec![method, Method::Jacobian(site)],
         _ => vec![],
@@ -47,10 +52,13 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
     /// Returns the motion for the arguments of a method; `bias` returns −γ for velocities of the tree.
     pub(super) fn new(
         map: VelocityMap<'a, 'g>,
-        x: &Arguments<'g>,
+        (x, method): (&Arguments<'g>, Method),
         bias: impl FnOnce(&[Expr<'g>]) -> Vec<Expr<'g>>,
     ) -> Self {
-        let velocities = map.velocities(&x.v);
+        let velocities = match method.of_tree() {
+            true => x.v.clone(),
+            false => map.velocities(&x.v),
+        };
         let bias = bias(&velocities);
         LoopMotion {
             map,
@@ -59,8 +67,13 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
         }
     }
 
+    /// Returns the velocities of the open tree.
+    pub(super) fn velocities(&self) -> &[Expr<'g>] {
+        &self.velocities
+    }
+
     /// Returns S u̇ + z.
-    fn accelerations(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    pub(super) fn accelerations(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
         self.map.accelerations(a, &self.bias)
     }
 
@@ -72,7 +85,7 @@ impl<'a, 'g> LoopMotion<'a, 'g> {
 }
 
 /// Returns the expressions of a method; `None` for one that is not composed of those of the tree. `residuals` are
-/// c(q).
+/// c(q). Reactions end with the multipliers λ, in place of wrenches: those at the joints are of the tree alone.
 pub(super) fn compose<'g>(
     b: &'g Builder,
     closed: &ClosedTree,
@@ -87,12 +100,8 @@ pub(super) fn compose<'g>(
         Method::InverseDynamics | Method::Bias | Method::Gravity => {
             map.efforts(&tree.efforts(method, x)?)
         }
-        Method::MassMatrix => entries(&tree.mass_matrix(b)?),
-        Method::ForwardDynamics => {
-            let bias = map.efforts(&tree.efforts(Method::Bias, x)?);
-            let drive = x.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
-            solve::ltdl(b, tree.mass_matrix(b)?, drive)
-        }
+        Method::MassMatrix => entries(&tree.mass_matrix(b)?.reduced),
+        Method::ForwardDynamics => tree.accelerated(x, None)?.independent,
         Method::KineticEnergy | Method::PotentialEnergy => tree.read(method, None)?,
         Method::CoriolisMatrix => tree.coriolis_matrix(closed)?,
         Method::Pose(_) | Method::Velocity(_) => tree.read(method, None)?,
@@ -112,8 +121,47 @@ pub(super) fn compose<'g>(
         Method::ConstraintJacobian => entries(map.rates()),
         Method::Multipliers => map.multipliers(&tree.efforts(Method::InverseDynamics, x)?),
         Method::ClosingStep => map.steps(residuals),
+        Method::ConstraintBias => motion.bias.clone(),
+        Method::ConstrainedDynamics => {
+            let joints: Vec<usize> = closed.closure.independents.iter().map(|j| j.0).collect();
+            let moved = tree.accelerated(x, Some(&joints))?;
+            let lacking = moved.lacking.iter().zip(&x.tau);
+            let lacking: Vec<Expr<'g>> = lacking.map(|(&f, &tau)| f - tau).collect();
+            let mut all = motion.accelerations(&moved.independent);
+            all.extend(map.multipliers(&lacking));
+            all
+        }
+        Method::ProjectVelocity => map.velocities(&tree.nearest(closed)?),
+        Method::Reactions => {
+            let moved = tree.accelerated(x, None)?;
+            let mut all = moved.independent;
+            all.extend(map.multipliers(&moved.lacking));
+            all
+        }
+        Method::JointReactions => {
+            let accelerations = motion.accelerations(&x.a);
+            let mut all = tree.read(method, Some(&accelerations))?;
+            all.extend(map.multipliers(&tree.efforts(Method::InverseDynamics, x)?));
+            all
+        }
         _ => return None,
     })
+}
+
+/// The mass matrix of the independent velocities.
+struct ReducedMass<'g> {
+    /// M S, row by row.
+    moved: Vec<Vec<Expr<'g>>>,
+    /// The lower triangle of Sᵀ M S.
+    reduced: Vec<Vec<Expr<'g>>>,
+}
+
+/// The motion under efforts.
+struct Accelerated<'g> {
+    /// u̇
+    independent: Vec<Expr<'g>>,
+    /// M q̈ + h
+    lacking: Vec<Expr<'g>>,
 }
 
 /// The functions of the open tree at the motion of the loops.
@@ -158,8 +206,8 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
         }
     }
 
-    /// Returns the lower triangle of Sᵀ M S.
-    fn mass_matrix(&self, b: &'g Builder) -> Option<Vec<Vec<Expr<'g>>>> {
+    /// Returns M S and Sᵀ M S.
+    fn mass_matrix(&self, b: &'g Builder) -> Option<ReducedMass<'g>> {
         let map = &self.motion.map.map;
         let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
         let mass = self.read(Method::MassMatrix, None)?;
@@ -171,11 +219,50 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
             .collect();
         let entry =
             |k: usize, l: usize| (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l]);
-        Some(
-            (0..n)
-                .map(|k| (0..=k).map(|l| entry(k, l)).collect())
-                .collect(),
-        )
+        let reduced = (0..n).map(|k| (0..=k).map(|l| entry(k, l)).collect());
+        Some(ReducedMass {
+            reduced: reduced.collect(),
+            moved,
+        })
+    }
+
+    /// Returns the motion under the efforts `x.tau`: those of the independent velocities, or those on all joints of
+    /// the tree if the independent ones have the numbers `joints` among them.
+    fn accelerated(&self, x: &Arguments<'g>, joints: Option<&[usize]>) -> Option<Accelerated<'g>> {
+        let (b, map) = (self.b, &self.motion.map);
+        let bias = self.efforts(Method::Bias, x)?;
+        let minus = |x: &[Expr<'g>], y: &[Expr<'g>]| -> Vec<Expr<'g>> {
+            x.iter().zip(y).map(|(&x, &y)| x - y).collect()
+        };
+        let drive = match joints {
+            None => minus(&x.tau, &map.efforts(&bias)),
+            Some(_) => map.efforts(&minus(&x.tau, &bias)),
+        };
+        let mass = self.mass_matrix(b)?;
+        let independent = match joints {
+            None => solve::ltdl(b, mass.reduced, drive),
+            Some(joints) => solve::ltdl_of(b, mass.reduced, drive, joints),
+        };
+        let lacking = bias.iter().zip(&mass.moved).map(|(&h, row)| {
+            let terms = row.iter().zip(&independent);
+            terms.fold(h, |sum, (m, a)| sum + *m * *a)
+        });
+        Some(Accelerated {
+            lacking: lacking.collect(),
+            independent,
+        })
+    }
+
+    /// Returns the u with the least (S u − q̇)ᵀ M (S u − q̇): Sᵀ M S u = (M S)ᵀ q̇.
+    fn nearest(&self, closed: &ClosedTree) -> Option<Vec<Expr<'g>>> {
+        let b = self.b;
+        let mass = self.mass_matrix(b)?;
+        let rows = || mass.moved.iter().zip(&self.motion.velocities);
+        let momentum = |k: usize| rows().fold(b.zero(), |sum, (row, v)| sum + row[k] * *v);
+        let independents = &closed.closure.independents;
+        let side = (0..independents.len()).map(momentum).collect();
+        let joints: Vec<usize> = independents.iter().map(|j| j.0).collect();
+        Some(solve::ltdl_of(b, mass.reduced, side, &joints))
     }
 
     /// Returns Sᵀ (C S + M Ṡ), row by row: bias = C u + gravity, Ṁ − 2 C skew.

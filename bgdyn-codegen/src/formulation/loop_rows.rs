@@ -88,6 +88,19 @@ fn rows_of<'a, 'g>(
     (at, numbers)
 }
 
+/// Returns the rows of a loop in the directions of the multipliers.
+pub(super) fn plane_rows<'a, 'g>(
+    b: &'g Builder,
+    (closure, closes): (&'a Closure, usize),
+    q: &[Expr<'g>],
+) -> RowsAt<'a, Expr<'g>> {
+    let form = LoopForm {
+        of_plane: true,
+        ..LoopForm::default()
+    };
+    rows_of(b, (closure, closes), q, form).0
+}
+
 /// The rows of the loops: rates per unit velocity of the open tree, and −γ.
 pub(super) struct LoopRows<'g> {
     /// For each row of the closure, the rate for a unit of each velocity of the tree.

@@ -6,6 +6,7 @@
 //! `conditioning/` measures; formulations depend on neither.
 
 mod arguments;
+mod closing_loads;
 mod definition;
 mod derivatives;
 mod elimination;

@@ -10,6 +10,7 @@
 //! | mass matrix | rows and columns |
 //! | forward dynamics | the solution of M a = τ − bias |
 //! | energies, poses, velocities | the same, with the whole motion |
+//! | loads through joints | the same, with the whole motion |
 //! | Jacobians | columns |
 //! | J̇ v | the acceleration where a is 0: J̇ v, and the other columns times the accelerations there |
 //! | Coriolis matrix | that of v alone, and the derivative of the bias along v where v is 0 |
@@ -120,6 +121,11 @@ impl FreeFunctions<'_, '_> {
             | Method::Pose(_)
             | Method::Velocity(_) => {
                 let all: Vec<usize> = (0..method.shape().len(n)).collect();
+                self.copied(b, method, method, &all)
+            }
+            Method::JointReactions => {
+                let shown = self.released.frames.iter().filter(|frame| !frame.hidden);
+                let all: Vec<usize> = (0..6 * shown.count()).collect();
                 self.copied(b, method, method, &all)
             }
             // Derivatives of forward dynamics use other methods; loops beside prescribed joints are refused.

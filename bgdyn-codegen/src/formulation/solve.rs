@@ -99,6 +99,16 @@ pub(crate) fn ltdl_after<'g>(
     found
 }
 
+/// Solves M x = f for one right-hand side; the pivots of the rows have these indices.
+pub(crate) fn ltdl_of<'g>(
+    b: &'g Builder,
+    mass: Vec<Vec<Expr<'g>>>,
+    f: Vec<Expr<'g>>,
+    coordinates: &[usize],
+) -> Vec<Expr<'g>> {
+    PivotFactor::of(b, mass, coordinates).solve(f)
+}
+
 /// Solves M x = f for one right-hand side.
 pub(crate) fn ltdl<'g>(
     b: &'g Builder,

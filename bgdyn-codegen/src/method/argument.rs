@@ -11,6 +11,10 @@ pub enum Argument {
     A,
     /// Joint efforts tau: N·m, N.
     Tau,
+    /// Velocities q̇ of the open tree of a mechanism with loops: rad/s, m/s.
+    TreeV,
+    /// Efforts on the joints of the open tree: N·m, N.
+    TreeTau,
     /// State of a scene.
     State,
     /// Inputs of a scene.
@@ -32,7 +36,8 @@ impl Argument {
             Argument::Q => "q",
             Argument::V => "v",
             Argument::A => "a",
-            Argument::Tau => "tau",
+            Argument::Tau | Argument::TreeTau => "tau",
+            Argument::TreeV => "qd",
             Argument::State => "state",
             Argument::Input => "input",
             Argument::Accelerations => "acceleration",

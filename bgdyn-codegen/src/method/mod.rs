@@ -5,6 +5,7 @@
 mod argument;
 mod scene_function;
 mod shape;
+mod words;
 
 use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
@@ -59,6 +60,16 @@ pub enum Method {
     Multipliers,
     /// The step of Newton's method for the dependent positions.
     ClosingStep,
+    /// Ḃ q̇ for velocities of the open tree.
+    ConstraintBias,
+    /// q̈ of the open tree and λ under efforts on all its joints.
+    ConstrainedDynamics,
+    /// The nearest velocities of the open tree that the rows allow.
+    ProjectVelocity,
+    /// Forces and moments at the closing places and contacts.
+    Reactions,
+    /// Forces and moments at the joints of the tree of links.
+    JointReactions,
     /// A function of a scene.
     Scene(SceneFunction),
 }
@@ -67,6 +78,7 @@ pub enum Method {
 pub fn names() -> Vec<String> {
     let all = Method::possible(&[]).into_iter();
     all.chain(Method::OF_LOOPS)
+        .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
         .map(|method| method.name(&[]))
         .collect()
@@ -95,7 +107,15 @@ impl Method {
         Method::ClosingStep,
     ];
 
-    /// Returns the methods of a mechanism with loops or contacts: without those of closing if nothing closes.
+    /// The methods of mechanisms with loops that are generated if they are asked for by name.
+    pub const ON_REQUEST: [Method; 4] = [
+        Method::ConstraintBias,
+        Method::ConstrainedDynamics,
+        Method::ProjectVelocity,
+        Method::Reactions,
+    ];
+
+    /// Returns the methods of a mechanism with loops or contacts that all get: without those of closing if nothing closes.
     pub fn of_closed(closed: &ClosedTree) -> Vec<Method> {
         let closes = closed
             .closure
@@ -137,12 +157,10 @@ impl Method {
             ];
             all.retain(|method| !derivatives.contains(method));
         }
-        all.extend(
-            graph
-                .closed
-                .iter()
-                .flat_map(|closed| Method::of_closed(closed)),
-        );
+        if let Some(closed) = &graph.closed {
+            all.extend(Method::of_closed(closed));
+            all.extend(Method::ON_REQUEST);
+        }
         all
     }
 
@@ -152,6 +170,7 @@ impl Method {
             Method::CoriolisMatrix,
             Method::InverseDynamicsDerivatives,
             Method::ForwardDynamicsDerivatives,
+            Method::JointReactions,
         ];
         let of_sites = (0..sites.len()).flat_map(|i| Method::of_site(SiteId(i)));
         Method::OF_TRAIT
@@ -224,13 +243,18 @@ impl Method {
             Method::ConstraintJacobian => "constraint_jacobian".into(),
             Method::Multipliers => "multipliers".into(),
             Method::ClosingStep => "closing_step".into(),
+            Method::ConstraintBias => "constraint_bias".into(),
+            Method::ConstrainedDynamics => "constrained_dynamics".into(),
+            Method::ProjectVelocity => "project_velocity".into(),
+            Method::Reactions => "reactions".into(),
+            Method::JointReactions => "joint_reactions".into(),
             Method::Scene(role) => role.name().into(),
         }
     }
 
     /// Returns its arguments.
     pub fn arguments(self) -> &'static [Argument] {
-        use Argument::{A, Q, Tau, V};
+        use Argument::{A, Q, Tau, TreeTau, TreeV, V};
         match self {
             Method::InverseDynamics
             | Method::InverseDynamicsDerivatives
@@ -242,8 +266,11 @@ impl Method {
             Method::VelocityMap | Method::ConstraintResidual => &[Q],
             Method::ConstraintJacobian | Method::ClosingStep => &[Q],
             Method::TreeVelocity => &[Q, V],
-            Method::TreeAcceleration | Method::Multipliers => &[Q, V, A],
+            Method::TreeAcceleration | Method::Multipliers | Method::JointReactions => &[Q, V, A],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
+            Method::Reactions => &[Q, V, Tau],
+            Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
+            Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,
@@ -266,6 +293,11 @@ impl Method {
         }
     }
 
+    /// Returns whether its arguments are velocities of the open tree.
+    pub fn of_tree(self) -> bool {
+        self.arguments().contains(&Argument::TreeV)
+    }
+
     /// Returns the shape of its result.
     pub fn shape(self) -> Shape {
         match self {
@@ -284,7 +316,12 @@ impl Method {
             Method::TreeVelocity | Method::TreeAcceleration => Shape::TreeVector,
             Method::ClosingStep => Shape::TreeVector,
             Method::ConstraintResidual | Method::Multipliers => Shape::RowVector,
+            Method::ConstraintBias => Shape::RowVector,
             Method::ConstraintJacobian => Shape::RowMatrix,
+            Method::ConstrainedDynamics => Shape::CheckedTreeAndRows,
+            Method::ProjectVelocity => Shape::CheckedTree,
+            Method::Reactions => Shape::CheckedWrenches,
+            Method::JointReactions => Shape::LinkWrenches,
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse
@@ -295,102 +332,6 @@ impl Method {
                 | SceneFunction::ClosingStep,
             ) => Shape::Parts,
             Method::Scene(_) => Shape::CheckedParts,
-        }
-    }
-
-    /// Describes the result: one line of documentation.
-    pub fn summary(self, sites: &[Site]) -> String {
-        let of = |site: SiteId| format!("`{}`", sites[site.0].name);
-        match self {
-            Method::InverseDynamics => {
-                "Joint efforts that produce the accelerations `a` (Kuzmin 2007, eq. 6).".into()
-            }
-            Method::MassMatrix => "Mass matrix M(q), exactly symmetric.".into(),
-            Method::Bias => "Bias force: everything in the joint efforts but M(q)·a.".into(),
-            Method::Gravity => "Joint efforts that hold the mechanism at rest.".into(),
-            Method::ForwardDynamics => {
-                "Accelerations under the joint efforts `tau`: M⁻¹(tau − bias).".into()
-            }
-            Method::KineticEnergy => "Kinetic energy ½ vᵀ M(q) v.".into(),
-            Method::PotentialEnergy => {
-                "Potential energy of gravity; zero with every centre of mass at the world's origin."
-                    .into()
-            }
-            Method::CoriolisMatrix => {
-                "Coriolis matrix C(q, v) of Christoffel's symbols: bias = C v + gravity, Ṁ − 2C skew."
-                    .into()
-            }
-            Method::InverseDynamicsDerivatives => {
-                "Derivatives of the joint efforts: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix.".into()
-            }
-            Method::ForwardDynamicsDerivatives => {
-                "Derivatives of the accelerations: (∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ); the last is M⁻¹.".into()
-            }
-            Method::DriveEfforts(_) => {
-                "Efforts of the drives that give the prescribed joints their motion, at the accelerations `a`.".into()
-            }
-            Method::Pose(s) => format!("Pose of {} in the world.", of(s)),
-            Method::Velocity(s) => format!(
-                "Velocity of {}, angular part first: ω, and the velocity of its origin; world axes.",
-                of(s)
-            ),
-            Method::Jacobian(s) => format!(
-                "Jacobian of {}: its velocity, angular part first, is J v; world axes, at its origin.",
-                of(s)
-            ),
-            Method::JacobianDotV(s) => format!(
-                "J̇ v of {}: its acceleration, angular part first, where the joints' is zero; world axes.",
-                of(s)
-            ),
-            Method::VelocityMap => {
-                "Velocity map S(q): the velocities of the open tree are S v.".into()
-            }
-            Method::TreeVelocity => "Velocities of the open tree: S v.".into(),
-            Method::TreeAcceleration => "Accelerations of the open tree: S a + Ṡ v.".into(),
-            Method::ConstraintResidual => {
-                "By how much the loops are open, as in [`CONSTRAINT_NAMES`]; zero at closed positions.".into()
-            }
-            Method::ConstraintJacobian => {
-                "Rates of the loops' conditions for the velocities of the open tree: B S = 0.".into()
-            }
-            Method::Multipliers => {
-                "Efforts of the loops on place b, in the axes of place a, for the accelerations `a`, if all other efforts are those of the independent joints."
-                    .into()
-            }
-            Method::ClosingStep => {
-                "Step of Newton's method: the change of the dependent positions that closes the loops, with the opposite sign; `close` repeats it."
-                    .into()
-            }
-            Method::Scene(role) => role.summary().into(),
-        }
-    }
-
-    /// Returns the units of the result.
-    pub fn units(self) -> &'static str {
-        match self {
-            Method::InverseDynamics | Method::Bias | Method::Gravity | Method::DriveEfforts(_) => {
-                "N·m for a rotation, N for a translation"
-            }
-            Method::MassMatrix => "kg·m² between rotations, kg·m mixed, kg between translations",
-            Method::ForwardDynamics => "rad/s² for a rotation, m/s² for a translation",
-            Method::KineticEnergy | Method::PotentialEnergy => "J",
-            Method::CoriolisMatrix => "efforts per rad/s or m/s",
-            Method::InverseDynamicsDerivatives => "efforts per rad or m, and per rad/s or m/s",
-            Method::ForwardDynamicsDerivatives => {
-                "accelerations per rad or m, per rad/s or m/s, per N·m or N"
-            }
-            Method::Pose(_) => "m; columns of the rotation are the frame's axes in the world's",
-            Method::Velocity(_) => "rad/s, m/s",
-            Method::Jacobian(_) => "rad and m per unit of each joint",
-            Method::JacobianDotV(_) => "rad/s², m/s²",
-            Method::VelocityMap => "rad and m per unit of each independent joint",
-            Method::TreeVelocity => "rad/s, m/s",
-            Method::TreeAcceleration => "rad/s², m/s²",
-            Method::ConstraintResidual => "m, rad",
-            Method::ConstraintJacobian => "m and rad per unit of each joint",
-            Method::Multipliers => "N, N·m",
-            Method::ClosingStep => "rad, m",
-            Method::Scene(_) => "as its parts say",
         }
     }
 }

@@ -32,6 +32,15 @@ pub enum Shape {
     RowVector,
     /// An NC × NT matrix, row by row.
     RowMatrix,
+    /// A number for each velocity of the open tree, or an error with a joint or a loop.
+    CheckedTree,
+    /// A number for each velocity of the open tree and one for each row, or an error.
+    CheckedTreeAndRows,
+    /// NV accelerations, and a force and a moment for each loop or contact, or an error; only the forces and moments
+    /// are returned.
+    CheckedWrenches,
+    /// A force and a moment for each link that is not hidden.
+    LinkWrenches,
     /// As many numbers as the mechanism has prescribed joints.
     Drives(usize),
     /// The named parts of a scene's result.
@@ -54,6 +63,8 @@ impl Shape {
             Shape::Spatial => 6,
             Shape::Jacobian => 6 * nv,
             Shape::TreeVector | Shape::TreeMatrix | Shape::RowVector | Shape::RowMatrix => 0,
+            Shape::CheckedTree | Shape::CheckedTreeAndRows => 0,
+            Shape::CheckedWrenches | Shape::LinkWrenches => 0,
             Shape::Drives(np) => np,
             Shape::Parts | Shape::CheckedParts => 0,
         }
@@ -63,7 +74,12 @@ impl Shape {
     pub fn checked(self) -> bool {
         matches!(
             self,
-            Shape::CheckedVector | Shape::CheckedSquares | Shape::CheckedParts
+            Shape::CheckedVector
+                | Shape::CheckedSquares
+                | Shape::CheckedTree
+                | Shape::CheckedTreeAndRows
+                | Shape::CheckedWrenches
+                | Shape::CheckedParts
         )
     }
 }

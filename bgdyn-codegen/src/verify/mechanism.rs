@@ -7,8 +7,10 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
 use super::dual::{Direction, along, rates, with_rates};
+use super::open_tree;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
+use crate::conditioning::tree_states::of_method;
 use crate::expr::Inputs;
 use crate::formulation::{Prepared, create, specification};
 use crate::function::{Function, in_triangle};
@@ -184,7 +186,8 @@ impl Subject<'_> {
     /// Returns the first law that the function violates at this state. A state in which it refuses a pivot
     /// is skipped.
     fn check(&self, state: &State) -> Option<Difference> {
-        let at = &state.at;
+        let graph = self.literal.prepared.graph;
+        let at = &of_method(graph, self.function.method, &state.at);
         let (found, refused) = self.function.evaluate(at.clone());
         if refused.is_some() {
             return None;
@@ -193,10 +196,26 @@ impl Subject<'_> {
         let size = match self.function.method {
             Method::Pose(_) | Method::Jacobian(_) => 1.0,
             Method::Velocity(_) => speed,
-            Method::JacobianDotV(_) => speed * speed,
+            Method::JacobianDotV(_) | Method::ConstraintBias => speed * speed,
+            method if method.of_tree() => 0.0,
             _ => state.size,
         };
-        let laws = self.laws(state, found).into_iter();
+        let laws = match (&graph.closed, self.function.method) {
+            (Some(closed), method) if method.of_tree() => {
+                let form = |method| self.literal.form(method);
+                let laws = open_tree::laws(closed, method, form, (at, found)).into_iter();
+                let allowed = match method {
+                    Method::ConstraintBias => EXACT,
+                    _ => SOLVED,
+                };
+                laws.map(|(text, found, expected, size)| {
+                    Sides::new(text, allowed, found, expected).sized(size)
+                })
+                .collect()
+            }
+            _ => self.laws(state, found),
+        };
+        let laws = laws.into_iter();
         laws.filter_map(|sides| {
             let pair = (&sides.found[..], &sides.expected[..]);
             let size = match self.function.method {
@@ -211,7 +230,11 @@ impl Subject<'_> {
     /// Returns a difference if the function refuses every state and the literal sum refuses none of them.
     fn refuses_all(&self, states: &[State]) -> Option<Difference> {
         let refuses = |function: &Function| {
-            let refused = |state: &State| function.evaluate(state.at.clone()).1.is_some();
+            let graph = self.literal.prepared.graph;
+            let refused = |state: &State| {
+                let at = of_method(graph, function.method, &state.at);
+                function.evaluate(at).1.is_some()
+            };
             states.iter().all(refused)
         };
         if states.is_empty() || !self.function.shape().checked() || !refuses(self.function) {
@@ -261,7 +284,13 @@ impl Subject<'_> {
             method => {
                 let form = self.form.get_or_init(|| lit.form(method)).as_ref();
                 let expected = form.map(|form| form.evaluate(at.clone()).0);
-                expected.map_or(vec![], |e| exact("its literal form", found, e))
+                let allowed = match method {
+                    // With accelerations from the mass matrix.
+                    Method::Reactions => SOLVED,
+                    _ => EXACT,
+                };
+                let text = "its literal form";
+                expected.map_or(vec![], |e| vec![Sides::new(text, allowed, found, e)])
             }
         }
     }

@@ -9,6 +9,7 @@
 mod compare;
 mod dual;
 mod mechanism;
+mod open_tree;
 mod scene;
 mod states;
 

@@ -12,9 +12,12 @@ mod faults_of_names;
 mod faults_of_prescribed;
 mod findings;
 mod followers;
+#[allow(dead_code, reason = "shared with the tests of loops and contacts")]
+mod free_bodies;
 mod golden;
 mod holds;
 mod invariance;
+mod joint_loads;
 mod laws;
 mod maker;
 mod mimic;

@@ -82,6 +82,7 @@ fn make(choice: &Choice<'_>, way: Way, method: Method) -> Function {
         let derived = [
             Method::InverseDynamicsDerivatives,
             Method::ForwardDynamicsDerivatives,
+            Method::ConstraintBias,
         ];
         let derived = derived.contains(&method) || Method::OF_LOOPS.contains(&method);
         let own = made.formulation.contains(name) || derived;

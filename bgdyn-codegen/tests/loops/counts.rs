@@ -32,6 +32,34 @@ fn the_page_has_the_counts() {
     }
 }
 
+/// The methods that are generated if they are asked for.
+#[test]
+fn the_page_has_the_counts_of_methods_on_request() {
+    let page = file(["docs", "loops.md"]);
+    let methods = [
+        Method::ConstrainedDynamics,
+        Method::ProjectVelocity,
+        Method::Reactions,
+        Method::JointReactions,
+    ];
+    let words = |o: Operations| format!("{} / {} + {}÷", o.mul, o.add, o.div);
+    let mut missing = Vec::new();
+    for (name, title) in MECHANISMS {
+        let robot = Robot::read(&spec(name));
+        let counts = methods.map(|method| words(robot.function(None, method).operations()));
+        let title = title.split(',').next().unwrap_or(title);
+        let row = format!("| {title} | {} |", counts.join(" | "));
+        if !page.contains(&row) {
+            missing.push(row);
+        }
+    }
+    assert!(
+        missing.is_empty(),
+        "docs/loops.md has no rows\n{}",
+        missing.join("\n")
+    );
+}
+
 /// The rates of a scene under its weights: accelerations, and the rates of all positions from the same S.
 #[test]
 fn rates_of_scenes_share_the_velocity_map_with_forward_dynamics() {

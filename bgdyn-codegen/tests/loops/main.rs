@@ -1,6 +1,8 @@
 //! Tests mechanisms with loops: reference solutions with multipliers, random loops against the open tree with
 //! multipliers, the generator's own check, faults.
 
+#[path = "../joints/free_bodies.rs"]
+mod free_bodies;
 #[path = "../joints/maker.rs"]
 mod maker;
 #[path = "../joints/robot.rs"]
@@ -17,8 +19,10 @@ mod faults;
 mod frame_rows;
 mod locks;
 mod multipliers;
+mod open_tree;
 mod random_loops;
 mod rank;
+mod reactions;
 mod references;
 mod scenes;
 mod specs;

@@ -26,17 +26,17 @@ pub fn spec(name: &str) -> String {
     text.replacen("format: 1", &format!("format: 1\nname: {name}"), 1)
 }
 
-fn reference(name: &str) -> Value {
+pub fn reference(name: &str) -> Value {
     let json = file(["tests/golden/loops", &format!("{name}.json")]);
     serde_json::from_str(&json).expect("JSON")
 }
 
-fn numbers(value: &Value) -> Vec<f64> {
+pub fn numbers(value: &Value) -> Vec<f64> {
     let all = value.as_array().expect("a list").iter();
     all.map(|x| x.as_f64().expect("a number")).collect()
 }
 
-fn names(value: &Value) -> Vec<String> {
+pub fn names(value: &Value) -> Vec<String> {
     let all = value.as_array().expect("a list").iter();
     all.map(|x| x.as_str().expect("a name").to_owned())
         .collect()
@@ -44,7 +44,7 @@ fn names(value: &Value) -> Vec<String> {
 
 /// Returns the joints of the reference, and the index of each independent joint among them: a joint is called like
 /// its link, with an ending.
-fn joints(robot: &Robot, file: &Value) -> (Vec<String>, Vec<usize>) {
+pub fn joints(robot: &Robot, file: &Value) -> (Vec<String>, Vec<usize>) {
     let links = file["mechanism"].as_array().expect("links").iter();
     let all: Vec<String> = links
         .map(|l| l["name"].as_str().expect("a name").to_owned())

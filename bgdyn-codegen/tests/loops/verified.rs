@@ -52,6 +52,63 @@ fn the_delta_robot_is_accepted() {
     accept("delta_robot", None);
 }
 
+/// The methods that are generated if they are asked for.
+pub const ON_REQUEST: [&str; 5] = [
+    "constraint_bias",
+    "constrained_dynamics",
+    "project_velocity",
+    "reactions",
+    "joint_reactions",
+];
+
+fn on_request(text: &str, way: Way) -> Model {
+    let options = Options {
+        methods: Some(ON_REQUEST.map(String::from).to_vec()),
+        derivatives: false,
+        ..options(way)
+    };
+    let model = model(Robot::read(text).mechanism, &options).expect("a model");
+    assert_eq!(model.functions.len(), ON_REQUEST.len());
+    match verify(&model, &options) {
+        Ok(()) => model,
+        Err(Refusal::Unequal(found)) => panic!("{way:?}: {}\n{text}", explain(&found)),
+        Err(refusal) => panic!("{way:?}: {refusal:?}\n{text}"),
+    }
+}
+
+#[test]
+fn methods_on_request_are_accepted_with_every_formulation() {
+    for name in PLANAR {
+        for way in [None, Some("recursion"), Some("subspaces"), Some("literal")] {
+            on_request(&spec(name), way);
+        }
+    }
+    on_request(&spec("delta_robot"), None);
+    let given = spec("five_bar").replacen("links:", "base: given\nlinks:", 1);
+    let mass = "mass: { parameter: rod_mass, value: 0.5 }";
+    let parameters = spec("five_bar").replace("mass: 0.5", mass);
+    for text in [given, parameters] {
+        on_request(&text, None);
+    }
+}
+
+#[test]
+fn a_turned_sign_is_refused_in_methods_on_request() {
+    let model = on_request(&spec("five_bar"), None);
+    for function in &model.functions {
+        for k in 0..function.blocks[0].outputs.len() {
+            let mut wrong = function.clone();
+            let output = &mut wrong.blocks[0].outputs[k];
+            if wrong.graph.constant_of(*output).is_some() {
+                continue;
+            }
+            output.negative = !output.negative;
+            let found = check_functions("five_bar", &model.bond_graph, &[wrong]);
+            assert_eq!(found.len(), 1, "{} output {k}", function.name);
+        }
+    }
+}
+
 /// Each output of each function with its sign changed.
 #[test]
 fn a_turned_sign_is_refused_in_every_function() {

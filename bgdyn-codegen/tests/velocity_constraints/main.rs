@@ -4,6 +4,8 @@
 #[path = "../joints/findings.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod findings;
+#[path = "../joints/free_bodies.rs"]
+mod free_bodies;
 #[path = "../joints/maker.rs"]
 mod maker;
 #[path = "../joints/robot.rs"]
@@ -16,6 +18,7 @@ mod files;
 mod multipliers;
 mod planar_references;
 mod random_mechanisms;
+mod reactions;
 mod slip_rows;
 mod spatial_references;
 mod verified;

@@ -48,6 +48,35 @@ fn the_specs_are_accepted_with_every_formulation() {
     }
 }
 
+/// The methods that are generated if they are asked for, with a ball as well.
+#[test]
+fn methods_on_request_are_accepted() {
+    let mut random = Random(31);
+    let mut ball = Text::new(&mut random, "type: floating", 1);
+    ball.touch(&mut random, 0, Touch::Ball);
+    let names = [
+        "constraint_bias",
+        "constrained_dynamics",
+        "project_velocity",
+        "reactions",
+        "joint_reactions",
+    ];
+    let options = Options {
+        methods: Some(names.map(String::from).to_vec()),
+        ..Options::default()
+    };
+    let texts = PLANAR.into_iter().chain(SPATIAL).map(spec);
+    for text in texts.chain([ball.constrained()]) {
+        let model = model(Robot::read(&text).mechanism, &options).expect("a model");
+        assert_eq!(model.functions.len(), names.len());
+        match verify(&model, &options) {
+            Ok(()) => {}
+            Err(Refusal::Unequal(found)) => panic!("{}\n{text}", explain(&found)),
+            Err(refusal) => panic!("{refusal:?}\n{text}"),
+        }
+    }
+}
+
 /// Each output of each function with its sign changed.
 #[test]
 fn a_turned_sign_is_refused_in_every_function() {

@@ -7,6 +7,7 @@
 use std::rc::Rc;
 
 use super::relative_poses::RelativePoses;
+use super::sum::LiteralSum;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Tangent};
 use crate::formulation::arguments::Arguments;
@@ -25,7 +26,12 @@ pub(super) fn outputs<'g>(
     (graph, closed): (&Multibody, &ClosedTree),
     method: Method,
 ) -> Option<Vec<Expr<'g>>> {
-    let x = Arguments::new(b, graph, method);
+    let own = if method.of_tree() {
+        &closed.tree
+    } else {
+        graph
+    };
+    let x = Arguments::new(b, own, method);
     let places = RelativePoses::new(b, closed, &x.q);
     let closure = &closed.closure;
     let tangent = |j: usize| Tangent::new(along(unit_tangents(b, &closed.tree, j)));
@@ -62,10 +68,28 @@ pub(super) fn outputs<'g>(
         ..LoopForm::default()
     };
     let rows = (rows, form);
-    let motion = LoopMotion::new(VelocityMap::new(b, &closed.closure, rows, None), &x, bias);
+    let map = VelocityMap::new(b, &closed.closure, rows, None);
+    let motion = LoopMotion::new(map, (&x, method), bias);
     let prepared = Prepared::new(&closed.tree);
     let read = |method: Method| literal.function(&prepared, method).map(Rc::new);
     let rows = closure.rows.iter();
     let conditions: Vec<Expr<'g>> = rows.map(|row| places.condition(row)).collect();
-    compose(b, closed, method, (&x, &motion), (&read, &conditions))
+    let mut outputs = compose(b, closed, method, (&x, &motion), (&read, &conditions))?;
+    if !matches!(method, Method::Reactions | Method::JointReactions) {
+        return Some(outputs);
+    }
+    let lambda = outputs.split_off(outputs.len() - closure.rows.len());
+    if method == Method::Reactions {
+        outputs.extend(places.reactions(&lambda));
+        return Some(outputs);
+    }
+    let accelerations = motion.accelerations(&x.a);
+    let of_tree = Arguments {
+        q: x.q.clone(),
+        v: motion.velocities().to_vec(),
+        a: accelerations,
+        ..Arguments::new(b, &closed.tree, method)
+    };
+    let sum = LiteralSum::new(b, &closed.tree, &x.q);
+    Some(sum.joint_loads(&of_tree, &places.loads(&lambda)))
 }

@@ -6,6 +6,7 @@
 //! one and omits only structural zeros.
 
 mod closed;
+mod closing_loads;
 mod coriolis;
 mod relative_poses;
 mod sum;
@@ -68,6 +69,7 @@ impl Formulation for Literal {
                         .collect();
                     solve::ltdl(&b, mass, drive)
                 }
+                Method::JointReactions => sum.joint_loads(&arguments, &[]),
                 Method::CoriolisMatrix => sum.coriolis_matrix(&arguments),
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
                 Method::PotentialEnergy => vec![sum.potential_energy()],

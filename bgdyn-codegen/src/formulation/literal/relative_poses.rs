@@ -7,18 +7,20 @@ use crate::expr::{Builder, Expr};
 use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::closure::{
-    Closure, ContactRow, ContactShape, LoopRow, PlaneContact, RelativePlace, RowKind,
+    ClosingRow, Closure, ContactRow, ContactShape, LoopRow, PlaneContact, RelativePlace, RowKind,
 };
 use crate::mechanism::{LinkId, Pose};
 
 /// A rotation and an origin.
-type Placed<'g> = (Mat3<Expr<'g>>, Vec3<Expr<'g>>);
+pub(super) type Placed<'g> = (Mat3<Expr<'g>>, Vec3<Expr<'g>>);
 
 /// The places of the loops: b in the axes of a; of contacts, the wheel in the axes of its plane.
 pub(super) struct RelativePoses<'a, 'g> {
     b: &'g Builder,
-    closure: &'a Closure,
+    pub(super) closure: &'a Closure,
     places: Vec<Placed<'g>>,
+    /// Of each loop the places in the axes that [`RelativePoses::places`] is given in, in fixed axes: a, or the plane.
+    pub(super) carriers: Vec<Placed<'g>>,
 }
 
 /// The directions of a contact in the axes of its plane.
@@ -46,19 +48,21 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
                 ),
             }
         };
-        let places = closed.closure.loops.iter().map(|one| {
+        let both = closed.closure.loops.iter().map(|one| {
             let end = place(one.links[1], one.chain.end);
             let (from, to) = match &one.contact {
                 None => (place(one.links[0], one.chain.start), end),
                 Some(contact) => (end, place(one.links[0], contact.place)),
             };
             let inverse = from.0.transpose();
-            (inverse * to.0, inverse * (to.1 - from.1))
+            (from, (inverse * to.0, inverse * (to.1 - from.1)))
         });
+        let (carriers, places) = both.unzip();
         RelativePoses {
             b,
             closure: &closed.closure,
-            places: places.collect(),
+            places,
+            carriers,
         }
     }
 
@@ -98,14 +102,76 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
         let directions = self.directions(closes, contact);
         let radius = self.b.constant(contact.radius);
         let fixed = rotation.transpose() * -directions.upward.scale(radius);
-        let along = match row {
+        let along = self.along(row, &directions);
+        let velocity = centre.map(&mut *rate_of) + rotation.map(rate_of) * fixed;
+        along.dot(velocity)
+    }
+
+    /// Returns force and moment of a loop on place b about its origin, in the axes of a; of a contact on the wheel at
+    /// the contact, in the axes of the plane; and that point in these axes.
+    pub(super) fn load(&self, closes: usize, lambda: &[Expr<'g>]) -> [Vec3<Expr<'g>>; 3] {
+        let zero = Vec3([self.b.zero(); 3]);
+        let (rotation, position) = self.places[closes];
+        let one = &self.closure.loops[closes];
+        let (mut force, mut moment, mut point) = (zero, zero, position);
+        if let Some(contact) = &one.contact {
+            let upward = self.directions(closes, contact).upward;
+            point = position - upward.scale(self.b.constant(contact.radius));
+        }
+        for (row, &x) in self.closure.rows.iter().zip(lambda) {
+            if row.closes != closes {
+                continue;
+            }
+            match (row.kind, &one.contact) {
+                (RowKind::Contact(kind), Some(contact)) => {
+                    let directions = self.directions(closes, contact);
+                    force = force + self.along(kind, &directions).scale(x);
+                }
+                (RowKind::Closing(ClosingRow::Place(k)), _) => {
+                    force = force + self.unit(k).scale(x)
+                }
+                (RowKind::Closing(ClosingRow::Tilt(k) | ClosingRow::Turn(k)), _) => {
+                    moment = moment + self.unit(k).scale(x);
+                }
+                (RowKind::Closing(ClosingRow::Length), _) => {
+                    let length = self.b.constant(one.length);
+                    force = force + position.scale(x / length);
+                }
+                (RowKind::Closing(ClosingRow::Angle), _) => {
+                    let turning = rotation.column(0).cross(self.unit(2));
+                    moment = moment + turning.scale(x);
+                }
+                (RowKind::Contact(_), None) => {}
+            }
+        }
+        [force, moment, point]
+    }
+
+    /// Returns the axes of a reaction: those of the link of place a, of a knife edge of its own link, else those of the
+    /// contact; as the matrix from the axes of [`RelativePoses::load`].
+    pub(super) fn reaction_axes(&self, closes: usize) -> Mat3<Expr<'g>> {
+        let one = &self.closure.loops[closes];
+        let constant = |pose: &Pose| pose.rotation.map(|x| self.b.constant(x));
+        match &one.contact {
+            None => constant(&one.chain.start),
+            Some(contact) if matches!(contact.shape, ContactShape::Edge(_)) => {
+                constant(&contact.place) * self.places[closes].0.transpose()
+            }
+            Some(contact) => {
+                let directions = self.directions(closes, contact);
+                let rows = [directions.longitudinal, directions.lateral, self.unit(2)];
+                Mat3(rows.map(|row| row.0))
+            }
+        }
+    }
+
+    fn along(&self, row: ContactRow, directions: &ContactDirections<'g>) -> Vec3<Expr<'g>> {
+        match row {
             ContactRow::Edge | ContactRow::Lateral => directions.lateral,
             ContactRow::Longitudinal => directions.longitudinal,
             ContactRow::Slip(k) => self.unit(k),
             ContactRow::Height => self.unit(2),
-        };
-        let velocity = centre.map(&mut *rate_of) + rotation.map(rate_of) * fixed;
-        along.dot(velocity)
+        }
     }
 
     fn directions(&self, closes: usize, contact: &PlaneContact) -> ContactDirections<'g> {

@@ -21,6 +21,22 @@ pub(super) struct Moduli<'g> {
     pub(super) angular: Vec<(usize, Vec3<Expr<'g>>)>,
 }
 
+/// What a link takes: m_i r̈_i − R_i, K̇_i; and ω̇_i.
+struct LinkLoad<'g> {
+    force: Vec3<Expr<'g>>,
+    moment: Vec3<Expr<'g>>,
+    turning: Vec3<Expr<'g>>,
+}
+
+/// A load on a link, in fixed axes.
+pub(super) struct PlacedLoad<'g> {
+    pub(super) link: LinkId,
+    pub(super) point: Vec3<Expr<'g>>,
+    pub(super) force: Vec3<Expr<'g>>,
+    /// About the point.
+    pub(super) moment: Vec3<Expr<'g>>,
+}
+
 /// The quantities of the double sum, per link.
 pub(super) struct LiteralSum<'a, 'g> {
     pub(super) b: &'g Builder,
@@ -144,17 +160,16 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             })
     }
 
-    /// Returns P_j for the given velocities and accelerations.
-    pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
+    /// Returns m_i r̈_i − R_i, K̇_i and ω̇_i of each link for the given velocities and accelerations.
+    fn link_loads<'s>(&'s self, x: &'s Arguments<'g>) -> impl Iterator<Item = LinkLoad<'g>> + 's {
         let mut rate = Tangent::new(along(tangents(self.b, self.graph, &x.v)));
-        let mut rate_of = |m: &Vec3<Expr<'g>>| {
+        let mut rate_of = move |m: &Vec3<Expr<'g>>| {
             m.map(|e| {
                 let e = e.signed();
                 self.b.expr(self.b.with_graph(|g| rate.of(g, e)))
             })
         };
-        let mut efforts = vec![self.b.zero(); self.graph.coordinates.len()];
-        for i in 0..self.graph.frames.len() {
+        let link = move |i: usize| {
             let moduli = &self.moduli[i];
             // r̈_i = Σ ∂r_i/∂q_k q̈_k + Σ d/dt(∂r_i/∂q_k) q̇_k, and ω̇_i similarly with ρ_k.
             let mut second = |moduli: &[(usize, Vec3<Expr<'g>>)]| {
@@ -163,12 +178,12 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             };
             let mut acceleration = second(&moduli.linear);
             let mut omega = self.combine(&moduli.angular, &x.v);
-            let mut omega_dot = second(&moduli.angular);
+            let mut turning = second(&moduli.angular);
             if let Some(base) = &x.base {
                 let velocity = self.combine(&moduli.linear, &x.v);
                 acceleration =
                     carried_acceleration(base, self.positions[i], velocity) + acceleration;
-                omega_dot = omega_dot + base.omega_dot + base.omega.cross(omega);
+                turning = turning + base.omega_dot + base.omega.cross(omega);
                 omega = omega + base.omega;
             }
             let mut force = acceleration.scale(self.mass(i));
@@ -177,17 +192,33 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             }
             // K̇_i = J_i ω̇_i + ω_i × (J_i ω_i)
             let tensor = self.tensor(i);
-            let mut moment = tensor * omega_dot + omega.cross(tensor * omega);
+            let mut moment = tensor * turning + omega.cross(tensor * omega);
             // Adds K̇ of the rotors on the link, whose momentum is h_i = N J q̇_j e.
             for (j, h) in self.spinning(i) {
                 moment = moment + h.scale(x.a[j]) + omega.cross(h).scale(x.v[j]);
-                efforts[j] = efforts[j] + h.dot(omega_dot);
+            }
+            LinkLoad {
+                force,
+                moment,
+                turning,
+            }
+        };
+        (0..self.graph.frames.len()).map(link)
+    }
+
+    /// Returns P_j for the given velocities and accelerations.
+    pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
+        let mut efforts = vec![self.b.zero(); self.graph.coordinates.len()];
+        for (i, load) in self.link_loads(x).enumerate() {
+            let moduli = &self.moduli[i];
+            for (j, h) in self.spinning(i) {
+                efforts[j] = efforts[j] + h.dot(load.turning);
             }
             for (j, m) in &moduli.linear {
-                efforts[*j] = efforts[*j] + m.dot(force);
+                efforts[*j] = efforts[*j] + m.dot(load.force);
             }
             for (j, rho) in &moduli.angular {
-                efforts[*j] = efforts[*j] + rho.dot(moment);
+                efforts[*j] = efforts[*j] + rho.dot(load.moment);
             }
         }
         for rotor in &self.graph.rotors {
@@ -195,6 +226,50 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
             efforts[j] = efforts[j] + reflected(self.b, rotor) * x.a[j];
         }
         efforts
+    }
+
+    /// Returns force and moment on each link from its parent, about the link's origin in link axes, without hidden
+    /// links: the sums over the links outboard of the joint, less the loads `given` on them.
+    pub(super) fn joint_loads(&self, x: &Arguments<'g>, given: &[PlacedLoad<'g>]) -> Vec<Expr<'g>> {
+        let own = self.link_loads(x).enumerate().map(|(k, load)| PlacedLoad {
+            link: LinkId(k),
+            point: self.positions[k],
+            force: load.force,
+            moment: load.moment,
+        });
+        let own: Vec<PlacedLoad<'g>> = own.collect();
+        let frames = self.graph.frames.iter().enumerate();
+        let shown = frames.filter(|(_, frame)| !frame.hidden).map(|(i, _)| i);
+        shown
+            .flat_map(|i| {
+                let about = self.placement.origins[i];
+                let of = |loads: &[PlacedLoad<'g>]| {
+                    let outboard = loads.iter().filter(|load| self.carries(i, load.link));
+                    let none = (self.zero(), self.zero());
+                    outboard.fold(none, |(force, moment), load| {
+                        let arm = load.point - about;
+                        let moment = moment + load.moment + arm.cross(load.force);
+                        (force + load.force, moment)
+                    })
+                };
+                let (needed, other) = (of(&own), of(given));
+                let axes = self.placement.rotations[i].transpose();
+                let force = axes * (needed.0 - other.0);
+                let moment = axes * (needed.1 - other.1);
+                force.0.into_iter().chain(moment.0)
+            })
+            .collect()
+    }
+
+    /// Returns whether link i carries another one, or is it.
+    fn carries(&self, i: usize, mut other: LinkId) -> bool {
+        while other.0 != i {
+            let Some(parent) = self.graph.frames[other.0].parent else {
+                return false;
+            };
+            other = parent;
+        }
+        true
     }
 
     /// Returns the joints that drive rotors on link i, with N J e in fixed axes.

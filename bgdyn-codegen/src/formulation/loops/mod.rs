@@ -7,6 +7,7 @@
 use std::rc::Rc;
 
 use super::arguments::Arguments;
+use super::closing_loads::{add_to_joints, reactions};
 use super::loop_methods::{LoopMotion, compose, reads};
 use super::loop_rows::{LoopForm, loop_bias, loop_residuals, loop_rows};
 use super::velocity_map::{FirstPivot, VelocityMap};
@@ -38,7 +39,9 @@ impl Formulation for Elimination {
     }
 
     fn knows(&self, method: Method) -> bool {
-        !self.reads_of_tree(method).is_empty() || Method::OF_LOOPS.contains(&method)
+        !self.reads_of_tree(method).is_empty()
+            || Method::OF_LOOPS.contains(&method)
+            || method == Method::ConstraintBias
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
@@ -69,6 +72,10 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::ConstraintResidual
             | Method::ConstraintJacobian
             | Method::ClosingStep
+            | Method::ConstraintBias
+            | Method::ConstrainedDynamics
+            | Method::Reactions
+            | Method::JointReactions
     );
     let reversible = !in_axes_of_a && loops.clone().any(|one| one.reversible);
     let vectors = matches!(
@@ -82,6 +89,8 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::TreeVelocity
             | Method::TreeAcceleration
             | Method::Multipliers
+            | Method::ConstraintBias
+            | Method::JointReactions
     );
     let choices = |can: bool| {
         if can {
@@ -118,13 +127,16 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
     let b = Builder::new();
     let early;
     let outputs: Vec<Signed> = {
-        let x = Arguments::new(&b, graph, method);
-        let first = method.shape().checked().then_some(graph.coordinates.len());
-        let motion = loop_motion(&b, closed, &x, (form, first));
+        let of_tree = method.of_tree();
+        let own: &Multibody = if of_tree { &closed.tree } else { graph };
+        let x = Arguments::new(&b, own, method);
+        let first = method.shape().checked().then_some(own.coordinates.len());
+        let motion = loop_motion(&b, closed, (&x, method), (form, first));
         early = motion.early_pivots();
         let residuals = loop_residuals(&b, &closed.closure, &x.q);
         let read = |method: Method| prepared.tree_function(method);
         let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
+        let outputs = with_loads(&b, closed, (method, &x.q), outputs);
         outputs.into_iter().map(Expr::signed).collect()
     };
     let name = match reads(method).first() {
@@ -138,11 +150,30 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
     Some((function, early))
 }
 
+/// Returns the results of [`compose`] with loads in place of the multipliers at their end, for reactions.
+fn with_loads<'g>(
+    b: &'g Builder,
+    closed: &ClosedTree,
+    (method, q): (Method, &[Expr<'g>]),
+    mut outputs: Vec<Expr<'g>>,
+) -> Vec<Expr<'g>> {
+    if !matches!(method, Method::Reactions | Method::JointReactions) {
+        return outputs;
+    }
+    let closure = &closed.closure;
+    let lambda = outputs.split_off(outputs.len() - closure.rows.len());
+    match method {
+        Method::Reactions => outputs.extend(reactions(b, closure, (q, &lambda))),
+        _ => add_to_joints(b, closed, (q, &lambda), &mut outputs),
+    }
+    outputs
+}
+
 /// Returns the motion of the open tree for the arguments of a method; with `first` pivots are checked.
 fn loop_motion<'a, 'g>(
     b: &'g Builder,
     closed: &'a ClosedTree,
-    x: &Arguments<'g>,
+    (x, method): (&Arguments<'g>, Method),
     (form, first): (LoopForm, FirstPivot),
 ) -> LoopMotion<'a, 'g> {
     let form = LoopForm {
@@ -154,7 +185,7 @@ fn loop_motion<'a, 'g>(
     let closure = other.unwrap_or(own);
     let rows = loop_rows(b, closure, &x.q, form);
     let map = VelocityMap::new(b, closure, (rows, form), first);
-    LoopMotion::new(map, x, |v| loop_bias(b, closure, (&x.q, v), form))
+    LoopMotion::new(map, (x, method), |v| loop_bias(b, closure, (&x.q, v), form))
 }
 
 /// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, with a formulation of the
@@ -169,7 +200,7 @@ pub(super) fn mass_and_bias(
     let b = Builder::new();
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, Method::Bias);
-        let motion = loop_motion(&b, closed, &x, (LoopForm::default(), None));
+        let motion = loop_motion(&b, closed, (&x, Method::Bias), (LoopForm::default(), None));
         let of = |method| compose(&b, closed, method, (&x, &motion), (&read, &[]));
         let mut all = of(Method::MassMatrix)?;
         all.extend(of(Method::Bias)?);

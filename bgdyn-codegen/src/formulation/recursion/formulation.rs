@@ -48,14 +48,15 @@ impl Formulation for Recursion {
     }
 }
 
-/// Returns whether the recursion has the method: its derivatives are those of joints with q̇ = v.
+/// Returns whether the recursion has the method: its derivatives are those of joints with q̇ = v. Loads through joints
+/// are not those of base parameters, which move masses between links.
 pub(super) fn makes(graph: &Multibody, method: Method) -> bool {
     let partial = [
         Method::InverseDynamicsDerivatives,
         Method::ForwardDynamicsDerivatives,
         Method::CoriolisMatrix,
     ];
-    graph.plain() || !partial.contains(&method)
+    method != Method::JointReactions && (graph.plain() || !partial.contains(&method))
 }
 
 /// Returns the function under the chosen plan.

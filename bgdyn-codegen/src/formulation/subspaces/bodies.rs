@@ -60,7 +60,7 @@ impl<'g> SubspaceBody<'g> {
 }
 
 /// All bodies, parents before children.
-pub(super) struct Bodies<'a, 'g> {
+pub(in crate::formulation) struct Bodies<'a, 'g> {
     pub(super) b: &'g Builder,
     pub(super) graph: &'a Multibody,
     pub(super) bodies: Vec<SubspaceBody<'g>>,
@@ -69,7 +69,27 @@ pub(super) struct Bodies<'a, 'g> {
 }
 
 impl<'a, 'g> Bodies<'a, 'g> {
+    /// Returns the bodies: links that are welded together are one.
     pub(super) fn new(b: &'g Builder, graph: &'a Multibody, q: &[Expr<'g>]) -> Self {
+        let moving = |frame: &LinkFrame| frame.motion != Motion::None;
+        Bodies::where_joints(b, graph, q, moving)
+    }
+
+    /// Returns each link as a body, in the order of the links.
+    pub(in crate::formulation) fn of_links(
+        b: &'g Builder,
+        graph: &'a Multibody,
+        q: &[Expr<'g>],
+    ) -> Self {
+        Bodies::where_joints(b, graph, q, |_| true)
+    }
+
+    fn where_joints(
+        b: &'g Builder,
+        graph: &'a Multibody,
+        q: &[Expr<'g>],
+        is_joint: impl Fn(&LinkFrame) -> bool,
+    ) -> Self {
         let mut all = Bodies {
             b,
             graph,
@@ -84,7 +104,7 @@ impl<'a, 'g> Bodies<'a, 'g> {
                 Some(LinkId(p)) => (homes[p].0, after(homes[p].1, frame.origin)),
             };
             let mut home = (parent, place);
-            if frame.motion != Motion::None {
+            if is_joint(frame) {
                 home = (Some(all.bodies.len()), Pose::IDENTITY);
                 all.bodies.push(body(b, frame, (parent, place), q));
             }

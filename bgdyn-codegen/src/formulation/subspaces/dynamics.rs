@@ -2,9 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, SubspaceBody};
 use super::spatial::Spatial;
-use crate::expr::Expr;
+use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::{Arguments, reflected};
 use crate::math::{Mat3, Vec3};
 
@@ -20,20 +20,59 @@ struct BodyMotion<'g> {
     linear: Vec3<Expr<'g>>,
 }
 
+/// A force and its moment about a body's origin, in its axes.
+#[derive(Clone, Copy)]
+pub(in crate::formulation) struct JointLoad<'g> {
+    pub(in crate::formulation) force: Vec3<Expr<'g>>,
+    pub(in crate::formulation) moment: Vec3<Expr<'g>>,
+}
+
+impl<'g> SubspaceBody<'g> {
+    /// Returns the load in the parent's axes, about its origin.
+    pub(super) fn inboard(&self, b: &'g Builder, load: JointLoad<'g>) -> JointLoad<'g> {
+        let (force, moment) = (self.inward(b, load.force), self.inward(b, load.moment));
+        JointLoad {
+            force,
+            moment: moment + self.position.cross(force),
+        }
+    }
+
+    /// Returns a load in the parent's axes about its origin in the body's axes, about the body's origin.
+    pub(super) fn outboard(&self, b: &'g Builder, load: JointLoad<'g>) -> JointLoad<'g> {
+        let moment = load.moment - self.position.cross(load.force);
+        JointLoad {
+            force: self.outward(b, load.force),
+            moment: self.outward(b, moment),
+        }
+    }
+}
+
 impl<'g> Bodies<'_, 'g> {
     /// Returns the efforts that produce the accelerations.
     pub(super) fn efforts(&self, x: &Arguments<'g>) -> Vec<Expr<'g>> {
+        self.efforts_and_loads(x).0
+    }
+
+    /// Returns the efforts that produce the accelerations, and the loads on the bodies through their joints.
+    pub(super) fn efforts_and_loads(
+        &self,
+        x: &Arguments<'g>,
+    ) -> (Vec<Expr<'g>>, Vec<JointLoad<'g>>) {
         let b = self.b;
         let motions = self.motions(x);
         let zero = Vec3([b.zero(); 3]);
         let mut efforts = vec![b.zero(); self.graph.coordinates.len()];
-        let mut wrenches = vec![(zero, zero); self.bodies.len()];
+        let still = JointLoad {
+            force: zero,
+            moment: zero,
+        };
+        let mut loads = vec![still; self.bodies.len()];
         for (i, body) in self.bodies.iter().enumerate().rev() {
             let motion = &motions[i];
             let inertia = &body.inertia;
             // F = m a + U h, N = ∫ s × U s dm + h × a
             let own = motion.linear.scale(inertia.mass) + motion.field * inertia.first;
-            let force = wrenches[i].0 + own;
+            let force = loads[i].force + own;
             let mut moment =
                 moment_of(motion.field, inertia.pseudo) + inertia.first.cross(motion.linear);
             // A full rotor adds the rate of its momentum N J q̇ e, and has an effort of its own.
@@ -41,21 +80,22 @@ impl<'g> Bodies<'_, 'g> {
                 moment = moment + h.scale(x.a[j]) + motion.angular.cross(h).scale(x.v[j]);
                 efforts[j] = efforts[j] + h.dot(motion.turning);
             }
-            moment = wrenches[i].1 + moment;
+            moment = loads[i].moment + moment;
+            loads[i] = JointLoad { force, moment };
             for (j, column) in &body.columns {
                 efforts[*j] = efforts[*j] + column.angular.dot(moment) + column.linear.dot(force);
             }
             if let Some(p) = body.parent {
                 let (force, moment) = (body.inward(b, force), body.inward(b, moment));
-                wrenches[p].0 = wrenches[p].0 + force;
-                wrenches[p].1 = wrenches[p].1 + moment + body.position.cross(force);
+                loads[p].force = loads[p].force + force;
+                loads[p].moment = loads[p].moment + moment + body.position.cross(force);
             }
         }
         for rotor in &self.graph.rotors {
             let j = rotor.coordinate.0;
             efforts[j] = efforts[j] + reflected(b, rotor) * x.a[j];
         }
-        efforts
+        (efforts, loads)
     }
 
     fn motions(&self, x: &Arguments<'g>) -> Vec<BodyMotion<'g>> {

@@ -11,12 +11,14 @@
 //! | `dynamics.rs` | velocities and accelerations outward, efforts inward, kinetic energy |
 //! | `mass_matrix.rs` | the mass matrix from the momenta of composite bodies, and potential energy |
 //! | `spatial.rs` | spatial vectors and 6×6 matrices |
+//! | `loads.rs` | loads through joints, and those of loops and contacts along their chains |
 //! | `coriolis.rs` | the Coriolis matrix |
 
 mod bodies;
 mod coriolis;
 mod dynamics;
 mod inertia;
+mod loads;
 mod mass_matrix;
 mod spatial;
 
@@ -27,6 +29,8 @@ use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
 use crate::method::Method;
 use bodies::Bodies;
+pub(super) use dynamics::JointLoad;
+pub(super) use loads::{ChainLoad, add_chain_loads};
 
 /// The recursion over motion subspaces.
 pub(super) struct Subspaces;
@@ -53,9 +57,10 @@ impl Formulation for Subspaces {
         )
     }
 
-    /// For rotations and translations alone the recursion with base parameters costs less.
-    fn offer(&self, prepared: &Prepared<'_>, _: Method) -> Offer {
-        match prepared.graph.plain() {
+    /// For rotations and translations alone the recursion with base parameters costs less; it does not know the loads
+    /// through joints, because base parameters move masses between links.
+    fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
+        match prepared.graph.plain() && method != Method::JointReactions {
             true => Offer::Never,
             false => Offer::Candidate,
         }
@@ -83,6 +88,9 @@ fn outputs<'g>(
     method: Method,
     x: &Arguments<'g>,
 ) -> Option<Vec<Expr<'g>>> {
+    if method == Method::JointReactions {
+        return Some(loads::joint_loads(b, graph, x));
+    }
     let bodies = Bodies::new(b, graph, &x.q);
     Some(match method {
         Method::InverseDynamics | Method::Bias | Method::Gravity => bodies.efforts(x),

@@ -260,7 +260,38 @@ impl PlaneContact {
     }
 }
 
+impl<E: Ring> ContactFrame<E> {
+    /// Returns the contact, from the centre: −r e.
+    pub(super) fn contact(&self) -> Vec3<E> {
+        -self.upward.scale(self.radius)
+    }
+}
+
 impl ContactRow {
+    /// Returns the direction of the row's force on the wheel, ball or edge: t, l or z of the plane, or that of the edge.
+    pub(super) fn direction<E: Ring + Mul<Dd, Output = E>>(
+        self,
+        frame: &ContactFrame<E>,
+    ) -> Vec3<E> {
+        match self {
+            ContactRow::Edge => frame.axle,
+            ContactRow::Longitudinal => frame.forward,
+            // l = z × t
+            ContactRow::Lateral => frame.normal.cross(frame.forward),
+            ContactRow::Slip(k) => frame.plane[k],
+            ContactRow::Height => frame.normal,
+        }
+    }
+
+    /// Returns its component of the force in the axes of the contact: ahead, along the axle in the plane, normal to it;
+    /// of a ball along x and y of the plane; `None` for a knife edge.
+    pub fn contact_axis(self) -> Option<usize> {
+        match self {
+            ContactRow::Edge => None,
+            _ => Some(self.component()),
+        }
+    }
+
     /// Returns whether positions do not decide whether the row holds.
     pub fn of_velocities(self) -> bool {
         self != ContactRow::Height

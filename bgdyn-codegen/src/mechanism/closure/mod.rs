@@ -47,7 +47,7 @@ pub use contact_types::{DISC, KNIFE_EDGE, SPHERE};
 pub use ranges::{ClosedRange, RangeEnd, TreeLimits};
 pub use reach::Unreached;
 pub use row::{ClosingRow, RowKind};
-pub use rows_at::{RowAxes, RowsAt};
+pub use rows_at::{RowAxes, RowLoad, RowsAt};
 use solve::solve_basic;
 pub(crate) use solve::{eliminate, solve};
 

@@ -9,7 +9,7 @@ use super::chain::{ChainFrames, LoopChain, RelativePlace, TwistPoint};
 use super::contact::{ContactAxes, ContactFrame, ContactNumbers};
 use super::row::RowKind;
 use super::{Closure, KinematicLoop};
-use crate::math::Ring;
+use crate::math::{Ring, Vec3};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::joint::Column;
 
@@ -36,7 +36,12 @@ pub struct RowsAt<'a, E> {
     /// The height of a contact's place a above its plane, m.
     height: E,
     zero: E,
+    unit: E,
 }
+
+/// The load of a row with the multiplier 1, in the axes of place a: on place b about its origin, on a wheel, a ball or
+/// a knife edge at the contact.
+pub type RowLoad<E> = Column<E>;
 
 impl Closure {
     /// Returns the rows of a loop at a position of the open tree.
@@ -84,6 +89,7 @@ impl Closure {
             contact,
             height,
             zero: numbers.constant(Dd::ZERO),
+            unit: numbers.constant(Dd::ONE),
         }
     }
 
@@ -131,6 +137,44 @@ impl<E: Ring + Mul<Dd, Output = E>> RowsAt<'_, E> {
                 row.bias(frame, (&rates, of_plane.velocity.angular), *axes)
             }
             _ => self.zero,
+        }
+    }
+
+    /// Returns the load of a row with the multiplier 1: a force is its linear part, a moment its angular part.
+    pub fn load(&self, row: RowKind) -> RowLoad<E> {
+        let none = Vec3([self.zero; 3]);
+        match (row, &self.contact) {
+            (RowKind::Closing(row), _) => {
+                // The power of the row is its multiplier times its rate, which is linear in the twist.
+                let along = |angular, linear| {
+                    row.rate(&self.place, &Column { angular, linear }, self.one.length)
+                };
+                let unit = |k: usize| {
+                    let at = |i| if i == k { self.unit } else { self.zero };
+                    Vec3(std::array::from_fn(at))
+                };
+                Column {
+                    angular: Vec3(std::array::from_fn(|k| along(unit(k), none))),
+                    linear: Vec3(std::array::from_fn(|k| along(none, unit(k)))),
+                }
+            }
+            (RowKind::Contact(row), Some((frame, _))) => Column {
+                angular: none,
+                linear: row.direction(frame),
+            },
+            (RowKind::Contact(_), None) => Column {
+                angular: none,
+                linear: none,
+            },
+        }
+    }
+
+    /// Returns the point of the loads, from the origin of place a, in its axes, m.
+    pub fn load_point(&self) -> Vec3<E> {
+        match &self.contact {
+            Some((frame, _)) => frame.contact(),
+            None if self.one.kind.coincident => Vec3([self.zero; 3]),
+            None => self.place.position,
         }
     }
 }

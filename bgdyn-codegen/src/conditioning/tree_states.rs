@@ -1,0 +1,51 @@
+//! The arguments of methods that take velocities of the open tree of a mechanism with loops.
+
+use bgdyn_runtime::Dd;
+
+use crate::bond_graph::BondGraph;
+use crate::expr::Inputs;
+use crate::method::Method;
+
+/// Returns the state with the velocities and efforts of all joints of the open tree, if the method takes these: the
+/// velocities S v, and for [`Method::ProjectVelocity`] others, at which the rows do not hold.
+pub(crate) fn of_method(graph: &BondGraph, method: Method, state: &Inputs<Dd>) -> Inputs<Dd> {
+    let mut state = state.clone();
+    let Some(closed) = graph.closed.as_deref().filter(|_| method.of_tree()) else {
+        return state;
+    };
+    let nt = closed.tree.coordinates.len();
+    let row = |row: &Vec<Dd>| {
+        let terms = row.iter().zip(&state.v);
+        terms.fold(Dd::ZERO, |sum, (s, v)| sum + *s * *v)
+    };
+    let map = closed.closure.velocity_map(&state.q);
+    let moved = map.map_or_else(|| vec![Dd::ZERO; nt], |map| map.iter().map(row).collect());
+    // Numbers of both signs, different from joint to joint.
+    let others = |of: &[Dd], j: usize| match of {
+        [] => Dd::ZERO,
+        _ => of[j % of.len()] * Dd::from_f64(0.7 - 0.3 * j as f64),
+    };
+    let all = 0..nt;
+    state.v = match method {
+        Method::ProjectVelocity => all
+            .clone()
+            .map(|j| moved[j] + others(&state.a, j))
+            .collect(),
+        _ => moved,
+    };
+    state.u = all.map(|j| others(&state.u, j)).collect();
+    state
+}
+
+/// Rounds the numbers to `f64`.
+pub(crate) fn rounded(state: &Inputs<Dd>) -> Inputs<f64> {
+    let all = |x: &[Dd]| x.iter().map(|x| x.to_f64()).collect();
+    Inputs {
+        q: all(&state.q),
+        v: all(&state.v),
+        a: all(&state.a),
+        u: all(&state.u),
+        parameters: all(&state.parameters),
+        ..Inputs::default()
+    }
+}

@@ -1,0 +1,317 @@
+//! Forces and moments at the places of loops and at the joints: each link is a free body, whose motion follows from
+//! poses alone; references with multipliers; a four-bar by hand.
+
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::random::Random;
+use bgdyn_runtime::Dd;
+
+use super::free_bodies::{Placed, assert_free_bodies, three};
+use super::random_loops::{Text, noisy};
+use super::references::{joints, names, numbers, reference, spec};
+use super::robot::{Robot, State, Way, close, largest};
+
+const WAYS: [Way; 2] = [None, Some("subspaces")];
+
+/// The loads of a mechanism with loops at one state.
+struct Loads {
+    /// Of the open tree.
+    motion: State<Dd>,
+    reactions: Vec<Dd>,
+    joints: Vec<Dd>,
+    /// By velocity of the open tree.
+    efforts: Vec<Dd>,
+}
+
+fn loads(robot: &Robot, way: Way, mut state: State<Dd>) -> Loads {
+    let value =
+        |state: &State<Dd>, method| -> Vec<Dd> { state.value(&robot.function(way, method)) };
+    state.u = value(&state, Method::InverseDynamics);
+    let motion = State {
+        q: state.q.clone(),
+        v: value(&state, Method::TreeVelocity),
+        a: value(&state, Method::TreeAcceleration),
+        u: vec![],
+    };
+    let found = value(&state, Method::Reactions);
+    let (accelerations, reactions) = found.split_at(robot.nv());
+    close(
+        accelerations,
+        &state.a,
+        1e-20,
+        largest(&motion.a),
+        "accelerations",
+    );
+    let mut efforts = vec![Dd::ZERO; motion.v.len()];
+    let closure = robot.mechanism.closure().expect("loops");
+    for (j, &p) in closure.independents.iter().zip(&state.u) {
+        efforts[j.0] = p;
+    }
+    Loads {
+        joints: value(&state, Method::JointReactions),
+        reactions: reactions.to_vec(),
+        motion,
+        efforts,
+    }
+}
+
+fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
+    let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.closed()));
+    let closure = robot.mechanism.closure().expect("loops");
+    for seed in 0..2 {
+        let mut state = robot.state(seed);
+        for p in closure.positions.iter().flatten() {
+            state.q[p.0] = closure.samples[5 * seed as usize + 1][p.0];
+        }
+        for way in WAYS {
+            let found = loads(&robot, way, state.clone());
+            let mut given = Vec::new();
+            for (l, [a, b]) in links.iter().enumerate() {
+                let at = |end: &str| Placed::frame(&tree, &format!("{end}{l}"), &found.motion);
+                let place = Placed {
+                    origin: at("b").origin,
+                    ..at("a")
+                };
+                let load = place.load(&found.reactions[6 * l..6 * l + 6]);
+                given.push((*b, load));
+                given.push((*a, load.opposite()));
+            }
+            let what = format!("{what}, state {seed}, {way:?}");
+            let all = (&found.joints[..], &given[..], &found.efforts[..]);
+            assert_free_bodies(&tree, &found.motion, all, 1e-17, &what);
+        }
+    }
+}
+
+#[test]
+fn links_of_spatial_loops_are_free_bodies() {
+    for (seed, root) in ["fixed", "prismatic, axis: [0.6, 0.8, 0]"]
+        .into_iter()
+        .enumerate()
+    {
+        let mut random = Random(1100 + seed as u64);
+        let mut text = Text::new(&mut random, root, 4, noisy);
+        text.connect(&mut random, "point", [4, 8], ([0, 0, 1000], [0; 3]));
+        let apart = ([0, 0, 1000], [30, 40, 120]);
+        text.connect(&mut random, "distance", [3, 6], apart);
+        compare(&text, &[[4, 8], [3, 6]], &format!("point and rod, {root}"));
+    }
+}
+
+#[test]
+fn links_of_loops_of_other_types_are_free_bodies() {
+    for (seed, kind) in ["hinge", "slider", "weld", "universal"]
+        .into_iter()
+        .enumerate()
+    {
+        let mut random = Random(1200 + seed as u64);
+        let mut text = Text::new(&mut random, "continuous, axis: [1, -2, 3]", 4, noisy);
+        let axis = noisy(&mut random);
+        let apart = if kind == "slider" {
+            axis.map(|x| x / 10)
+        } else {
+            [0; 3]
+        };
+        text.connect(&mut random, kind, [4, 8], (axis, apart));
+        compare(&text, &[[4, 8]], kind);
+    }
+}
+
+/// Three rows of the hinge are left out: the links are in balance without their loads.
+#[test]
+fn links_of_planar_loops_are_free_bodies() {
+    let mut random = Random(1300);
+    let mut text = Text::new(&mut random, "fixed", 3, |_| [0, 0, 1000]);
+    text.links = text.links.replacen(
+        "type: prismatic, axis: [0.000, 0.000, 1.000]",
+        "type: prismatic, axis: [0.600, 0.800, 0.000]",
+        1,
+    );
+    text.connect(&mut random, "hinge", [3, 6], ([0, 0, 1000], [0; 3]));
+    compare(&text, &[[3, 6]], "planar");
+}
+
+/// The multipliers of the references are forces on the link of place a in fixed axes.
+#[test]
+fn balls_of_parallel_robots_carry_the_forces_of_the_references() {
+    for (name, of) in [
+        ("delta_robot", "delta_robot_static"),
+        ("stewart_platform", "stewart_platform_static"),
+    ] {
+        let (robot, file) = (Robot::read(&spec(name)), reference(of));
+        let (_, independent) = joints(&robot, &file);
+        let closed = robot.graph.closed.as_deref().expect("loops");
+        // Poses of the links on which the places a are.
+        let tree = bgdyn_codegen::formulation::Prepared::new(&closed.tree);
+        let links = closed
+            .closure
+            .loops
+            .iter()
+            .map(|one| one.links[0].expect("a link"));
+        let poses = links.map(|link| {
+            let name = &closed.tree.frames[link.0].name;
+            let site = closed.tree.sites.iter().position(|site| site.name == *name);
+            let method = Method::Pose(bgdyn_codegen::bond_graph::SiteId(site.expect("a site")));
+            let literal = bgdyn_codegen::formulation::specification();
+            literal.function(&tree, method).expect("a pose")
+        });
+        let poses: Vec<_> = poses.collect();
+        let actuated = names(&file["actuated"]);
+        let columns = joints(&robot, &file).0;
+        for (k, sample) in file["states"]
+            .as_array()
+            .expect("states")
+            .iter()
+            .enumerate()
+        {
+            let forward = &sample["forward"];
+            let dd = |x: &serde_json::Value| -> Vec<Dd> {
+                numbers(x).into_iter().map(Dd::from_f64).collect()
+            };
+            let (mut q, v) = (dd(&sample["q"]), dd(&sample["qd"]));
+            let drive = dd(&forward["actuator_efforts"]);
+            closed.closure.close(&mut q);
+            let map = closed.closure.velocity_map(&q).expect("a regular position");
+            // Sᵀ P
+            let own = |c: usize| {
+                let terms = actuated.iter().zip(&drive).map(|(name, p)| {
+                    let j = columns.iter().position(|c| c == name).expect("a joint");
+                    map[j][c] * *p
+                });
+                terms.fold(Dd::ZERO, |sum, x| sum + x)
+            };
+            let state = State {
+                q,
+                v: independent.iter().map(|&i| v[i]).collect(),
+                a: vec![],
+                u: (0..independent.len()).map(own).collect(),
+            };
+            let expected = dd(&forward["lambda"]);
+            let found: Vec<Dd> = state.value(&robot.function(None, Method::Reactions));
+            let found = &found[robot.nv()..];
+            let size = largest(&expected).max(largest(&drive));
+            // Efforts of dependent drives are not those of the independent velocities.
+            if actuated.iter().any(|name| {
+                !independent.contains(&columns.iter().position(|c| c == name).expect("a joint"))
+            }) {
+                continue;
+            }
+            for (l, pose) in poses.iter().enumerate() {
+                let pose: Vec<Dd> = state.value(pose);
+                let world = three(|i| {
+                    (0..3).fold(Dd::ZERO, |sum, j| sum + pose[3 * i + j] * found[6 * l + j])
+                });
+                let wanted: Vec<Dd> = (0..3).map(|i| -expected[3 * l + i]).collect();
+                close(
+                    &world,
+                    &wanted,
+                    1e-11,
+                    size,
+                    &format!("{name}, state {k}, ball {l}"),
+                );
+                assert_eq!(
+                    largest(&found[6 * l + 3..6 * l + 6]),
+                    0.0,
+                    "a ball carries no moment"
+                );
+            }
+        }
+    }
+}
+
+/// A four-bar held at rest by its crank: moments of the rocker about its pivot, and of the coupler about its pin.
+#[test]
+fn the_pin_of_a_four_bar_at_rest_carries_what_statics_says() {
+    let robot = Robot::read(&spec("four_bar"));
+    let closure = robot.mechanism.closure().expect("loops");
+    for sample in [0, 3, 7] {
+        let q = closure.samples[sample].clone();
+        let [crank, coupler, rocker] = [q[0], q[0] + q[1], q[2]].map(Dd::to_f64);
+        let still = State {
+            q,
+            v: vec![Dd::ZERO],
+            a: vec![Dd::ZERO],
+            u: vec![],
+        };
+        let found = loads(&robot, None, still);
+        // Points from the pivot of the crank, m; the rocker's pivot is 0.35 m ahead.
+        let along = |angle: f64, length: f64| [length * angle.cos(), length * angle.sin()];
+        let sum = |a: [f64; 2], b: [f64; 2]| [a[0] + b[0], a[1] + b[1]];
+        let elbow = along(crank, 0.12);
+        let weight = |m: f64| m * 9.81;
+        // The force F on the rocker at the pin: r × F = x m g about each pivot, with the opposite F on the coupler.
+        let (r, s) = (along(rocker, 0.3), along(coupler, 0.4));
+        let (right_r, right_s) = (
+            along(rocker, 0.15)[0] * weight(0.7),
+            -(along(coupler, 0.2)[0] * weight(0.9)),
+        );
+        let det = -r[1] * s[0] + s[1] * r[0];
+        let x = (right_r * s[0] - right_s * r[0]) / det;
+        let y = (-r[1] * right_s + s[1] * right_r) / det;
+        // In the axes of the coupler.
+        let (cos, sin) = (coupler.cos(), coupler.sin());
+        let wanted = [x * cos + y * sin, -x * sin + y * cos, 0.0, 0.0, 0.0, 0.0];
+        for (k, (found, wanted)) in found.reactions.iter().zip(wanted).enumerate() {
+            let off = (found.to_f64() - wanted).abs();
+            assert!(
+                off < 1e-12,
+                "sample {sample}, {k}: {found:?} against {wanted}"
+            );
+        }
+        // The crank's pivot carries the crank, the coupler, and the opposite force of the pin.
+        let base = along(-crank, 1.0);
+        let up = weight(0.4 + 0.9) + y;
+        let force = [x * base[0] - up * base[1], x * base[1] + up * base[0]];
+        let torque = along(crank, 0.06)[0] * weight(0.4)
+            + sum(elbow, along(coupler, 0.2))[0] * weight(0.9)
+            + (sum(elbow, s)[0] * y - sum(elbow, s)[1] * x);
+        let wanted = [force[0], force[1], 0.0, 0.0, 0.0, torque];
+        for (k, (found, wanted)) in found.joints.iter().zip(wanted).enumerate() {
+            let off = (found.to_f64() - wanted).abs();
+            assert!(
+                off < 1e-12,
+                "sample {sample}, crank {k}: {found:?} against {wanted}"
+            );
+        }
+        assert!((found.efforts[0].to_f64() - torque).abs() < 1e-12);
+    }
+}
+
+/// Base parameters move masses across joints; loads are those of the links nevertheless, in `f64` to 64 roundings.
+#[test]
+fn loads_do_not_depend_on_where_base_parameters_are() {
+    let ways: [Way; 4] = [None, Some("recursion"), Some("subspaces"), Some("literal")];
+    for name in ["four_bar", "slider_crank", "five_bar"] {
+        let robot = Robot::read(&spec(name));
+        let closure = robot.mechanism.closure().expect("loops");
+        for seed in 0..4 {
+            let mut state = robot.state(seed);
+            state.q.clone_from(&closure.samples[seed as usize]);
+            for method in [Method::Reactions, Method::JointReactions] {
+                let exact: Vec<Dd> = state.value(&robot.function(Some("literal"), method));
+                let size = largest(&exact);
+                // The recursion knows no loads at joints.
+                let knows = |way: &Way| method == Method::Reactions || *way != Some("recursion");
+                for way in ways.into_iter().filter(knows) {
+                    let function = robot.function(way, method);
+                    let found: Vec<Dd> = state.value(&function);
+                    close(
+                        &found,
+                        &exact,
+                        1e-26,
+                        size,
+                        &format!("{name}, {way:?}, {method:?}"),
+                    );
+                    let short: Vec<f64> = state.rounded().value(&function);
+                    for (found, exact) in short.iter().zip(&exact) {
+                        let off = (found - exact.to_f64()).abs();
+                        let allowed = 64.0 * f64::EPSILON * size;
+                        assert!(
+                            off <= allowed,
+                            "{name}, {way:?}, {method:?}: {off:e} of {size}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
