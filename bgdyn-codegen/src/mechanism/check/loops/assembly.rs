@@ -23,7 +23,7 @@ const NEAR: usize = 8;
 const ROUNDED: f64 = 1e-4;
 
 /// A position with its gap, m or rad.
-type Open = (f64, Vec<Dd>);
+type OpenPosition = (f64, Vec<Dd>);
 
 /// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
 /// independent: their positions stay those of the start if they can. Returns by how much the start is open: 0, or a gap
@@ -46,7 +46,7 @@ pub(super) fn assemble(
         .filter(|j| !kept.contains(&CoordinateId(*j)))
         .collect();
     let mut best = (f64::INFINITY, given.clone());
-    let mut near: Vec<Open> = Vec::new();
+    let mut near: Vec<OpenPosition> = Vec::new();
     let rounded = ROUNDED * closure.size();
     let mut wrong: Option<usize> = None;
     let tolerance = read.iter().filter_map(|one| one.tolerance);
@@ -106,9 +106,13 @@ fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usi
 }
 
 /// Reports the loop with the largest gap at the best position, or the one that would move if it closed.
-fn report_gap(closure: &Closure, ((left, q), near): (Open, &[Open]), faults: &mut Faults) {
+fn report_gap(
+    closure: &Closure,
+    ((left, q), near): (OpenPosition, &[OpenPosition]),
+    faults: &mut Faults,
+) {
     let rounded = ROUNDED * closure.size();
-    let moves = |(left, q): &Open| rank::almost_moves(closure, (q, *left), rounded);
+    let moves = |(left, q): &OpenPosition| rank::almost_moves(closure, (q, *left), rounded);
     if let Some(almost) = near.iter().find_map(moves) {
         let one = &closure.loops[almost.closes];
         let gaps = (almost.gap, almost.open);
