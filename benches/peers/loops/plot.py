@@ -36,7 +36,8 @@ def svg(rows):
         some = [r for r in rows if r["mechanism"] == name and r.get("error")]
         left = LEFT + k * (WIDTH + GAP)
         (x0, x1), (y0, y1) = decades([along(r) for r in some]), decades([r["error"] for r in some])
-        x = lambda v: left + WIDTH * (math.log10(v) - x0) / (x1 - x0)
+        margin = 0 if timed else 24
+        x = lambda v: left + margin + (WIDTH - 2 * margin) * (math.log10(v) - x0) / (x1 - x0)
         y = lambda v: TOP + HEIGHT * (y1 - math.log10(v)) / (y1 - y0)
         lines.append(text(left, TOP - 18, title, 'font-size="13"'))
         for decade in range(x0, x1 + 1):
@@ -52,7 +53,9 @@ def svg(rows):
             # Hollow where Python takes part in each step.
             colour = COLOURS[r["system"]]
             fill = f'fill="white" stroke="{colour}" stroke-width="1.5"' if timed and "Python" in r["inside"] else f'fill="{colour}"'
-            lines.append(f'<circle cx="{x(along(r)):.1f}" cy="{y(r["error"]):.1f}" r="4" {fill}/>')
+            # Over the step, systems stand side by side.
+            beside = 0 if timed else 9 * (list(COLOURS).index(r["system"]) - 1.5)
+            lines.append(f'<circle cx="{x(along(r)) + beside:.1f}" cy="{y(r["error"]):.1f}" r="4" {fill}/>')
     if timed:
         lines.append(text(LEFT + 410, 24, "hollow: with Python in each step"))
     lines.append("</svg>")

@@ -22,6 +22,9 @@ const NEAR: usize = 8;
 /// A gap below this, relative to the size of the largest loop, would be one of rounded lengths.
 const ROUNDED: f64 = 1e-4;
 
+/// A position with its gap, m or rad.
+type OpenPosition = (f64, Vec<Dd>);
+
 /// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
 /// independent: their positions stay those of the start if they can. Returns by how much the start is open: 0, or a gap
 /// within the `tolerance` of the file.
@@ -43,7 +46,7 @@ pub(super) fn assemble(
         .filter(|j| !kept.contains(&CoordinateId(*j)))
         .collect();
     let mut best = (f64::INFINITY, given.clone());
-    let mut near: Vec<(f64, Vec<Dd>)> = Vec::new();
+    let mut near: Vec<OpenPosition> = Vec::new();
     let rounded = ROUNDED * closure.size();
     let mut wrong: Option<usize> = None;
     let tolerance = read.iter().filter_map(|one| one.tolerance);
@@ -105,11 +108,11 @@ fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usi
 /// Reports the loop with the largest gap at the best position, or the one that would move if it closed.
 fn report_gap(
     closure: &Closure,
-    ((left, q), near): ((f64, Vec<Dd>), &[(f64, Vec<Dd>)]),
+    ((left, q), near): (OpenPosition, &[OpenPosition]),
     faults: &mut Faults,
 ) {
     let rounded = ROUNDED * closure.size();
-    let moves = |(left, q): &(f64, Vec<Dd>)| rank::almost_moves(closure, (q, *left), rounded);
+    let moves = |(left, q): &OpenPosition| rank::almost_moves(closure, (q, *left), rounded);
     if let Some(almost) = near.iter().find_map(moves) {
         let one = &closure.loops[almost.closes];
         let gaps = (almost.gap, almost.open);

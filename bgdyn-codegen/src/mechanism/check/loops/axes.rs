@@ -17,7 +17,7 @@ use crate::mechanism::joint::DoubleDouble;
 const ROUNDING: f64 = 1e-40;
 
 /// A joint of a loop at one position, in the axes of place a.
-struct JointAxis {
+struct LoopAxis {
     rotates: bool,
     direction: Vec3<Dd>,
     /// A point of the axis, m.
@@ -51,14 +51,14 @@ fn slides(one: &KinematicLoop) -> bool {
 }
 
 /// Returns the axes of all joints that move; `None` if one does more than rotate or slide.
-fn joint_axes(chain: &LoopChain, q: &[Dd]) -> Option<Vec<JointAxis>> {
+fn joint_axes(chain: &LoopChain, q: &[Dd]) -> Option<Vec<LoopAxis>> {
     let frames = chain.frames(q, &DoubleDouble);
     let steps = chain.steps.iter().enumerate();
     let moving = steps.filter(|(_, step)| step.motion != Motion::None);
     let axis = |(k, step): (usize, &ChainStep)| {
         let link = k + usize::from(step.outward);
         let (axes, point) = frames.link(link);
-        (step.motion.nv() == 1 && !matches!(step.motion, Motion::Compound(_))).then(|| JointAxis {
+        (step.motion.nv() == 1 && !matches!(step.motion, Motion::Compound(_))).then(|| LoopAxis {
             rotates: step.motion == Motion::Rotation,
             direction: axes * step.axis,
             point,
@@ -68,7 +68,7 @@ fn joint_axes(chain: &LoopChain, q: &[Dd]) -> Option<Vec<JointAxis>> {
 }
 
 /// Returns the rotation of the rows' axes, if they are not along the loop's own already.
-fn turn(one: &KinematicLoop, joints: &[JointAxis]) -> Option<Mat3<Dd>> {
+fn turn(one: &KinematicLoop, joints: &[LoopAxis]) -> Option<Mat3<Dd>> {
     let normal = normal(joints)?;
     // Along axis k the other two components are rounding errors.
     let along = |k: usize| {
@@ -98,7 +98,7 @@ fn turn(one: &KinematicLoop, joints: &[JointAxis]) -> Option<Mat3<Dd>> {
 }
 
 /// Returns the normal of a plane in which all joints move, or the line along which they do.
-fn normal(joints: &[JointAxis]) -> Option<Vec3<Dd>> {
+fn normal(joints: &[LoopAxis]) -> Option<Vec3<Dd>> {
     let rotation = joints.iter().find(|joint| joint.rotates);
     let slides = || joints.iter().filter(|joint| !joint.rotates);
     let first = slides().next().map(|joint| joint.direction);
@@ -113,7 +113,7 @@ fn normal(joints: &[JointAxis]) -> Option<Vec3<Dd>> {
         }
         (None, None) => return None,
     };
-    let fits = |joint: &JointAxis| match joint.rotates {
+    let fits = |joint: &LoopAxis| match joint.rotates {
         true => is_zero(normal.cross(joint.direction)),
         false => {
             let off = normal.dot(joint.direction).to_f64();
@@ -152,9 +152,9 @@ fn on_axis(chain: &LoopChain, positions: &[Vec<Dd>]) -> Option<Dd> {
 }
 
 /// Returns the point that all axes go through.
-fn centre(joints: &[JointAxis]) -> Option<Vec3<Dd>> {
+fn centre(joints: &[LoopAxis]) -> Option<Vec3<Dd>> {
     let first = joints.first()?;
-    let crossing = |joint: &JointAxis| {
+    let crossing = |joint: &LoopAxis| {
         // first.point + s u nearest to the other axis: s = ((p × w) · n) / (n · n), n = u × w
         let n = first.direction.cross(joint.direction);
         let size = n.dot(n);
@@ -162,6 +162,6 @@ fn centre(joints: &[JointAxis]) -> Option<Vec3<Dd>> {
         (!is_zero(n)).then(|| first.point + first.direction.scale(s))
     };
     let centre = joints.iter().find_map(crossing)?;
-    let through = |joint: &JointAxis| is_zero((centre - joint.point).cross(joint.direction));
+    let through = |joint: &LoopAxis| is_zero((centre - joint.point).cross(joint.direction));
     (joints.iter().all(|joint| joint.rotates) && joints.iter().all(through)).then_some(centre)
 }
