@@ -82,6 +82,10 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::CheckedVector => "checked",
             Shape::CheckedSquares => "checked_matrices",
             Shape::Pose => "pose",
+            Shape::CheckedTree
+            | Shape::CheckedTreeAndRows
+            | Shape::CheckedWrenches
+            | Shape::LinkWrenches => unreachable!("these methods are generated on request only"),
             Shape::Parts | Shape::CheckedParts => unreachable!("no scene is among the specs"),
         };
         let arguments = function.method.arguments().iter().map(|a| a.name());

@@ -35,7 +35,7 @@ fn run<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
     let h = end / steps as f64;
     let efforts = |t, s: &State<f64, NQ, NV>| tau(t, &s.q);
     let mut run = Run {
-        state: start.clone(),
+        state: *start,
         refused: None,
         gap: gap(&start.q),
         seconds: 0.0,
@@ -52,7 +52,7 @@ fn run<M: Dynamics<f64, NQ, NV>, const NQ: usize, const NV: usize>(
         run.gap = run.gap.max(gap(&run.state.q));
     }
     let begun = Instant::now();
-    let mut state = start.clone();
+    let mut state = *start;
     for k in 0..steps {
         let moved = rk4_step(model, k as f64 * h, black_box(&state), h, efforts);
         let Ok(next) = moved else { return run };
