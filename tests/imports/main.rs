@@ -22,6 +22,7 @@ const CRATES: &[&str] = &[
     "bgdyn-accuracy",
     "bgdyn-cli",
     "bgdyn-codegen",
+    "bgdyn-macros",
     "bgdyn-runtime",
     "bgdyn-sim",
 ];
@@ -33,7 +34,7 @@ fn files_of_a_crate_import_each_other_in_one_direction() {
     for name in CRATES {
         let source = root.join(name).join("src");
         let imports = imports(&source);
-        assert!(imports.len() > 5, "{name}: no files are found");
+        assert!(imports.len() > 2, "{name}: no files are found");
         for circle in circles(&imports) {
             found += &description(name, &imports, &circle);
         }

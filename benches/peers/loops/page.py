@@ -86,7 +86,7 @@ def text(rows, root: Path, quick, times):
         "# Closed loops in other systems\n",
         f"{datetime.date.today()}, commit `{git.stdout.strip()}`. {versions}. Written by `benches/peers/loops/run.sh --docs`."
         + (" **A test of the scripts: short runs, times of one round.**" if quick else "")
-        + ("" if times else " Times were not measured.") + "\n",
+        + ("" if times else " Times were not measured (`--without-times`).") + "\n",
         f"![Error of each run over its {'time' if times else 'step'}](peers_loops.svg)\n",
         "Each run has a fixed step. *Gap* is the largest distance of two pins that should coincide, after each step, m. "
         "*Time* is that of a simulated second, the shortest of several rounds in which all runs take turns, without the "

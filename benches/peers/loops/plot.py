@@ -5,10 +5,19 @@ import math
 # Colours that colour-blind readers can tell apart (Okabe, Ito 2008).
 COLOURS = {"bgdyn": "#D55E00", "Pinocchio": "#0072B2", "MuJoCo": "#009E73", "Drake": "#CC79A7"}
 # On a dark ground.
+DARK_COLOURS = {
+    "fill": {"#222": "#c4c4c4", "white": "#161616"},
+    "stroke": {"#ddd": "#383838"},
+    "both": {"#D55E00": "#dc6410", "#0072B2": "#3793d6", "#009E73": "#16a479", "#CC79A7": "#cc79a7"},
+}
 DARK = (
     "<style>@media (prefers-color-scheme: dark){svg:not([fill]){fill:#f5f5f5}"
-    '[fill="#222"]{fill:#c4c4c4}[fill="white"]{fill:#161616}[stroke="#ddd"]{stroke:#383838}'
-    '[fill="#D55E00"]{fill:#dc6410}[fill="#0072B2"]{fill:#3793d6}[fill="#009E73"]{fill:#16a479}}</style>'
+    + "".join(
+        f'[{attribute}="{light}"]{{{attribute}:{dark}}}'
+        for attribute in ("fill", "stroke")
+        for light, dark in {**DARK_COLOURS[attribute], **DARK_COLOURS["both"]}.items()
+    )
+    + "}</style>"
 )
 TITLES = {"parallelograms": "Two parallelograms: error, m", "five_bar": "Five-bar: error, rad"}
 WIDTH, HEIGHT, LEFT, TOP, GAP = 330, 260, 60, 70, 80
