@@ -262,3 +262,23 @@ fn all_mistakes_of_a_plane_are_reported_once() {
         ]
     );
 }
+
+/// A bicycle that cannot be steered leans and rolls: no position at which it lies flat is taken for one of its motion.
+#[test]
+fn a_bicycle_without_steering_leans_and_rolls() {
+    let text = "format: 1
+name: tandem
+links:
+  - { name: base, joint: { name: ground, type: planar } }
+  - { name: rise, parent: base, joint: { name: height, type: prismatic, axis: z } }
+  - { name: roll, parent: rise, joint: { name: lean, type: continuous, axis: x } }
+  - { name: frame, parent: roll, joint: { name: pitch, type: continuous, axis: y }, mass: 80, inertia: { xx: 9, yy: 11, zz: 3 } }
+  - { name: rear_wheel, parent: frame, joint: { name: rear_spin, type: continuous, axis: y }, mass: 2, inertia: { xx: 0.06, yy: 0.12, zz: 0.06 } }
+  - { name: front_wheel, parent: frame, joint: { name: front_spin, type: continuous, axis: y, origin: { xyz: [1.02, 0, 0.05] } }, mass: 3, inertia: { xx: 0.14, yy: 0.28, zz: 0.14 } }
+constraints:
+  rear: { type: rolling, link: rear_wheel, axis: y, radius: 300 mm }
+  front: { type: rolling, link: front_wheel, axis: y, radius: 350 mm }
+independent: [lean, rear_spin]
+";
+    assert_eq!(found(text).0, []);
+}

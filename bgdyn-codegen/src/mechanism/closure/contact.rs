@@ -265,6 +265,11 @@ impl<E: Ring> ContactFrame<E> {
     pub(super) fn contact(&self) -> Vec3<E> {
         -self.upward.scale(self.radius)
     }
+
+    /// Returns the cosine of a wheel's lean, s; 1 for balls and knife edges.
+    pub(super) fn cosine_of_lean(&self) -> E {
+        self.cosine[0]
+    }
 }
 
 impl ContactRow {

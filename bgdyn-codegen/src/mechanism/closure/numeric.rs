@@ -17,6 +17,9 @@ const STEPS: usize = 60;
 /// Largest change of a position in one step, rad or m.
 const LARGEST_STEP: f64 = 0.5;
 
+/// The least cosine of a wheel's lean at sampled positions.
+const LEAST_COSINE: f64 = 0.05;
+
 /// Steps of a walk between two sampled positions, and their size.
 const WALK: (usize, f64) = (8, 0.3);
 
@@ -165,10 +168,26 @@ impl Closure {
             let mut moved = q.to_vec();
             self.move_by(&mut moved, &tangent.collect::<Vec<_>>());
             let closed = self.assemble(rows, &mut moved, &free) <= CLOSED;
-            if closed && self.signs_at(&moved) == self.signs {
+            if closed && !self.nearly_flat(&moved) && self.signs_at(&moved) == self.signs {
                 q.copy_from_slice(&moved);
             }
         }
+    }
+
+    /// Returns whether a wheel almost lies flat: there are other branches of positions, on which it is flat whatever
+    /// else moves.
+    fn nearly_flat(&self, q: &[Dd]) -> bool {
+        let axes = RowAxes {
+            reversed: false,
+            of_plane: false,
+            closed: false,
+        };
+        let cosine = |closes| {
+            self.rows_at(closes, axes, (q, &DoubleDouble))
+                .cosine_of_lean()
+        };
+        let mut cosines = (0..self.loops.len()).filter_map(cosine);
+        cosines.any(|x| x.to_f64().abs() < LEAST_COSINE)
     }
 
     /// Returns for each block whether the determinant of its columns is positive; none before the signs of the start

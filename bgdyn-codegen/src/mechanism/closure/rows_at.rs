@@ -101,6 +101,13 @@ impl Closure {
 }
 
 impl<E: Ring + Mul<Dd, Output = E>> RowsAt<'_, E> {
+    /// Returns the cosine of a wheel's lean, 0 where it lies flat; 1 for balls and knife edges, `None` for loops.
+    pub fn cosine_of_lean(&self) -> Option<E> {
+        self.contact
+            .as_ref()
+            .map(|(frame, _)| frame.cosine_of_lean())
+    }
+
     /// Returns the value that vanishes at closed positions; zero for a row on velocities.
     pub fn residual(&self, row: RowKind, numbers: &impl ContactNumbers<E>) -> E {
         match (row, &self.contact) {
