@@ -30,7 +30,8 @@ impl<T: Scalar> Wrench<T> {
 pub struct Undetermined {
     /// The index of the reaction, in the order of `REACTION_NAMES`.
     pub reaction: usize,
-    /// The row that holds at every position of the joints, and therefore has no multiplier.
+    /// The row that was left out, because it holds at every position of the joints or follows from others; it has no
+    /// multiplier.
     pub row: &'static str,
     /// The direction of the force, in the axes of the reaction; zero for a moment.
     pub force: [f64; 3],

@@ -28,6 +28,10 @@ bgdyn::bgdyn!(
     ]
 );
 bgdyn::bgdyn!(
+    "../../specs/loops/bricard.yaml",
+    methods = [dynamics, reactions]
+);
+bgdyn::bgdyn!(
     "../../specs/scara.yaml",
     methods = [dynamics, joint_reactions]
 );
@@ -194,6 +198,15 @@ fn what_is_not_determined_is_listed() {
         normal,
         [("right_contact height", up), ("left_contact height", up)]
     );
+    // A row that follows from others where the loop is closed.
+    let [follows] = bricard::UNDETERMINED;
+    assert_eq!(follows.row, "last_hinge tilt y");
+    let size: f64 = follows.moment.iter().map(|x| x * x).sum();
+    assert!((size - 1.0).abs() < 1e-15 && follows.force == [0.0; 3]);
+    let machine = bricard::Bricard::<f64>::default();
+    let loads = machine.reactions(&machine.neutral(), &vector![0.7], &vector![0.3]);
+    let moment = loads.expect("a regular position")[0].moment;
+    assert!(moment.dot(&Vector3::from(follows.moment)).abs() < 1e-13 * moment.norm());
 }
 
 /// Each link of the five-bar is a free body: here the whole machine, whose weight the two pivots carry at rest.

@@ -116,6 +116,11 @@ fn starts_that_loops_do_not_reach_are_refused() {
             ["open-start", "lock.slider_position", "`rod_pin`"],
         ),
         (
+            "unknown",
+            "lock: { crank: 0 }",
+            ["unknown-name", "crank_angle", "slider_position"],
+        ),
+        (
             "torque",
             "inputs: { slider_position: { computed_torque: { target: 0.6 m, stiffness: 1, damping: 1 } } }",
             ["drive", "`computed_torque`", "independent"],

@@ -26,18 +26,26 @@ pub(super) fn reaction_constants(closed: &ClosedTree, present: &[Method]) -> Opt
     }
     let closure = &closed.closure;
     let names = closure.loops.iter().map(|one| one.name.as_str());
-    let undetermined = closure.dropped.iter().map(|row| undetermined(closure, row));
-    let (nr, nu) = (size(closure.loops.len()), size(closure.dropped.len()));
+    let left_out: Vec<&LoopRow> = left_out(closure).collect();
+    let undetermined = left_out.iter().map(|row| undetermined(closure, row));
+    let (nr, nu) = (size(closure.loops.len()), size(left_out.len()));
     Some(quote! {
         /// Number of the loops and contacts.
         pub const NR: usize = #nr;
         /// Names of the loops and contacts, in the order of `reactions`.
         pub const REACTION_NAMES: [&str; NR] = [#(#names),*];
         /// The loads that equations of rigid bodies do not determine, because their rows hold at every position of the
-        /// joints: the components of `reactions` along them are zero, and the links of the loop may carry any such load
-        /// in addition. Axes as those of `reactions`; of a universal joint at the position `neutral`.
+        /// joints, or follow from other rows: the components of `reactions` along them are zero, and the links of the
+        /// loop may carry any such load in addition; where the row follows from others, these carry the opposite. Axes
+        /// as those of `reactions`; of a universal joint at the position `neutral`; at the centre of a spherical loop.
         pub const UNDETERMINED: [__rt::Undetermined; #nu] = [#(#undetermined),*];
     })
+}
+
+/// Returns the rows without a multiplier.
+fn left_out(closure: &Closure) -> impl Iterator<Item = &LoopRow> {
+    let following = closure.following.iter().map(|one| &one.row);
+    closure.dropped.iter().chain(following)
 }
 
 /// Returns the load of a row that was left out.
@@ -114,8 +122,8 @@ pub(super) fn reaction_docs(method: Method, closed: Option<&ClosedTree>) -> Vec<
         ]),
         _ => {}
     }
-    let dropped = closed.is_some_and(|closed| !closed.closure.dropped.is_empty());
-    if has_loads(&method) && dropped {
+    let some = closed.is_some_and(|closed| left_out(&closed.closure).next().is_some());
+    if has_loads(&method) && some {
         docs.extend([
             "",
             " Statically indeterminate: loads along [`UNDETERMINED`] are left out, and not determined.",

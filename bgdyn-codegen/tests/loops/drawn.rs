@@ -85,3 +85,20 @@ pub fn four_bar(root: &str, [crank, ground]: [f64; 2]) -> Text {
     );
     text
 }
+
+/// A spherical four-bar with its hinge at this distance from the centre.
+pub fn spherical(root: &str, apart: f64) -> Text {
+    let mut text = on(root);
+    for (name, parent, axis) in [
+        ("crank", "body_0", [0.0, 0.0, 1.0]),
+        ("coupler", "crank", [0.6, 0.0, 0.8]),
+        ("rocker", "body_0", [0.0, 0.6, 0.8]),
+    ] {
+        link(&mut text, (name, parent), &turning(axis, [0.0; 3]));
+    }
+    let hinge = [0.48, 0.64, 0.6];
+    let end = xyz(hinge.map(|x| apart * x));
+    let ends = [("coupler", end.as_str()), ("rocker", end.as_str())];
+    connect(&mut text, "hinge", ends, (hinge, ""));
+    text
+}

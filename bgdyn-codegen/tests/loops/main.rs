@@ -8,6 +8,8 @@ mod maker;
 #[path = "../joints/robot.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;
+#[path = "../joints/turned_signs.rs"]
+mod turned_signs;
 
 #[path = "../joints/findings.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]

@@ -209,15 +209,7 @@ fn hinges_sliders_welds_and_universal_joints_move_as_with_multipliers() {
         .enumerate()
     {
         let mut random = Random(200 + seed as u64);
-        let mut text = Text::new(&mut random, "spherical", 4, noisy);
-        let axis = noisy(&mut random);
-        // A slider may be displaced along its axis.
-        let apart = if kind == "slider" {
-            axis.map(|x| x / 1000 * 100)
-        } else {
-            [0; 3]
-        };
-        text.connect(&mut random, kind, [4, 8], (axis, apart));
+        let text = Text::of_type(&mut random, "spherical", kind);
         compare(&text, kind);
     }
 }
@@ -227,13 +219,7 @@ fn hinges_sliders_welds_and_universal_joints_move_as_with_multipliers() {
 fn planar_loops_in_any_direction_move_as_with_multipliers() {
     for (seed, root) in ["fixed", "floating"].into_iter().enumerate() {
         let mut random = Random(300 + seed as u64);
-        let mut text = Text::new(&mut random, root, 3, |_| [0, 0, 1000]);
-        // The slide has to lie in the plane.
-        text.links = text.links.replacen(
-            "type: prismatic, axis: [0.000, 0.000, 1.000]",
-            "type: prismatic, axis: [0.600, 0.800, 0.000]",
-            1,
-        );
+        let mut text = Text::planar(&mut random, root, 3);
         text.connect(&mut random, "hinge", [3, 6], ([0, 0, 1000], [0; 3]));
         let robot = Robot::read(&text.closed());
         let closure = robot.mechanism.closure().expect("loops");
@@ -246,12 +232,7 @@ fn planar_loops_in_any_direction_move_as_with_multipliers() {
 #[test]
 fn loops_in_series_are_solved_one_after_the_other() {
     let mut random = Random(400);
-    let mut text = Text::new(&mut random, "fixed", 4, |_| [0, 0, 1000]);
-    text.links = text.links.replacen(
-        "type: prismatic, axis: [0.000, 0.000, 1.000]",
-        "type: prismatic, axis: [0.600, 0.800, 0.000]",
-        1,
-    );
+    let mut text = Text::planar(&mut random, "fixed", 4);
     text.connect(&mut random, "hinge", [2, 5], ([0, 0, 1000], [0; 3]));
     text.connect(&mut random, "hinge", [4, 8], ([0, 0, 1000], [0; 3]));
     let robot = Robot::read(&text.closed());

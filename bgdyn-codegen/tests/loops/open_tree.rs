@@ -194,14 +194,7 @@ fn loops_of_other_types_accelerate_and_are_projected_as_with_multipliers() {
         .enumerate()
     {
         let mut random = Random(600 + seed as u64);
-        let mut text = Text::new(&mut random, "spherical", 4, noisy);
-        let axis = noisy(&mut random);
-        let apart = if kind == "slider" {
-            axis.map(|x| x / 10)
-        } else {
-            [0; 3]
-        };
-        text.connect(&mut random, kind, [4, 8], (axis, apart));
+        let text = Text::of_type(&mut random, "spherical", kind);
         compare(&text, kind);
     }
 }

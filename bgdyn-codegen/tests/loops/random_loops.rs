@@ -96,6 +96,30 @@ impl Text {
         text
     }
 
+    /// Two branches in one plane, with a slide in it.
+    pub fn planar(random: &mut Random, root: &str, count: usize) -> Self {
+        let mut text = Text::new(random, root, count, |_| [0, 0, 1000]);
+        text.links = text.links.replacen(
+            "type: prismatic, axis: [0.000, 0.000, 1.000]",
+            "type: prismatic, axis: [0.600, 0.800, 0.000]",
+            1,
+        );
+        text
+    }
+
+    /// Two branches of four joints with noisy axes whose ends a loop of this type connects; a slider's are apart along
+    /// its axis, to a millimetre.
+    pub fn of_type(random: &mut Random, root: &str, kind: &'static str) -> Self {
+        let mut text = Text::new(random, root, 4, noisy);
+        let axis = noisy(random);
+        let apart = match kind {
+            "slider" => axis.map(|x| x / 10),
+            _ => [0; 3],
+        };
+        text.connect(random, kind, [4, 8], (axis, apart));
+        text
+    }
+
     /// Connects places of two links that are apart by `apart` in the axes of the world at zero.
     pub fn connect(
         &mut self,

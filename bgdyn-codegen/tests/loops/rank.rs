@@ -3,7 +3,9 @@
 use bgdyn_codegen::fault::Severity;
 use bgdyn_codegen::mechanism::closure::Closure;
 
-use super::drawn::{ACROSS, NORMAL, at, connect, four_bar, link, on, turning, vector, xyz};
+use super::drawn::{
+    ACROSS, NORMAL, at, connect, four_bar, link, on, spherical, turning, vector, xyz,
+};
 use super::findings::{found, refused_text};
 use super::multipliers::compare;
 use super::random_loops::Text;
@@ -80,33 +82,19 @@ fn planar_welds_and_rods_keep_the_rows_of_the_plane() {
 #[test]
 fn spherical_loops_keep_two_rows() {
     for root in ["fixed", "floating"] {
-        let mut text = on(root);
-        link(
-            &mut text,
-            ("crank", "body_0"),
-            &turning([0.0, 0.0, 1.0], [0.0; 3]),
-        );
-        link(
-            &mut text,
-            ("coupler", "crank"),
-            &turning([0.6, 0.0, 0.8], [0.0; 3]),
-        );
-        link(
-            &mut text,
-            ("rocker", "body_0"),
-            &turning([0.0, 0.6, 0.8], [0.0; 3]),
-        );
-        let hinge = [0.48, 0.64, 0.6];
-        let apart = hinge.map(|x| 0.25 * x);
-        let ends = [xyz(apart), xyz(apart)];
-        connect(
-            &mut text,
-            "hinge",
-            [("coupler", &ends[0]), ("rocker", &ends[1])],
-            (hinge, ""),
-        );
+        let text = spherical(root, 0.25);
         moves(&text, [2, 3, 0, 0], root);
     }
+}
+
+/// A hinge does not slide along its axis: places that are not as far from the centre never meet.
+#[test]
+fn hinges_of_spherical_loops_do_not_slide() {
+    let text = spec("spherical_four_bar");
+    assert_eq!(found(&text).0, []);
+    let text = text.replace("-20 cm", "-21 cm");
+    let words = ["`pin` is off by 0.01", "row `z`"];
+    refused_text(&text, "loop-not-assembled", "loops[0]", &words);
 }
 
 /// Slides only: nothing turns; in a plane the third row of the place falls, along one line the first two.
@@ -324,6 +312,35 @@ fn rows_that_follow_everywhere_need_a_word() {
         "loops[1].redundant",
         &["`yes`", "allow"],
     );
+}
+
+/// A second pin, 10 µm beside the first: open within its own tolerance, not within that of the other loop.
+#[test]
+fn a_tolerance_is_that_of_its_loop() {
+    let pins = |first: &str, second: &str| {
+        let mut text = four_bar("fixed", [0.12, 0.35]);
+        for (more, pin) in [(first, 0.3), (second, 0.300_01)] {
+            let ends = [at(0.4, 0.0), at(pin, 0.0)].map(xyz);
+            let pins = [("coupler", ends[0].as_str()), ("rocker", ends[1].as_str())];
+            connect(&mut text, "hinge", pins, (NORMAL, more));
+        }
+        text
+    };
+    let (wide, narrow) = (
+        "    redundant: allow\n    tolerance: 1e-4 m\n",
+        "    redundant: allow\n",
+    );
+    let text = pins("", wide);
+    assert_eq!(found(&text.closed()).0, []);
+    assert_eq!(counts(&text), [2, 6, 2, 0]);
+    let robot = Robot::read(&text.closed());
+    let closure = robot.mechanism.closure().expect("loops");
+    assert!(
+        closure.rows.iter().all(|row| row.closes == 0),
+        "the first pin is closed"
+    );
+    let text = pins("    tolerance: 1e-4 m\n", narrow).closed();
+    refused_text(&text, "loop-at-single-position", "loops[1]", &["`loop_1`"]);
 }
 
 /// Crank and rocker that reach each other in one position only.

@@ -5,10 +5,11 @@ use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::{Options, Preference};
 use bgdyn_codegen::pipeline::{model, verify};
 use bgdyn_codegen::refusal::Refusal;
-use bgdyn_codegen::verify::{check_functions, explain};
+use bgdyn_codegen::verify::explain;
 
 use super::references::spec;
 use super::robot::{Robot, Way};
+use super::turned_signs::assert_turned_signs_are_refused;
 
 const PLANAR: [&str; 4] = [
     "five_bar",
@@ -95,36 +96,14 @@ fn methods_on_request_are_accepted_with_every_formulation() {
 #[test]
 fn a_turned_sign_is_refused_in_methods_on_request() {
     let model = on_request(&spec("five_bar"), None);
-    for function in &model.functions {
-        for k in 0..function.blocks[0].outputs.len() {
-            let mut wrong = function.clone();
-            let output = &mut wrong.blocks[0].outputs[k];
-            if wrong.graph.constant_of(*output).is_some() {
-                continue;
-            }
-            output.negative = !output.negative;
-            let found = check_functions("five_bar", &model.bond_graph, &[wrong]);
-            assert_eq!(found.len(), 1, "{} output {k}", function.name);
-        }
-    }
+    assert_turned_signs_are_refused("five_bar", &model);
 }
 
 /// Each output of each function with its sign changed.
 #[test]
 fn a_turned_sign_is_refused_in_every_function() {
     let model = whole(&spec("five_bar"), None);
-    for function in &model.functions {
-        for k in 0..function.blocks[0].outputs.len() {
-            let mut wrong = function.clone();
-            let output = &mut wrong.blocks[0].outputs[k];
-            if wrong.graph.constant_of(*output).is_some() {
-                continue;
-            }
-            output.negative = !output.negative;
-            let found = check_functions("five_bar", &model.bond_graph, &[wrong]);
-            assert_eq!(found.len(), 1, "{} output {k}", function.name);
-        }
-    }
+    assert_turned_signs_are_refused("five_bar", &model);
 }
 
 /// Loops beside other features: a moving base, run-time parameters, joints that follow others inside of the loop.

@@ -11,6 +11,8 @@ mod maker;
 #[path = "../joints/robot.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;
+#[path = "../joints/turned_signs.rs"]
+mod turned_signs;
 
 mod counts;
 mod faults;

@@ -46,19 +46,7 @@ fn compare(text: &Text, links: &[&str], what: &str) {
         state.q.clone_from(&closure.samples[4 * seed as usize + 1]);
         for way in WAYS {
             let what = format!("{what}, state {seed}, {way:?}");
-            let value = |state: &State<Dd>, method| -> Vec<Dd> {
-                state.value(&robot.function(way, method))
-            };
-            state.u = value(&state, Method::InverseDynamics);
-            let motion = State {
-                q: state.q.clone(),
-                v: value(&state, Method::TreeVelocity),
-                a: value(&state, Method::TreeAcceleration),
-                u: vec![],
-            };
-            let reactions = value(&state, Method::Reactions);
-            let (accelerations, reactions) = reactions.split_at(robot.nv());
-            close(accelerations, &state.a, 1e-20, largest(&motion.a), &what);
+            let (motion, reactions) = robot.motion_of_tree(way, &state);
             let mut given = Vec::new();
             for (k, one) in text.all.iter().enumerate() {
                 let place = Placed::frame(&tree, &format!("f{k}"), &motion);
@@ -74,10 +62,10 @@ fn compare(text: &Text, links: &[&str], what: &str) {
                 given.push((on.expect("a link"), load(place, one, plane, of)));
             }
             let mut efforts = vec![Dd::ZERO; motion.v.len()];
-            for (j, &p) in closure.independents.iter().zip(&state.u) {
+            for (j, &p) in closure.independents.iter().zip(&motion.u) {
                 efforts[j.0] = p;
             }
-            let joints = value(&state, Method::JointReactions);
+            let joints = state.value(&robot.function(way, Method::JointReactions));
             let all = (&joints[..], &given[..], &efforts[..]);
             assert_free_bodies(&tree, &motion, all, 1e-17, &what);
         }

@@ -17,6 +17,9 @@ const STEPS: usize = 60;
 /// Largest change of a position in one step, rad or m.
 const LARGEST_STEP: f64 = 0.5;
 
+/// Positions at which the loops are open.
+const OPEN: u64 = 4;
+
 /// The least cosine of a wheel's lean at sampled positions.
 const LEAST_COSINE: f64 = 0.05;
 
@@ -146,6 +149,19 @@ impl Closure {
             }
         }
         largest(&residuals)
+    }
+
+    /// Returns positions of the tree at which the loops are open: the start, with the loops' joints anywhere.
+    pub fn open_positions(&self) -> Vec<Vec<Dd>> {
+        let anywhere = |seed| {
+            let (mut random, mut q) = (Random(seed), self.start.clone());
+            for p in self.moved_positions() {
+                q[p.0] = Dd::from_f64(3.0 * random.signed());
+            }
+            self.normalize(&mut q);
+            q
+        };
+        (0..OPEN).map(anywhere).collect()
     }
 
     /// Moves the positions of the loops' joints a random way through closed positions; once the signs of the start

@@ -5,7 +5,6 @@ use bgdyn_runtime::Dd;
 use super::solve::rank;
 use super::{Closure, LoopRow, solve};
 use crate::mechanism::CoordinateId;
-use crate::random::Random;
 
 /// Steps of a turn, or of the way to both limits.
 const STEPS: f64 = 180.0;
@@ -21,9 +20,6 @@ const JUMP: f64 = 0.7;
 
 /// A condition number above this is that of a singular position.
 const SINGULAR: f64 = 1e12;
-
-/// Positions at which the loops are open.
-const OPEN: u64 = 4;
 
 /// What ends a range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -191,7 +187,7 @@ impl Closure {
         };
         let loops = (0..self.loops.len()).map(of_loop);
         let sets: Vec<Vec<LoopRow>> = loops.chain([all.clone()]).collect();
-        let open: Vec<Vec<Dd>> = (0..OPEN).map(|seed| self.anywhere(seed)).collect();
+        let open = self.open_positions();
         let rank_at = |rows: &[LoopRow], q: &Vec<Dd>| {
             let (_, mut jacobian) = self.values(rows, q);
             rank(&mut jacobian, self.positions.len())
@@ -202,16 +198,6 @@ impl Closure {
         };
         let both = |rows: &Vec<LoopRow>| [most(rows, &self.samples), most(rows, &open)];
         sets.iter().map(both).collect()
-    }
-
-    /// Returns the start with the loops' joints anywhere.
-    fn anywhere(&self, seed: u64) -> Vec<Dd> {
-        let (mut random, mut q) = (Random(seed), self.start.clone());
-        for p in self.moved_positions() {
-            q[p.0] = Dd::from_f64(3.0 * random.signed());
-        }
-        self.normalize(&mut q);
-        q
     }
 }
 

@@ -43,11 +43,12 @@ fn locks(
     let mut locked = Vec::new();
     for raw in effects::given(&spec.lock) {
         let name = &raw.name.value;
-        match lockable(mechanism, name) {
+        let mut links = mechanism.links().iter().map(|link| &link.joint).enumerate();
+        match links.find(|(_, joint)| joint.name == *name && lockable(joint)) {
             Some((link, joint)) => {
                 let [position, ..] = joints::dimensions(joint.kind.motion == Motion::Translation);
                 let at = raw.number(&[position], faults);
-                locked.extend(at.map(|at| (link, at.value.value, raw.name.clone())));
+                locked.extend(at.map(|at| (LinkId(link), at.value.value, raw.name.clone())));
             }
             None => faults.push(not_lockable(mechanism, &raw.name.location, name)),
         }
@@ -55,14 +56,10 @@ fn locks(
     locked
 }
 
-/// Returns a joint of one degree that follows no other: also a dependent one of loops, and a prescribed one, of whose
-/// motion `lock` is the constant case.
-fn lockable<'a>(mechanism: &'a Mechanism, name: &str) -> Option<(LinkId, &'a Joint)> {
-    let mut links = mechanism.links().iter().enumerate();
-    let (i, link) = links.find(|(_, link)| link.joint.name == name)?;
-    let joint = &link.joint;
-    let one = joint.kind.motion.nv() == 1 && joint.degrees.coupling.is_none();
-    one.then_some((LinkId(i), joint))
+/// Returns whether a joint has one degree and follows no other: also a dependent one of loops, and a prescribed one, of
+/// whose motion `lock` is the constant case.
+fn lockable(joint: &Joint) -> bool {
+    joint.kind.motion.nv() == 1 && joint.degrees.coupling.is_none()
 }
 
 /// Returns the fault of a name that is not that of a joint with coordinates: a velocity of a joint with
@@ -81,7 +78,8 @@ fn not_lockable(mechanism: &Mechanism, location: &Location, name: &str) -> Fault
     if let Some(coupling) = found.and_then(|joint| joint.degrees.coupling.as_ref()) {
         return wording::lock_of_follower(location, name, &mechanism.leaders(coupling));
     }
-    let known = mechanism.one_degree_names();
-    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    let joints = mechanism.links().iter().map(|link| &link.joint);
+    let known = joints.filter(|joint| lockable(joint));
+    let known: Vec<&str> = known.map(|joint| joint.name.as_str()).collect();
     wording::unknown_locked_joint(location, name, &known)
 }

@@ -19,15 +19,15 @@ pub(super) fn redundant(one: &LoopSpec, faults: &mut Faults) -> Option<bool> {
     }
 }
 
-/// Returns the gap by which rows may be open; `None` in it without the key.
-pub(super) fn tolerance(one: &LoopSpec, faults: &mut Faults) -> Option<Option<f64>> {
+/// Returns the gap by which rows may be open, m or rad; 0 without the key.
+pub(super) fn tolerance(one: &LoopSpec, faults: &mut Faults) -> Option<f64> {
     match &one.tolerance {
         Field::Broken => None,
-        Field::Absent => Some(None),
+        Field::Absent => Some(0.0),
         Field::Given(given) => {
             let value = given.value.value.to_f64();
             if value > 0.0 && value <= LARGEST_TOLERANCE {
-                return Some(Some(value));
+                return Some(value);
             }
             let text = &given.value.text;
             faults.push(wording::tolerance_out_of_range(&given.location, text));

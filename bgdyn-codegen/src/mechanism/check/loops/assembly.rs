@@ -27,7 +27,7 @@ type OpenPosition = (f64, Vec<Dd>);
 
 /// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
 /// independent: their positions stay those of the start if they can. Returns by how much the start is open: 0, or a gap
-/// within the `tolerance` of the file.
+/// within the `tolerance` of a loop.
 pub(super) fn assemble(
     closure: &mut Closure,
     read: &[ReadLoop],
@@ -49,8 +49,8 @@ pub(super) fn assemble(
     let mut near: Vec<OpenPosition> = Vec::new();
     let rounded = ROUNDED * closure.size();
     let mut wrong: Option<usize> = None;
-    let tolerance = read.iter().filter_map(|one| one.tolerance);
-    let tolerance = tolerance.fold(0.0, f64::max);
+    // Of any loop: which rows stay open is decided by `rank::leave_out`.
+    let tolerance = read.iter().map(|one| one.tolerance).fold(0.0, f64::max);
     for seed in 0..STARTS {
         let mut q = given.clone();
         let mut random = Random(seed);

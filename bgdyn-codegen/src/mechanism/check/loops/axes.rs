@@ -127,15 +127,20 @@ fn is_zero(v: Vec3<Dd>) -> bool {
     v.dot(v).to_f64() < ROUNDING
 }
 
-/// Moves the places along the hinge's axis to the point through which the axes of all joints go.
+/// Moves the places along the hinge's axis to the point through which the axes of all joints go. Places that are not
+/// as far from it never coincide: they stay, and their rows say so.
 fn slide_to_centre(one: &mut KinematicLoop, positions: &[Vec<Dd>]) {
     let from_a = on_axis(&one.chain, positions);
     let from_b = on_axis(&one.chain.reversed(), positions);
     let (Some(a), Some(b)) = (from_a, from_b) else {
         return;
     };
-    for (place, by) in [(&mut one.chain.start, a), (&mut one.chain.end, b)] {
-        place.translation = place.translation + place.rotation.column(2).scale(by);
+    let apart = (a - b).to_f64();
+    if apart * apart > ROUNDING {
+        return;
+    }
+    for place in [&mut one.chain.start, &mut one.chain.end] {
+        place.translation = place.translation + place.rotation.column(2).scale(a);
     }
 }
 

@@ -90,7 +90,7 @@ pub(super) fn read(
         branch: None,
         near: Vec::new(),
         redundant: false,
-        tolerance: None,
+        tolerance: 0.0,
     })
 }
 

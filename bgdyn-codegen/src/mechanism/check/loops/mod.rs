@@ -64,7 +64,7 @@ pub(super) fn close(
     if let Some(start) = start {
         closure.start = start;
     }
-    let positions = structure::positions(&closure);
+    let positions = closure.open_positions();
     contacts::find_upward(&mut closure, &positions, faults);
     if faults.count() > before {
         return None;

@@ -9,7 +9,7 @@
 use bgdyn_runtime::Dd;
 
 use super::read::ReadLoop;
-use super::{samples, structure};
+use super::samples;
 use crate::fault::{Faults, wording};
 use crate::mechanism::closure::{Closure, FollowingRow, eliminate};
 
@@ -28,6 +28,18 @@ const NEARLY_BEST: f64 = 0.5;
 /// B at one position, row by row.
 type Jacobian = Vec<Vec<Dd>>;
 
+/// The rows by what they follow from.
+struct RowsByRank {
+    /// Those that are independent at some position of the tree.
+    somewhere: Vec<usize>,
+    /// Those that follow from these at every position.
+    always: Vec<usize>,
+    /// Those that are independent at closed positions.
+    kept: Vec<usize>,
+    /// Those that follow from these at closed positions only.
+    closed_only: Vec<usize>,
+}
+
 /// Leaves out rows that follow from others; `gap` is by how much the start is open. `None` if a rule is broken.
 pub(super) fn leave_out(
     closure: &mut Closure,
@@ -35,59 +47,101 @@ pub(super) fn leave_out(
     faults: &mut Faults,
 ) -> Option<()> {
     let before = faults.count();
-    let tolerance = read.iter().filter_map(|one| one.tolerance);
-    let tolerance = tolerance.fold(0.0, f64::max);
-    let least = match gap > 0.0 {
-        true => least(closure, tolerance),
-        false => FOLLOWS,
-    };
     let of_rows = |q: &Vec<Dd>| closure.values(&closure.rows, q).1;
-    let on: Vec<Jacobian> = match gap > 0.0 {
-        true => vec![of_rows(&closure.start)],
-        false => closure.samples.iter().map(of_rows).collect(),
+    let (least, on): (f64, Vec<Jacobian>) = match gap > 0.0 {
+        true => {
+            let tolerance = read.iter().map(|one| one.tolerance).fold(0.0, f64::max);
+            (least(closure, tolerance), vec![of_rows(&closure.start)])
+        }
+        false => (FOLLOWS, closure.samples.iter().map(of_rows).collect()),
     };
-    let off: Vec<Jacobian> = structure::positions(closure).iter().map(of_rows).collect();
-    let allowed = |r: &usize| read[closure.rows[*r].closes].redundant;
+    let rows = by_rank(closure, read, (&on, least));
+    report_refused(closure, (read, &rows), &on, faults);
+    if faults.count() > before {
+        return None;
+    }
+    if rows.kept.len() < closure.rows.len() {
+        let kept = match rows.closed_only.is_empty() {
+            true => rows.kept.clone(),
+            false => best(&on, &rows.somewhere, rows.kept.len()),
+        };
+        keep(closure, &kept, &rows.always);
+        close_again(closure);
+    }
+    judge(closure, (read, gap), faults);
+    if faults.count() > before {
+        return None;
+    }
+    if !rows.closed_only.is_empty() {
+        warn(closure, rows.somewhere.len(), faults);
+    }
+    Some(())
+}
+
+/// Returns which rows follow from others; those that may do so, because their loop is `redundant` or has a `tolerance`,
+/// come last.
+fn by_rank(closure: &Closure, read: &[ReadLoop], (on, least): (&[Jacobian], f64)) -> RowsByRank {
+    let of_rows = |q: &Vec<Dd>| closure.values(&closure.rows, q).1;
+    let off: Vec<Jacobian> = closure.open_positions().iter().map(of_rows).collect();
+    let allowed = |r: &usize| {
+        let one = &read[closure.rows[*r].closes];
+        one.redundant || one.tolerance > 0.0
+    };
     let (mut order, last): (Vec<usize>, Vec<usize>) =
         (0..closure.rows.len()).partition(|r| !allowed(r));
     order.extend(last);
     let (somewhere, always) = split(&off, &order, least);
-    for &r in always.iter().filter(|r| !allowed(r)) {
-        report(closure, (r, &somewhere), &on, faults);
+    let (kept, closed_only) = split(on, &somewhere, least);
+    RowsByRank {
+        somewhere,
+        always,
+        kept,
+        closed_only,
     }
-    let (kept, closed_only) = split(&on, &somewhere, least);
-    let touches = |r: &usize| closure.loops[closure.rows[*r].closes].contact.is_some();
-    for &r in closed_only.iter().filter(|r| touches(r)) {
-        report(closure, (r, &kept), &on, faults);
+}
+
+/// Reports rows that may not follow from others: at every position without `redundant: allow`, and those of contacts.
+fn report_refused(
+    closure: &Closure,
+    (read, rows): (&[ReadLoop], &RowsByRank),
+    on: &[Jacobian],
+    faults: &mut Faults,
+) {
+    let closes = |r: &&usize| closure.rows[**r].closes;
+    for &r in rows.always.iter().filter(|r| !read[closes(r)].redundant) {
+        report(closure, (r, &rows.somewhere), on, faults);
     }
-    if faults.count() > before {
-        return None;
+    let touches = |r: &&usize| closure.loops[closes(r)].contact.is_some();
+    for &r in rows.closed_only.iter().filter(touches) {
+        report(closure, (r, &rows.kept), on, faults);
     }
-    if always.is_empty() && closed_only.is_empty() {
-        return Some(());
-    }
-    let kept = match closed_only.is_empty() {
-        true => kept,
-        false => best(&on, &somewhere, kept.len()),
-    };
-    let counts = [closure.rows.len(), somewhere.len(), kept.len()];
-    keep(closure, &kept, &always);
-    let open = close_again(closure);
-    match (gap > 0.0, open) {
-        (false, open) if open > CLOSED => report_isolated(closure, faults),
-        (true, open) if open > tolerance => {
-            let one = &closure.loops[closure.following[0].row.closes];
-            let (location, name) = (&one.location, one.name.as_str());
-            faults.push(wording::tolerance_exceeded(
-                location,
-                name,
-                (open, tolerance),
-            ));
+}
+
+/// Reports rows that do not close: those that stay must, and those that were left out, to the tolerance of their loop.
+fn judge(closure: &Closure, (read, gap): (&[ReadLoop], f64), faults: &mut Faults) {
+    let rows = closure.position_rows();
+    let (residuals, _) = closure.values(&rows, &closure.start);
+    for (row, open) in rows.iter().zip(residuals) {
+        let (one, open) = (&closure.loops[row.closes], open.to_f64().abs());
+        if open > CLOSED {
+            let names = (one.name.as_str(), row.name);
+            faults.push(wording::loop_closes_to_rounding(&one.location, names, open));
+            return;
         }
-        _ if counts[1] > counts[2] => warn(closure, counts, faults),
-        _ => {}
     }
-    (faults.count() == before).then_some(())
+    for (left, open) in closure.following.iter().zip(open_along(closure)) {
+        let one = &closure.loops[left.row.closes];
+        let tolerance = read[left.row.closes].tolerance;
+        if open <= f64::max(CLOSED, tolerance) {
+            continue;
+        }
+        let (location, name) = (&one.location, one.name.as_str());
+        faults.push(match gap > 0.0 && tolerance > 0.0 {
+            true => wording::tolerance_exceeded(location, name, (open, tolerance)),
+            false => wording::loop_closes_at_single_positions(location, (name, left.row.name)),
+        });
+        return;
+    }
 }
 
 /// What becomes of loops that almost close.
@@ -117,7 +171,8 @@ pub(super) fn almost_moves(closure: &Closure, (q, gap): (&[Dd], f64), most: f64)
         let mut trial = closure.clone();
         trial.start = q.to_vec();
         keep(&mut trial, &best(&at, &order, kept.len()), &[]);
-        let open = close_again(&mut trial);
+        close_again(&mut trial);
+        let open = open_along(&trial).into_iter().fold(0.0, f64::max);
         let moved = |sample: &Vec<Dd>| {
             let mut steps = sample.iter().zip(&trial.start);
             steps.any(|(x, y)| (*x - *y).to_f64().abs() > 0.1)
@@ -147,25 +202,27 @@ fn keep(closure: &mut Closure, kept: &[usize], always: &[usize]) {
     }
 }
 
-/// Closes the rows that are left, at the start and at closed positions at random. Returns by how much the others are
-/// open there.
-fn close_again(closure: &mut Closure) -> f64 {
+/// Closes the rows that are left, at the start and at closed positions at random.
+fn close_again(closure: &mut Closure) {
     let rows = closure.position_rows();
     let mut start = closure.start.clone();
     let moving = closure.moving();
     closure.assemble(&rows, &mut start, &moving);
     closure.start = start;
     closure.samples = samples::sample(closure);
+}
+
+/// Returns by how much each row that was left out is open, at most, at the start and the closed positions.
+fn open_along(closure: &Closure) -> Vec<f64> {
     let left: Vec<_> = closure.following.iter().map(|one| one.row).collect();
-    let at = |q: &Vec<Dd>| {
+    let mut most = vec![0.0; left.len()];
+    for q in closure.samples.iter().chain([&closure.start]) {
         let (residuals, _) = closure.values(&left, q);
-        residuals
-            .iter()
-            .map(|x| x.to_f64().abs())
-            .fold(0.0, f64::max)
-    };
-    let all = closure.samples.iter().chain([&closure.start]);
-    all.map(at).fold(0.0, f64::max)
+        for (most, open) in most.iter_mut().zip(residuals) {
+            *most = f64::max(*most, open.to_f64().abs());
+        }
+    }
+    most
 }
 
 /// Returns the rows that are independent of those before them, in this order, and the others: those that follow from
@@ -277,26 +334,14 @@ fn report(closure: &Closure, (r, of): (usize, &[usize]), on: &[Jacobian], faults
     });
 }
 
-/// Reports rows that hold at single positions only.
-fn report_isolated(closure: &Closure, faults: &mut Faults) {
-    let row = &closure.following[0].row;
-    let one = &closure.loops[row.closes];
-    let names = (one.name.as_str(), row.name);
-    faults.push(wording::loop_closes_at_single_positions(
-        &one.location,
-        names,
-    ));
-}
-
-/// Warns of loops that move by their lengths only; `counts` are all rows, those that are independent somewhere, and
-/// those at closed positions.
-fn warn(closure: &Closure, [_, off, on]: [usize; 3], faults: &mut Faults) {
+/// Warns of loops that move by their lengths only; `off` is the number of rows that are independent somewhere.
+fn warn(closure: &Closure, off: usize, faults: &mut Faults) {
     let left = closure.following.iter().filter(|one| !one.always);
     let rows: Vec<_> = left.map(|one| one.row).collect();
     let Some(first) = rows.first() else { return };
     let one = &closure.loops[first.closes];
     let names: Vec<String> = rows.iter().map(|row| closure.row_name(row)).collect();
-    let moving = closure.moving().len();
+    let (moving, on) = (closure.moving().len(), closure.rows.len());
     let fault = wording::paradoxical_loop(&one.location, (&one.name, &names), (moving, off, on));
     faults.push(fault.into_warning());
 }

@@ -20,8 +20,8 @@ pub(super) struct ReadLoop {
     pub(super) near: Vec<(PositionId, Dd)>,
     /// Whether its rows may follow from others.
     pub(super) redundant: bool,
-    /// The gap by which rows that follow from others may be open, m or rad.
-    pub(super) tolerance: Option<f64>,
+    /// The gap by which rows that follow from others may be open, m or rad; 0 without the key.
+    pub(super) tolerance: f64,
 }
 
 /// What the entries of `loops` refer to.

@@ -5,17 +5,14 @@ use bgdyn_runtime::Dd;
 use crate::fault::{Faults, wording};
 use crate::mechanism::closure::{ClosingRow, Closure, RowAxes, RowKind};
 use crate::mechanism::joint::DoubleDouble;
-use crate::random::Random;
-
-/// Positions of the tree at which rows are tested.
-const POSITIONS: u64 = 4;
 
 /// A value below this is a rounding error of double-double, relative to 1 m or 1 rad.
 const ROUNDING: f64 = 1e-24;
 
 /// Drops the rows that hold at every position; reports those with a constant value that is not zero.
 pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
-    let values: Vec<(Vec<Dd>, Vec<Vec<Dd>>)> = positions(closure)
+    let values: Vec<(Vec<Dd>, Vec<Vec<Dd>>)> = closure
+        .open_positions()
         .iter()
         .map(|q| closure.values(&closure.rows, q))
         .collect();
@@ -91,28 +88,9 @@ fn is_reversible(closure: &Closure, closes: usize) -> bool {
     turned.loops[closes].reversible = true;
     let dropped = closure.dropped.iter().filter(|row| row.closes == closes);
     let dropped: Vec<RowKind> = dropped.map(|row| row.kind).collect();
-    (0..POSITIONS).all(|seed| {
-        let q = random_position(closure, seed);
-        let at = turned.rows_at(closes, axes, (&q, &DoubleDouble));
+    closure.open_positions().iter().all(|q| {
+        let at = turned.rows_at(closes, axes, (q, &DoubleDouble));
         let zero = |kind: &RowKind| at.residual(*kind, &DoubleDouble).to_f64().abs() <= ROUNDING;
         dropped.iter().all(zero)
     })
-}
-
-/// Returns positions of the tree at which rows are tested.
-pub(super) fn positions(closure: &Closure) -> Vec<Vec<Dd>> {
-    (0..POSITIONS)
-        .map(|seed| random_position(closure, seed))
-        .collect()
-}
-
-/// Returns the neutral position with the loops' joints anywhere.
-fn random_position(closure: &Closure, seed: u64) -> Vec<Dd> {
-    let mut random = Random(seed);
-    let mut q = closure.start.clone();
-    for p in closure.moved_positions() {
-        q[p.0] = Dd::from_f64(3.0 * random.signed());
-    }
-    closure.normalize(&mut q);
-    q
 }
