@@ -9,7 +9,7 @@ use super::drawn::{NORMAL, at, connect, four_bar, spherical, xyz};
 use super::free_bodies::{Placed, assert_free_bodies, three};
 use super::random_loops::{Text, noisy};
 use super::references::{joints, names, numbers, reference, spec};
-use super::robot::{Robot, State, Way, close, largest};
+use super::robot::{Robot, State, Way, close, dot, largest};
 
 const WAYS: [Way; 2] = [None, Some("subspaces")];
 
@@ -111,12 +111,7 @@ fn links_of_loops_of_other_types_are_free_bodies() {
 #[test]
 fn links_of_planar_loops_are_free_bodies() {
     let mut random = Random(1300);
-    let mut text = Text::new(&mut random, "fixed", 3, |_| [0, 0, 1000]);
-    text.links = text.links.replacen(
-        "type: prismatic, axis: [0.000, 0.000, 1.000]",
-        "type: prismatic, axis: [0.600, 0.800, 0.000]",
-        1,
-    );
+    let mut text = Text::planar(&mut random, "fixed", 3);
     text.connect(&mut random, "hinge", [3, 6], ([0, 0, 1000], [0; 3]));
     compare(&text, &[[3, 6]], "planar");
 }
@@ -162,49 +157,57 @@ fn balls_of_parallel_robots_carry_the_forces_of_the_references() {
             let drive = dd(&forward["actuator_efforts"]);
             closed.closure.close(&mut q);
             let map = closed.closure.velocity_map(&q).expect("a regular position");
-            // Sᵀ P
-            let own = |c: usize| {
-                let terms = actuated.iter().zip(&drive).map(|(name, p)| {
-                    let j = columns.iter().position(|c| c == name).expect("a joint");
-                    map[j][c] * *p
-                });
-                terms.fold(Dd::ZERO, |sum, x| sum + x)
-            };
+            let drives: Vec<Dd> = columns
+                .iter()
+                .map(|column| {
+                    let k = actuated.iter().position(|name| name == column);
+                    k.map_or(Dd::ZERO, |k| drive[k])
+                })
+                .collect();
+            let u: Vec<Dd> = independent.iter().map(|&i| v[i]).collect();
+            // Drives may be at dependent joints: efforts on all joints of the tree.
             let state = State {
                 q,
-                v: independent.iter().map(|&i| v[i]).collect(),
+                v: map.iter().map(|row| dot(row, &u)).collect(),
                 a: vec![],
-                u: (0..independent.len()).map(own).collect(),
+                u: drives.clone(),
             };
+            let found: Vec<Dd> = state.value(&robot.function(None, Method::ConstrainedDynamics));
+            let lambda = &found[columns.len()..];
             let expected = dd(&forward["lambda"]);
-            let found: Vec<Dd> = state.value(&robot.function(None, Method::Reactions));
-            let found = &found[robot.nv()..];
             let size = largest(&expected).max(largest(&drive));
-            // Efforts of dependent drives are not those of the independent velocities.
-            if actuated.iter().any(|name| {
-                !independent.contains(&columns.iter().position(|c| c == name).expect("a joint"))
-            }) {
+            let compared = |forces: &[[Dd; 3]], what: &str| {
+                for (l, (pose, force)) in poses.iter().zip(forces).enumerate() {
+                    let pose: Vec<Dd> = state.value(pose);
+                    let world = three(|i| dot(&pose[3 * i..3 * i + 3], force));
+                    let wanted: Vec<Dd> = (0..3).map(|i| -expected[3 * l + i]).collect();
+                    let what = format!("{name}, state {k}, ball {l}: {what}");
+                    close(&world, &wanted, 1e-11, size, &what);
+                }
+            };
+            let in_link_axes = |(l, lambda): (usize, &[Dd])| {
+                let axes = closed.closure.loops[l].chain.start.rotation;
+                three(|i| dot(&axes.0[i], lambda))
+            };
+            let forces: Vec<[Dd; 3]> = lambda.chunks(3).enumerate().map(in_link_axes).collect();
+            assert_eq!(forces.len(), poses.len());
+            compared(&forces, "multipliers");
+            let others = (0..columns.len()).filter(|j| !independent.contains(j));
+            if others.map(|j| drives[j]).any(|drive| drive != Dd::ZERO) {
+                assert_eq!(name, "stewart_platform", "its legs depend on the platform");
                 continue;
             }
-            for (l, pose) in poses.iter().enumerate() {
-                let pose: Vec<Dd> = state.value(pose);
-                let world = three(|i| {
-                    (0..3).fold(Dd::ZERO, |sum, j| sum + pose[3 * i + j] * found[6 * l + j])
-                });
-                let wanted: Vec<Dd> = (0..3).map(|i| -expected[3 * l + i]).collect();
-                close(
-                    &world,
-                    &wanted,
-                    1e-11,
-                    size,
-                    &format!("{name}, state {k}, ball {l}"),
-                );
-                assert_eq!(
-                    largest(&found[6 * l + 3..6 * l + 6]),
-                    0.0,
-                    "a ball carries no moment"
-                );
-            }
+            let state = State {
+                v: u,
+                u: independent.iter().map(|&i| drives[i]).collect(),
+                ..state.clone()
+            };
+            let found: Vec<Dd> = state.value(&robot.function(None, Method::Reactions));
+            let loads = found[robot.nv()..].chunks(6);
+            let forces: Vec<[Dd; 3]> = loads.clone().map(|load| three(|i| load[i])).collect();
+            compared(&forces, "reactions");
+            let moments: Vec<Dd> = loads.flat_map(|load| load[3..].to_vec()).collect();
+            assert_eq!(largest(&moments), 0.0, "a ball carries no moment");
         }
     }
 }

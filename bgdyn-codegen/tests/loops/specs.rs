@@ -151,7 +151,7 @@ fn the_parallelograms_accelerate_as_a_pendulum() {
     assert!(compared.iter().all(|&n| n >= 10), "{compared:?}");
 }
 
-/// Andrews' mechanism from its start to 50 ms: RK4 of all positions with q̇ = S u, 2.5 µs.
+/// Andrews' mechanism from its start to 20 ms: RK4 of all positions with q̇ = S u, 2.5 µs.
 #[test]
 fn andrews_mechanism_moves_as_its_reference() {
     let robot = Robot::read(&spec("andrews"));
