@@ -73,33 +73,6 @@ impl Robot {
         order(&self.maker, way, method)
     }
 
-    /// Returns velocities and accelerations of the open tree of a mechanism with loops or contacts, and the loads on
-    /// places b and at contacts, for the accelerations of a state and the efforts that these need.
-    pub fn motion_of_tree(&self, way: Way, state: &State<Dd>) -> (State<Dd>, Vec<Dd>) {
-        let value =
-            |state: &State<Dd>, method| -> Vec<Dd> { state.value(&self.function(way, method)) };
-        let motion = State {
-            q: state.q.clone(),
-            v: value(state, Method::TreeVelocity),
-            a: value(state, Method::TreeAcceleration),
-            u: value(state, Method::InverseDynamics),
-        };
-        let driven = State {
-            u: motion.u.clone(),
-            ..state.clone()
-        };
-        let found = value(&driven, Method::Reactions);
-        let (accelerations, reactions) = found.split_at(self.nv());
-        close(
-            accelerations,
-            &state.a,
-            1e-20,
-            largest(&motion.a),
-            "accelerations",
-        );
-        (motion, reactions.to_vec())
-    }
-
     pub fn site(&self, name: &str) -> SiteId {
         let found = self.graph.sites.iter().position(|s| s.name == name);
         SiteId(found.unwrap_or_else(|| panic!("no place `{name}`")))

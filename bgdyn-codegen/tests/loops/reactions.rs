@@ -7,6 +7,7 @@ use bgdyn_runtime::Dd;
 
 use super::drawn::{NORMAL, at, connect, four_bar, spherical, xyz};
 use super::free_bodies::{Placed, assert_free_bodies, three};
+use super::motion_of_tree::motion_of_tree;
 use super::random_loops::{Text, noisy};
 use super::references::{joints, names, numbers, reference, spec};
 use super::robot::{Robot, State, Way, close, dot, largest};
@@ -24,7 +25,7 @@ struct Loads {
 }
 
 fn loads(robot: &Robot, way: Way, state: &State<Dd>) -> Loads {
-    let (motion, reactions) = robot.motion_of_tree(way, state);
+    let (motion, reactions) = motion_of_tree(robot, way, state);
     let mut efforts = vec![Dd::ZERO; motion.v.len()];
     let closure = robot.mechanism.closure().expect("loops");
     for (j, &p) in closure.independents.iter().zip(&motion.u) {

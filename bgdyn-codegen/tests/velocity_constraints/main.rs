@@ -8,6 +8,8 @@ mod findings;
 mod free_bodies;
 #[path = "../joints/maker.rs"]
 mod maker;
+#[path = "../joints/motion_of_tree.rs"]
+mod motion_of_tree;
 #[path = "../joints/robot.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;

@@ -6,6 +6,7 @@ use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
 use super::free_bodies::{Load, Placed, V3, assert_free_bodies, plus, scaled, three};
+use super::motion_of_tree::motion_of_tree;
 use super::random_mechanisms::{Constraint, Text, Touch};
 use super::robot::{Robot, State, Way, close, cross, dot, full, largest};
 use super::slip_rows::rows;
@@ -46,7 +47,7 @@ fn compare(text: &Text, links: &[&str], what: &str) {
         state.q.clone_from(&closure.samples[4 * seed as usize + 1]);
         for way in WAYS {
             let what = format!("{what}, state {seed}, {way:?}");
-            let (motion, reactions) = robot.motion_of_tree(way, &state);
+            let (motion, reactions) = motion_of_tree(&robot, way, &state);
             let mut given = Vec::new();
             for (k, one) in text.all.iter().enumerate() {
                 let place = Placed::frame(&tree, &format!("f{k}"), &motion);
