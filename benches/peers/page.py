@@ -1,10 +1,10 @@
 """The page of results."""
 
 import datetime
-import platform
 import re
-import subprocess
 from pathlib import Path
+
+from machine import output, processor
 
 TITLES = {
     "inverse_dynamics": "Inverse dynamics",
@@ -109,15 +109,6 @@ def left_out(results):
     return f"- Left out, because the sums disagree (the other compiler's program of the same C agrees): {'; '.join(found)}.\n"
 
 
-def output(*command):
-    return subprocess.run(command, capture_output=True, text=True).stdout
-
-
-def machine():
-    found = re.search(r"Model name:\s*(.*)", output("lscpu"))
-    return found.group(1).strip() if found else platform.processor()
-
-
 def versions(folder):
     pip = output(str(folder / "venv/bin/pip"), "list", "--format=freeze")
     pip = dict(line.split("==") for line in pip.split() if "==" in line)
@@ -137,7 +128,7 @@ def text(results, rounds, undisturbed, folder):
     quiet = "on a core of their own (`chrt -f`, `taskset`)" if undisturbed else "on a machine that did other work too"
     return f"""# Times compared with other systems
 
-{machine()}, {date}, commit `{commit}`. {versions(folder)}. Written by `benches/peers/run.sh --docs`.
+{processor()}, {date}, commit `{commit}`. {versions(folder)}. Written by `benches/peers/run.sh --docs`.
 
 ![How many times as long as bgdyn](peers.svg)
 

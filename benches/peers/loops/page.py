@@ -3,8 +3,12 @@
 import datetime
 import platform
 import subprocess
+import sys
 from importlib.metadata import version
 from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from machine import processor  # noqa: E402
 
 TITLES = {"parallelograms": "Two parallelograms", "five_bar": "A five-bar"}
 TEXTS = {
@@ -74,7 +78,7 @@ def equal_errors(rows):
                 cells.append(f"{time(one['seconds'])} (step {one['step']:g})")
             else:
                 ratio = one["seconds"] / own["seconds"]
-                cells.append(f"{ratio:.2g} times ({one['inside']}, step {one['step']:g})")
+                cells.append(f"{float(f'{ratio:.2g}'):g} times ({one['inside']}, step {one['step']:g})")
         lines.append(cells)
     return table(["error at most", *systems], lines)
 
@@ -84,7 +88,7 @@ def text(rows, root: Path, quick, times):
     versions = f"Pinocchio {version('pin')}, MuJoCo {version('mujoco')}, Drake {version('drake')}, Python {platform.python_version()}"
     whole = [
         "# Closed loops in other systems\n",
-        f"{datetime.date.today()}, commit `{git.stdout.strip()}`. {versions}. Written by `benches/peers/loops/run.sh --docs`."
+        f"{processor()}, {datetime.date.today()}, commit `{git.stdout.strip()}`. {versions}. Written by `benches/peers/loops/run.sh --docs`."
         + (" **A test of the scripts: short runs, times of one round.**" if quick else "")
         + ("" if times else " Times were not measured (`--without-times`).") + "\n",
         f"![Error of each run over its {'time' if times else 'step'}](peers_loops.svg)\n",
