@@ -84,7 +84,7 @@ fn undetermined(closure: &Closure, row: &LoopRow) -> TokenStream {
 fn edge(contact: &PlaneContact) -> Vec3<Dd> {
     match contact.shape {
         ContactShape::Edge(direction) | ContactShape::Disc(direction) => direction,
-        ContactShape::Sphere => Vec3([Dd::ZERO; 3]),
+        ContactShape::Sphere | ContactShape::Ellipsoid(_) => Vec3([Dd::ZERO; 3]),
     }
 }
 

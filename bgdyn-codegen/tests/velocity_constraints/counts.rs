@@ -7,7 +7,7 @@ use super::files::{file, spec};
 use super::robot::Robot;
 
 /// Specs, with their names on the page.
-const MECHANISMS: [(&str, &str); 5] = [
+const MECHANISMS: [(&str, &str); 6] = [
     ("chaplygin_sleigh", "Chaplygin sleigh"),
     (
         "differential_drive",
@@ -16,6 +16,7 @@ const MECHANISMS: [(&str, &str); 5] = [
     ("snakeboard", "snakeboard, speed ahead independent"),
     ("rolling_disc", "disc, a floating body"),
     ("whipple_bicycle", "bicycle, two rolling wheels"),
+    ("rattleback", "rattleback, a floating body"),
 ];
 
 /// The disc in yaw, lean and spin.

@@ -111,6 +111,54 @@ fn radii_are_positive_lengths() {
 }
 
 #[test]
+fn sizes_are_those_of_one_shape() {
+    const BALL: &str = ", axis: y, radius: 100 mm, on: floor, rows: [longitudinal]";
+    let ellipsoid = |keys: &'static str| (BALL, keys);
+    changed(
+        WHEEL,
+        ellipsoid(", radii: [1, 2, 0], on: floor"),
+        "radius-not-positive",
+        ".radii[2]",
+        &["half-axis", "`rim`", "0 m"],
+    );
+    changed(
+        WHEEL,
+        ellipsoid(", radii: [1, 2, 3 rad], on: floor"),
+        "unit-misfit",
+        ".radii[2]",
+        &["3 rad"],
+    );
+    changed(
+        WHEEL,
+        ellipsoid(", radii: [1, 2, 3], radius: 1, on: floor"),
+        "unused-key",
+        ".radius",
+        &["`radius`", "`radii`"],
+    );
+    changed(
+        WHEEL,
+        ellipsoid(", radii: [1, 2, 3], axis: y, on: floor"),
+        "unused-key",
+        ".axis",
+        &["`axis`", "`radii`"],
+    );
+    changed(
+        WHEEL,
+        ellipsoid(", radius: 1, crown_radius: 0.1, on: floor"),
+        "unused-key",
+        ".crown_radius",
+        &["`axis`"],
+    );
+    changed(
+        WHEEL,
+        ("radius: 100 mm", "radius: 100 mm, crown_radius: -1 mm"),
+        "radius-not-positive",
+        ".crown_radius",
+        &["crown radius", "-0.001 m"],
+    );
+}
+
+#[test]
 fn directions_are_axes() {
     let direction = |text: &'static str| ("direction: y", text);
     changed(

@@ -22,6 +22,7 @@ mod files;
 mod multipliers;
 mod planar_references;
 mod random_mechanisms;
+mod rattleback;
 mod reactions;
 mod slip_rows;
 mod spatial_references;

@@ -127,8 +127,8 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
         };
         let (found, wanted) = (on_joints(&own, &own_forces), on_joints(&theirs, lambda));
         close(&found, &wanted, 1e-21, forces, &what);
-        // Rows of wheels and edges have the same directions as here; those of a ball are along the plane's axes.
-        if text.all.iter().all(|one| one.touch != Touch::Ball) {
+        // Rows of wheels and edges have the same directions as here; those of balls and ellipsoids are along the plane's axes.
+        if text.all.iter().all(|one| !one.touch.without_axle()) {
             close(&own_forces, lambda, 1e-21, forces, &what);
         }
     }
@@ -172,9 +172,16 @@ fn knife_edges_move_as_with_multipliers() {
 /// Wheels whose joint is about their axle, on chains of joints of one degree.
 #[test]
 fn wheels_on_axles_move_as_with_multipliers() {
-    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Lateral]
-        .into_iter()
-        .enumerate()
+    for (seed, touch) in [
+        Touch::Wheel,
+        Touch::Longitudinal,
+        Touch::Lateral,
+        Touch::Tyre,
+        Touch::LongitudinalTyre,
+        Touch::LateralTyre,
+    ]
+    .into_iter()
+    .enumerate()
     {
         let mut random = Random(600 + seed as u64);
         let mut text = Text::new(&mut random, "type: prismatic, axis: [1, -2, 3]", 5);
@@ -186,9 +193,15 @@ fn wheels_on_axles_move_as_with_multipliers() {
 /// Wheels and balls that are fixed to a body in general position.
 #[test]
 fn rims_and_balls_move_as_with_multipliers() {
-    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Ball]
-        .into_iter()
-        .enumerate()
+    for (seed, touch) in [
+        Touch::Wheel,
+        Touch::Longitudinal,
+        Touch::Ball,
+        Touch::LateralTyre,
+        Touch::Ellipsoid,
+    ]
+    .into_iter()
+    .enumerate()
     {
         let mut random = Random(700 + seed as u64);
         let mut text = Text::new(&mut random, "type: prismatic, axis: [1, -2, 3]", 5);
@@ -199,9 +212,15 @@ fn rims_and_balls_move_as_with_multipliers() {
 
 #[test]
 fn bodies_that_float_roll_as_with_multipliers() {
-    for (seed, touch) in [Touch::Wheel, Touch::Lateral, Touch::Ball]
-        .into_iter()
-        .enumerate()
+    for (seed, touch) in [
+        Touch::Wheel,
+        Touch::Lateral,
+        Touch::Ball,
+        Touch::Tyre,
+        Touch::Ellipsoid,
+    ]
+    .into_iter()
+    .enumerate()
     {
         let mut random = Random(800 + seed as u64);
         let mut text = Text::new(&mut random, "type: floating", 2);

@@ -13,7 +13,20 @@ pub enum Touch {
     /// A wheel that may slip along its axle.
     Longitudinal,
     Lateral,
+    Tyre,
+    /// A tyre that may slip along its axle.
+    LongitudinalTyre,
+    /// A tyre that may slip across its axle.
+    LateralTyre,
     Ball,
+    Ellipsoid,
+}
+
+impl Touch {
+    /// Whether the rows along the plane are along its axes.
+    pub fn without_axle(self) -> bool {
+        matches!(self, Touch::Ball | Touch::Ellipsoid)
+    }
 }
 
 /// A constraint of a random mechanism.
@@ -22,6 +35,10 @@ pub struct Constraint {
     /// Direction of a knife edge, axle of a wheel, in the axes of its frame.
     pub axis: [Dd; 3],
     pub radius: Dd,
+    /// Radius of a tyre's sections; 0 of others.
+    pub crown: Dd,
+    /// Those of an ellipsoid.
+    pub half_axes: [Dd; 3],
 }
 
 fn thousandths(random: &mut Random, size: i64) -> i64 {
@@ -123,26 +140,44 @@ impl Text {
 
     fn constrain(&mut self, touch: Touch, axis: [i64; 3], (link, at): (&str, [i64; 3])) {
         let k = self.all.len();
+        // A wheel with a joint about its axle has the axes of its link.
+        let turned = match touch {
+            Touch::Ellipsoid => ", rpy: [0.4, -0.3, 0.7]",
+            _ => "",
+        };
         self.frames += &format!(
-            "  - {{ name: f{k}, link: {link}, origin: {{ xyz: {} }} }}\n",
+            "  - {{ name: f{k}, link: {link}, origin: {{ xyz: {}{turned} }} }}\n",
             vector(at)
         );
         let direction = vector(axis);
         let keys = match touch {
             Touch::Edge => format!("type: knife_edge, at: f{k}, direction: {direction}"),
             Touch::Ball => format!("type: rolling, link: f{k}, radius: 0.4, on: slope"),
+            Touch::Ellipsoid => {
+                format!("type: rolling, link: f{k}, radii: [0.4, 0.25, 0.3], on: slope")
+            }
+            Touch::Tyre | Touch::LongitudinalTyre | Touch::LateralTyre => format!(
+                "type: rolling, link: f{k}, axis: {direction}, radius: 0.4, crown_radius: 0.13, on: slope"
+            ),
             _ => format!("type: rolling, link: f{k}, axis: {direction}, radius: 0.4, on: slope"),
         };
         let rows = match touch {
-            Touch::Longitudinal => ", rows: [longitudinal]",
-            Touch::Lateral => ", rows: [lateral]",
+            Touch::Longitudinal | Touch::LongitudinalTyre => ", rows: [longitudinal]",
+            Touch::Lateral | Touch::LateralTyre => ", rows: [lateral]",
             _ => "",
         };
         self.constraints += &format!("  c{k}: {{ {keys}{rows} }}\n");
+        let number = |text: &str| -> Dd { text.parse().expect("a number") };
+        let crown = match touch {
+            Touch::Tyre | Touch::LongitudinalTyre | Touch::LateralTyre => number("0.13"),
+            _ => Dd::ZERO,
+        };
         self.all.push(Constraint {
             touch,
             axis: unit(axis),
-            radius: "0.4".parse().expect("a number"),
+            radius: number("0.4"),
+            crown,
+            half_axes: ["0.4", "0.25", "0.3"].map(number),
         });
     }
 

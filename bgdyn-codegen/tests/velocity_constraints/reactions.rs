@@ -26,10 +26,26 @@ fn load(place: Placed, one: &Constraint, plane: [V3; 3], of: &[Dd]) -> Load {
         let parts = axes.iter().zip(of).map(|(axis, &x)| scaled(*axis, x));
         parts.fold(none, plus)
     };
-    let below = |e: V3| plus(place.origin, scaled(e, -one.radius));
+    let below = |e: V3| {
+        let middle = plus(place.origin, scaled(e, -one.radius));
+        plus(middle, scaled(normal, -one.crown))
+    };
     match one.touch {
         Touch::Edge => Load::at(place.origin, place.turned(three(|i| of[i])), none),
         Touch::Ball => Load::at(below(normal), sum(plane), none),
+        Touch::Ellipsoid => {
+            // −Σ a_k² (x_k · z) x_k / h, with the directions x_k of the half-axes.
+            let axes =
+                [0, 1, 2].map(|k| place.turned(three(|i| if i == k { Dd::ONE } else { Dd::ZERO })));
+            let lengths = three(|k| one.half_axes[k] * dot(&axes[k], &normal));
+            let height = dot(&lengths, &lengths).sqrt();
+            let steps = three(|k| -(one.half_axes[k] * lengths[k] / height));
+            let parts = axes.iter().zip(steps);
+            let lowest = parts.fold(place.origin, |at, (axis, step)| {
+                plus(at, scaled(*axis, step))
+            });
+            Load::at(lowest, sum(plane), none)
+        }
         _ => {
             let axle = place.turned(one.axis);
             let ahead = normalized(cross(&axle, &normal));
@@ -87,9 +103,16 @@ fn links_with_knife_edges_are_free_bodies() {
 /// Wheels with a joint about their axle, and wheels that are fixed to a body.
 #[test]
 fn links_with_wheels_and_balls_are_free_bodies() {
-    for (seed, touch) in [Touch::Wheel, Touch::Longitudinal, Touch::Lateral]
-        .into_iter()
-        .enumerate()
+    for (seed, touch) in [
+        Touch::Wheel,
+        Touch::Longitudinal,
+        Touch::Lateral,
+        Touch::Tyre,
+        Touch::LongitudinalTyre,
+        Touch::LateralTyre,
+    ]
+    .into_iter()
+    .enumerate()
     {
         let mut random = Random(1600 + seed as u64);
         let mut text = Text::new(&mut random, SLIDE, 5);
@@ -99,18 +122,27 @@ fn links_with_wheels_and_balls_are_free_bodies() {
         text.touch(&mut random, 4, touch);
         compare(&text, &["body_4"], &format!("{touch:?} on a body"));
     }
-    let mut random = Random(1650);
-    let mut text = Text::new(&mut random, SLIDE, 5);
-    text.touch(&mut random, 4, Touch::Ball);
-    compare(&text, &["body_4"], "ball");
+    for touch in [Touch::Ball, Touch::Ellipsoid] {
+        let mut random = Random(1650);
+        let mut text = Text::new(&mut random, SLIDE, 5);
+        text.touch(&mut random, 4, touch);
+        compare(&text, &["body_4"], &format!("{touch:?}"));
+    }
 }
 
 /// The open tree with multipliers, on floating bodies.
 #[test]
 fn contacts_accelerate_and_are_projected_as_with_multipliers() {
-    for (seed, touch) in [Touch::Wheel, Touch::Lateral, Touch::Ball, Touch::Edge]
-        .into_iter()
-        .enumerate()
+    for (seed, touch) in [
+        Touch::Wheel,
+        Touch::Lateral,
+        Touch::Ball,
+        Touch::Edge,
+        Touch::Ellipsoid,
+        Touch::LateralTyre,
+    ]
+    .into_iter()
+    .enumerate()
     {
         let mut random = Random(1700 + seed as u64);
         let mut text = Text::new(&mut random, "type: floating", 2);

@@ -65,6 +65,28 @@ impl FrameMotion {
         (v, cross(&self.velocity[..3], &v))
     }
 
+    /// The lowest point of an ellipsoid from its centre: −A n / √(n · A n) in the frame's axes, with n there and its
+    /// rate −ω × n.
+    fn lowest(&self, half_axes: [Dd; 3], normal: [Dd; 3]) -> Moving {
+        let column = |k: usize| three(|i| self.rotation[i][k]);
+        let omega = three(|i| self.velocity[i]);
+        let own = |v: [Dd; 3]| three(|k| dot(&column(k), &v));
+        let squares = half_axes.map(|a| a * a);
+        let stretched = |n: [Dd; 3]| three(|k| squares[k] * n[k]);
+        let (n, rate) = (own(normal), own(cross(&normal, &omega)));
+        let height = dot(&n, &stretched(n)).sqrt();
+        let height_rate = dot(&n, &stretched(rate)) / height;
+        let point = times(stretched(n), -(Dd::ONE / height));
+        let moved = plus(
+            stretched(rate),
+            times(stretched(n), -(height_rate / height)),
+        );
+        let moved = times(moved, -(Dd::ONE / height));
+        let world = |v: [Dd; 3]| three(|i| dot(&self.rotation[i], &v));
+        let arm = world(point);
+        (arm, plus(cross(&omega, &arm), world(moved)))
+    }
+
     /// The row of B and γ: the velocity of the material point at an arm from the origin, along a direction.
     fn row(&self, direction: Moving, arm: Moving) -> (Vec<Dd>, Dd) {
         let (d, d_rate) = direction;
@@ -92,8 +114,11 @@ pub fn rows(
     let up = (normal, still);
     match one.touch {
         Touch::Edge => vec![frame.row(frame.fixed(one.axis), (still, still))],
-        Touch::Ball => {
-            let arm = (times(normal, -one.radius), still);
+        Touch::Ball | Touch::Ellipsoid => {
+            let arm = match one.touch {
+                Touch::Ball => (times(normal, -one.radius), still),
+                _ => frame.lowest(one.half_axes, normal),
+            };
             let axis = |k: usize| (three(|i| if i == k { Dd::ONE } else { Dd::ZERO }), still);
             [0, 1, 2].map(|k| frame.row(axis(k), arm)).to_vec()
         }
@@ -102,11 +127,14 @@ pub fn rows(
             let ahead = normalized(crossed(axle, up));
             let aside = crossed(up, ahead);
             let (e, rate) = crossed(ahead, axle);
-            let arm = (times(e, -one.radius), times(rate, -one.radius));
+            let crown = times(normal, -one.crown);
+            let arm = (plus(times(e, -one.radius), crown), times(rate, -one.radius));
             let all = [ahead, aside, up].map(|d| frame.row(d, arm)).to_vec();
             match one.touch {
-                Touch::Longitudinal => [all[0].clone(), all[2].clone()].to_vec(),
-                Touch::Lateral => [all[1].clone(), all[2].clone()].to_vec(),
+                Touch::Longitudinal | Touch::LongitudinalTyre => {
+                    [all[0].clone(), all[2].clone()].to_vec()
+                }
+                Touch::Lateral | Touch::LateralTyre => [all[1].clone(), all[2].clone()].to_vec(),
                 _ => all,
             }
         }

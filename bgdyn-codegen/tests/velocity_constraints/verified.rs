@@ -132,6 +132,10 @@ fn rows_in_general_position_are_accepted() {
     text.wheel(&mut random, 2, Touch::Longitudinal);
     text.touch(&mut random, 1, Touch::Edge);
     accepted(&text.constrained(), None);
+    let mut text = Text::new(&mut random, "type: floating", 2);
+    text.touch(&mut random, 0, Touch::Ellipsoid);
+    text.wheel(&mut random, 2, Touch::LongitudinalTyre);
+    accepted(&text.constrained(), None);
 }
 
 /// Positions have more directions than velocities: derivatives along v would be taken for all of them.

@@ -193,20 +193,40 @@ impl Bodies {
         }
     }
 
-    /// Adds the rim of a wheel, or three great circles of a ball.
+    /// Adds the rim of a wheel, three circles of a tyre, or three sections of a ball or an ellipsoid.
     fn rims(&mut self, body: usize, centre: &Placed, contact: &PlaneContact) {
         let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
-        let axles: Vec<[f64; 3]> = match contact.shape {
-            ContactShape::Disc(axle) => vec![axle.map(|x| x.to_f64()).0],
-            ContactShape::Sphere => (0..3).map(unit).collect(),
+        let (radius, crown) = (contact.radius.to_f64(), contact.crown.to_f64());
+        let mut stretch = [radius; 3];
+        // Axles, radii, and distances along the axles.
+        let circles: Vec<([f64; 3], f64, f64)> = match contact.shape {
+            ContactShape::Disc(axle) => {
+                stretch = [1.0; 3];
+                let axle = axle.map(|x| x.to_f64()).0;
+                match crown > 0.0 {
+                    false => vec![(axle, radius, 0.0)],
+                    true => vec![
+                        (axle, radius + crown, 0.0),
+                        (axle, radius, crown),
+                        (axle, radius, -crown),
+                    ],
+                }
+            }
+            ContactShape::Sphere => (0..3).map(|k| (unit(k), 1.0, 0.0)).collect(),
+            ContactShape::Ellipsoid(half_axes) => {
+                stretch = half_axes.map(|x| x.to_f64());
+                (0..3).map(|k| (unit(k), 1.0, 0.0)).collect()
+            }
             ContactShape::Edge(_) => vec![],
         };
-        let radius = contact.radius.to_f64();
-        for axle in axles {
+        for (axle, radius, beside) in circles {
             let across = across(axle);
             let corner = |k: usize| {
                 let (sin, cos) = (k as f64 * std::f64::consts::TAU / RIM as f64).sin_cos();
-                let along = |i: usize| radius * (cos * across[0][i] + sin * across[1][i]);
+                let along = |i: usize| {
+                    let round = radius * (cos * across[0][i] + sin * across[1][i]);
+                    stretch[i] * (round + beside * axle[i])
+                };
                 centre.point(std::array::from_fn(along))
             };
             for k in 0..RIM {

@@ -22,23 +22,43 @@ pub(crate) fn unknown_plane(location: &Location, name: &str, known: &[&str]) -> 
     Fault::new(location, "unknown-plane", message).with_help(suggestion(name, known, list))
 }
 
-pub(crate) fn radius_not_positive(location: &Location, name: &str, radius: f64) -> Fault {
+pub(crate) fn radius_not_positive(
+    location: &Location,
+    (what, name): (&str, &str),
+    radius: f64,
+) -> Fault {
     let message = format!(
-        "the radius of the wheel {} is {} m",
+        "the {what} of the wheel {} is {} m",
         quote(name),
         six_digits(radius)
     );
     Fault::new(location, "radius-not-positive", message)
-        .with_help("write a positive radius; an edge without a wheel is a `knife_edge`")
+        .with_help("write a positive length; an edge without a wheel is a `knife_edge`")
 }
 
-pub(crate) fn radius_is_parameter(location: &Location, name: &str) -> Fault {
+pub(crate) fn radius_is_parameter(location: &Location, (what, name): (&str, &str)) -> Fault {
     let message = format!(
-        "the radius of the wheel {} is a run-time parameter",
+        "the {what} of the wheel {} is a run-time parameter",
         quote(name)
     );
     Fault::new(location, "parameter-not-possible", message)
         .with_help("write a number: rows of constraints are solved with numbers")
+}
+
+pub(crate) fn key_beside_radii(location: &Location, key: &str) -> Fault {
+    let message = format!("`{key}` beside `radii`, which are those of an ellipsoid");
+    Fault::new(location, "unused-key", message).with_help(format!(
+        "leave `{key}` out, or `radii`: a wheel has `axis`, `radius` and perhaps `crown_radius`, a ball `radius`"
+    ))
+}
+
+pub(crate) fn crown_of_ball(location: &Location) -> Fault {
+    Fault::new(
+        location,
+        "unused-key",
+        "`crown_radius` without `axis`: a ball has no sections",
+    )
+    .with_help("give the wheel's axle with `axis`, or leave `crown_radius` out")
 }
 
 pub(crate) fn rows_of_ball(location: &Location) -> Fault {
@@ -87,14 +107,19 @@ pub(crate) fn wheel_lies_flat(location: &Location, name: &str) -> Fault {
 pub(crate) fn wheel_never_touches(
     location: &Location,
     name: &str,
-    (open, radius): (f64, f64),
+    (open, sizes): (f64, &[f64]),
 ) -> Fault {
     let side = if open > 0.0 { "above" } else { "below" };
+    let sizes: Vec<String> = sizes.iter().map(|x| six_digits(*x)).collect();
+    let sizes = match &sizes[..] {
+        [radius] => format!("a radius of {radius} m"),
+        [radius, crown] => format!("a radius of {radius} m and a crown radius of {crown} m"),
+        half_axes => format!("half-axes of {} m", half_axes.join(", ")),
+    };
     let message = format!(
-        "the wheel {} cannot touch its plane: at every position its lowest point is {} m {side} it, with a radius of {} m",
+        "the wheel {} cannot touch its plane: at every position its lowest point is {} m {side} it, with {sizes}",
         quote(name),
-        six_digits(open.abs()),
-        six_digits(radius)
+        six_digits(open.abs())
     );
     Fault::new(location, "wheel-never-touches", message).with_help(
         "put its centre one radius above the plane: correct the origins of the joints, or `offset` of the plane",

@@ -28,10 +28,10 @@ struct ContactDirections<'g> {
     /// Of the rows.
     longitudinal: Vec3<Expr<'g>>,
     lateral: Vec3<Expr<'g>>,
-    /// From the contact to the centre.
-    upward: Vec3<Expr<'g>>,
-    /// The cosine of the lean.
-    cosine: Expr<'g>,
+    /// From the centre to the contact.
+    contact: Vec3<Expr<'g>>,
+    /// The height of the centre above the plane where it touches.
+    height: Expr<'g>,
 }
 
 impl<'a, 'g> RelativePoses<'a, 'g> {
@@ -80,8 +80,7 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
                 kind.residual(&relative, one.length, |x: Dd| self.b.constant(x))
             }
             (RowKind::Contact(ContactRow::Height), Some(contact)) => {
-                let cosine = self.directions(row.closes, contact).cosine;
-                position.0[2] - cosine * self.b.constant(contact.radius)
+                position.0[2] - self.directions(row.closes, contact).height
             }
             (RowKind::Contact(_), _) => self.b.zero(),
         }
@@ -100,8 +99,7 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
         };
         let (rotation, centre) = self.places[closes];
         let directions = self.directions(closes, contact);
-        let radius = self.b.constant(contact.radius);
-        let fixed = rotation.transpose() * -directions.upward.scale(radius);
+        let fixed = rotation.transpose() * directions.contact;
         let along = self.along(row, &directions);
         let velocity = centre.map(&mut *rate_of) + rotation.map(rate_of) * fixed;
         along.dot(velocity)
@@ -115,8 +113,7 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
         let one = &self.closure.loops[closes];
         let (mut force, mut moment, mut point) = (zero, zero, position);
         if let Some(contact) = &one.contact {
-            let upward = self.directions(closes, contact).upward;
-            point = position - upward.scale(self.b.constant(contact.radius));
+            point = position + self.directions(closes, contact).contact;
         }
         for (row, &x) in self.closure.rows.iter().zip(lambda) {
             if row.closes != closes {
@@ -177,30 +174,48 @@ impl<'a, 'g> RelativePoses<'a, 'g> {
     fn directions(&self, closes: usize, contact: &PlaneContact) -> ContactDirections<'g> {
         let (rotation, _) = self.places[closes];
         let (b, up) = (self.b, self.unit(2));
+        let radius = b.constant(contact.radius);
         match contact.shape {
             ContactShape::Edge(direction) => ContactDirections {
                 longitudinal: up,
                 lateral: rotation * b.vector(direction),
-                upward: up,
-                cosine: b.constant(Dd::ONE),
+                contact: -up.scale(radius),
+                height: radius,
             },
             ContactShape::Sphere => ContactDirections {
                 longitudinal: self.unit(0),
                 lateral: self.unit(1),
-                upward: up,
-                cosine: b.constant(Dd::ONE),
+                contact: -up.scale(radius),
+                height: radius,
             },
+            ContactShape::Ellipsoid(half_axes) => {
+                // The support of Σ (x_k / a_k)² = 1 in the direction of the plane: h = |diag(a) Rᵀ z|.
+                let half_axes = b.vector(Vec3(half_axes)).0;
+                let own: [Expr<'g>; 3] =
+                    std::array::from_fn(|k| half_axes[k] * rotation.column(k).0[2]);
+                let height = Vec3(own).dot(Vec3(own)).sqrt();
+                let inverse = b.constant(Dd::ONE) / height;
+                let lowest: [Expr<'g>; 3] = std::array::from_fn(|k| half_axes[k] * own[k]);
+                ContactDirections {
+                    longitudinal: self.unit(0),
+                    lateral: self.unit(1),
+                    contact: -(rotation * Vec3(lowest)).scale(inverse),
+                    height,
+                }
+            }
             ContactShape::Disc(axle) => {
                 let axle = rotation * b.vector(axle);
                 let [x, y, z] = axle.0;
                 let cosine = (x * x + y * y).sqrt();
                 let inverse = b.constant(Dd::ONE) / cosine;
                 let longitudinal = axle.cross(up).scale(inverse);
+                let upward = (up - axle.scale(z)).scale(inverse);
+                let crown = b.constant(contact.crown);
                 ContactDirections {
                     longitudinal,
                     lateral: up.cross(longitudinal),
-                    upward: (up - axle.scale(z)).scale(inverse),
-                    cosine,
+                    contact: -(upward.scale(radius) + up.scale(crown)),
+                    height: cosine * radius + crown,
                 }
             }
         }

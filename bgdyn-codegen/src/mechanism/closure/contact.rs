@@ -20,126 +20,37 @@ use std::ops::Mul;
 use bgdyn_runtime::Dd;
 
 use super::chain::{RelativePlace, RelativeRates};
+use super::contact_shape::{ContactAxes, ContactNumbers, ContactRow, ContactShape, PlaneContact};
+use super::round_contact::RoundContact;
+use super::row::RowKind;
 use crate::math::{Ring, Vec3};
-use crate::mechanism::joint::{Column, DoubleDouble, PoseNumbers};
-use crate::mechanism::{CoordinateId, Pose};
-
-/// The functions of the numbers that the directions of a contact are computed with.
-pub trait ContactNumbers<E>: PoseNumbers<E> {
-    /// Returns 1 / x.
-    fn inverse(&self, x: E) -> E;
-    /// Returns the square root.
-    fn root(&self, x: E) -> E;
-    /// Returns the cosine of a wheel's lean; a wheel that lies flat may be refused.
-    fn leaning(&self, cosine: E) -> E {
-        cosine
-    }
-}
-
-impl ContactNumbers<Dd> for DoubleDouble {
-    fn inverse(&self, x: Dd) -> Dd {
-        Dd::ONE / x
-    }
-
-    fn root(&self, x: Dd) -> Dd {
-        x.sqrt()
-    }
-}
-
-/// A row of a contact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ContactRow {
-    /// The velocity of a knife edge along its direction, m/s.
-    Edge,
-    /// The velocity of a wheel's contact along the plane, across the axle, m/s.
-    Longitudinal,
-    /// The velocity of a wheel's contact along the plane, along the axle, m/s.
-    Lateral,
-    /// The velocity of a ball's contact along x or y of the plane, m/s.
-    Slip(usize),
-    /// The height of a wheel or a ball above its plane, m.
-    Height,
-}
-
-/// What touches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum ContactShape {
-    /// A knife edge, with the direction in which it does not slip, in the axes of place a.
-    Edge(Vec3<Dd>),
-    /// A thin disc, with its axle in the axes of place a.
-    Disc(Vec3<Dd>),
-    /// A sphere.
-    Sphere,
-}
-
-/// A wheel, a ball or a knife edge. Place a is at its centre, on the link that carries its axle; place b is the plane,
-/// with z along its normal.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlaneContact {
-    /// What touches.
-    pub shape: ContactShape,
-    /// Its place on its own link, with the axes of place a where the angle of the axle is zero.
-    pub place: Pose,
-    /// Radius, m; 0 for a knife edge.
-    pub radius: Dd,
-    /// The velocities of the joint at the axle, with their factors: rotation about the axle relative to place a.
-    pub spin: Vec<(CoordinateId, Dd)>,
-    /// Its rows, with their names.
-    pub rows: Vec<(&'static str, ContactRow)>,
-    /// The direction e from the contact to the centre, if it is constant in the axes of place a.
-    pub upward: Option<Vec3<Dd>>,
-}
-
-/// In which directions a contact's rows are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ContactAxes {
-    /// Along the plane and its normal.
-    Plane,
-    /// Along t, n and e of a wheel, which takes fewer operations; with the same solutions.
-    Wheel,
-    /// The three components of V in the axes of place a: the pivots of ċ are 1, however the wheel or ball turns.
-    Link,
-}
-
-/// Rows of a knife edge.
-pub const EDGE_ROWS: [(&str, ContactRow); 1] = [("slip", ContactRow::Edge)];
-
-/// Rows of a wheel.
-pub const DISC_ROWS: [(&str, ContactRow); 3] = [
-    ("longitudinal", ContactRow::Longitudinal),
-    ("lateral", ContactRow::Lateral),
-    ("height", ContactRow::Height),
-];
-
-/// Rows of a ball.
-pub const SPHERE_ROWS: [(&str, ContactRow); 3] = [
-    ("x", ContactRow::Slip(0)),
-    ("y", ContactRow::Slip(1)),
-    ("height", ContactRow::Height),
-];
+use crate::mechanism::CoordinateId;
+use crate::mechanism::joint::{Column, PoseNumbers};
 
 /// The directions of a contact at one position, in the axes of place a.
 pub struct ContactFrame<E> {
     /// n of a wheel, the direction of a knife edge; z of a ball.
-    axle: Vec3<E>,
+    pub(super) axle: Vec3<E>,
     /// z
-    normal: Vec3<E>,
+    pub(super) normal: Vec3<E>,
     /// e
-    upward: Vec3<E>,
+    pub(super) upward: Vec3<E>,
     /// t
-    forward: Vec3<E>,
+    pub(super) forward: Vec3<E>,
     /// s and 1 / s, the cosine of the lean
-    cosine: [E; 2],
+    pub(super) cosine: [E; 2],
     /// n · z, the sine of the lean
-    sine: E,
+    pub(super) sine: E,
     /// Axes of the plane.
-    plane: [Vec3<E>; 2],
-    radius: E,
-    zero: E,
+    pub(super) plane: [Vec3<E>; 2],
+    pub(super) radius: E,
+    pub(super) zero: E,
     /// Whether e is constant.
-    upright: bool,
+    pub(super) upright: bool,
     /// Whether it is that of a ball, for which e is z.
-    ball: bool,
+    pub(super) ball: bool,
+    /// Of an ellipsoid or a tyre.
+    pub(super) round: Option<RoundContact<E>>,
 }
 
 impl PlaneContact {
@@ -204,6 +115,12 @@ impl PlaneContact {
         let lateral = kept(ContactRow::Lateral);
         match self.shape {
             ContactShape::Edge(_) => ContactAxes::Wheel,
+            ContactShape::Disc(_) if self.crown != Dd::ZERO => {
+                match all && lateral && kept(ContactRow::Longitudinal) {
+                    true => ContactAxes::Link,
+                    false => ContactAxes::Plane,
+                }
+            }
             ContactShape::Disc(_)
                 if all && lateral && kept(ContactRow::Longitudinal) && self.upward.is_none() =>
             {
@@ -211,8 +128,8 @@ impl PlaneContact {
             }
             // Without the lateral row the one along e is not the rate of the height.
             ContactShape::Disc(_) if lateral => ContactAxes::Wheel,
-            ContactShape::Sphere if all => ContactAxes::Link,
-            ContactShape::Disc(_) | ContactShape::Sphere => ContactAxes::Plane,
+            ContactShape::Sphere | ContactShape::Ellipsoid(_) if all => ContactAxes::Link,
+            _ => ContactAxes::Plane,
         }
     }
 
@@ -227,7 +144,7 @@ impl PlaneContact {
         let normal = place.rotation.column(2);
         let axle = match self.shape {
             ContactShape::Edge(n) | ContactShape::Disc(n) => n.map(constant),
-            ContactShape::Sphere => normal,
+            ContactShape::Sphere | ContactShape::Ellipsoid(_) => normal,
         };
         let (upward, cosine, sine) = match (self.shape, self.upward) {
             (ContactShape::Disc(_), Some(upward)) => {
@@ -256,147 +173,28 @@ impl PlaneContact {
             zero,
             upright: self.upward.is_some(),
             ball: self.shape == ContactShape::Sphere,
+            round: RoundContact::new(self, (normal, upward, cosine[0]), numbers),
         }
     }
 }
 
 impl<E: Ring> ContactFrame<E> {
-    /// Returns the contact, from the centre: −r e.
+    /// Returns whether a rotation about the axle enters a row: it moves the contact along t only.
+    pub(super) fn moved_by_spin(&self, row: RowKind, axes: ContactAxes) -> bool {
+        let beside = [ContactRow::Lateral, ContactRow::Height].map(RowKind::Contact);
+        axes == ContactAxes::Link || !beside.contains(&row)
+    }
+
+    /// Returns the contact, from the centre: −r e, or that of a rounded body.
     pub(super) fn contact(&self) -> Vec3<E> {
-        -self.upward.scale(self.radius)
+        match &self.round {
+            Some(round) => round.arm,
+            None => -self.upward.scale(self.radius),
+        }
     }
 
     /// Returns the cosine of a wheel's lean, s; 1 for balls and knife edges.
     pub(super) fn cosine_of_lean(&self) -> E {
         self.cosine[0]
-    }
-}
-
-impl ContactRow {
-    /// Returns the direction of the row's force on the wheel, ball or edge: t, l or z of the plane, or that of the edge.
-    pub(super) fn direction<E: Ring + Mul<Dd, Output = E>>(
-        self,
-        frame: &ContactFrame<E>,
-    ) -> Vec3<E> {
-        match self {
-            ContactRow::Edge => frame.axle,
-            ContactRow::Longitudinal => frame.forward,
-            // l = z × t
-            ContactRow::Lateral => frame.normal.cross(frame.forward),
-            ContactRow::Slip(k) => frame.plane[k],
-            ContactRow::Height => frame.normal,
-        }
-    }
-
-    /// Returns its component of the force in the axes of the contact: ahead, along the axle in the plane, normal to it;
-    /// of a ball along x and y of the plane; `None` for a knife edge.
-    pub fn contact_axis(self) -> Option<usize> {
-        match self {
-            ContactRow::Edge => None,
-            _ => Some(self.component()),
-        }
-    }
-
-    /// Returns whether positions do not decide whether the row holds.
-    pub fn of_velocities(self) -> bool {
-        self != ContactRow::Height
-    }
-
-    /// Returns the height above the plane less that of contact, m; zero for rows on velocities. `height` is that of
-    /// the centre.
-    pub(super) fn residual<E: Ring + Mul<Dd, Output = E>>(
-        self,
-        height: E,
-        frame: &ContactFrame<E>,
-    ) -> E {
-        match self {
-            ContactRow::Height => height - frame.radius * frame.cosine[0],
-            _ => frame.zero,
-        }
-    }
-
-    /// Returns the rate of the row for a twist of the wheel.
-    pub(super) fn rate<E: Ring + Mul<Dd, Output = E>>(
-        self,
-        frame: &ContactFrame<E>,
-        twist: &Column<E>,
-        axes: ContactAxes,
-    ) -> E {
-        let (omega, v, r) = (twist.angular, twist.linear, frame.radius);
-        let along_axle = || frame.axle.dot(v) + r * frame.forward.dot(omega);
-        let upward = || frame.upward.dot(v);
-        match (self, axes) {
-            (ContactRow::Edge, _) => frame.axle.dot(v),
-            (_, ContactAxes::Link) => {
-                let k = self.component();
-                v.0[k] - omega.cross(frame.upward).0[k] * r
-            }
-            (ContactRow::Longitudinal, _) => frame.forward.dot(v) - r * frame.axle.dot(omega),
-            (ContactRow::Lateral, ContactAxes::Wheel) => along_axle(),
-            (ContactRow::Lateral, ContactAxes::Plane) => {
-                frame.cosine[0] * along_axle() - frame.sine * upward()
-            }
-            (ContactRow::Slip(k), _) => frame.plane[k].dot(v - omega.cross(frame.normal).scale(r)),
-            (ContactRow::Height, ContactAxes::Wheel) => upward(),
-            (ContactRow::Height, ContactAxes::Plane) => {
-                frame.normal.dot(v) + r * (frame.sine * frame.forward.dot(omega))
-            }
-        }
-    }
-
-    /// Returns the component of V in link axes for this row.
-    fn component(self) -> usize {
-        match self {
-            ContactRow::Edge | ContactRow::Longitudinal => 0,
-            ContactRow::Lateral => 1,
-            ContactRow::Slip(k) => k,
-            ContactRow::Height => 2,
-        }
-    }
-
-    /// Returns the derivative of the rate if no joint accelerates, for velocities at which all rows of the contact
-    /// hold; `turning` is the angular velocity of the plane relative to place a.
-    pub(super) fn bias<E: Ring + Mul<Dd, Output = E>>(
-        self,
-        frame: &ContactFrame<E>,
-        (rates, turning): (&RelativeRates<E>, Vec3<E>),
-        axes: ContactAxes,
-    ) -> E {
-        let (omega, v, r) = (rates.velocity.angular, rates.velocity.linear, frame.radius);
-        let along = |row: ContactRow, axes| row.rate(frame, &rates.bias, axes);
-        let normal_rate = turning.cross(frame.normal);
-        let turn = match frame.upright {
-            true => frame.zero,
-            false => frame.forward.dot(normal_rate) * frame.cosine[1],
-        };
-        let along_axle = || {
-            let turned = turn * frame.upward.dot(omega);
-            along(ContactRow::Lateral, ContactAxes::Wheel) - r * turned
-        };
-        let upward = || along(ContactRow::Height, ContactAxes::Wheel) + turn * frame.forward.dot(v);
-        match (self, axes) {
-            (ContactRow::Edge, _) => along(self, axes),
-            (_, ContactAxes::Link) => {
-                let upward_rate = match frame.ball {
-                    true => normal_rate,
-                    false => frame.forward.scale(turn),
-                };
-                along(self, axes) - omega.cross(upward_rate).0[self.component()] * r
-            }
-            (ContactRow::Longitudinal, _) => along(self, axes) - turn * frame.upward.dot(v),
-            (ContactRow::Lateral, ContactAxes::Wheel) => along_axle(),
-            (ContactRow::Lateral, ContactAxes::Plane) => {
-                frame.cosine[0] * along_axle() - frame.sine * upward()
-            }
-            (ContactRow::Slip(k), _) => {
-                along(self, axes) - frame.plane[k].dot(omega.cross(normal_rate)) * r
-            }
-            (ContactRow::Height, ContactAxes::Wheel) => upward(),
-            (ContactRow::Height, ContactAxes::Plane) => {
-                let leaning = normal_rate.dot(frame.axle) * frame.forward.dot(omega);
-                let turned = frame.sine * (turn * frame.upward.dot(omega));
-                along(self, axes) + normal_rate.dot(v) + r * (leaning - turned)
-            }
-        }
     }
 }

@@ -22,6 +22,16 @@ pub static DISC: ClosingType = ClosingType {
     coincident: false,
 };
 
+/// The ellipsoid.
+pub static ELLIPSOID: ClosingType = ClosingType {
+    keyword: "rolling",
+    about: "An ellipsoid rolls on a plane without slipping.",
+    rows: &[],
+    axial: false,
+    length: false,
+    coincident: false,
+};
+
 /// The sphere.
 pub static SPHERE: ClosingType = ClosingType {
     keyword: "rolling",

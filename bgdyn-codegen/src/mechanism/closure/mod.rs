@@ -13,7 +13,9 @@
 //! |---|---|
 //! | `chain.rs` | the joints of a loop in series, and the motion from place to place |
 //! | `row.rs` | rows of loops: value, rate, second derivative |
-//! | `contact.rs`, `contact_types.rs` | rows of wheels, balls and knife edges; their words |
+//! | `contact_shape.rs`, `contact_types.rs` | what touches a plane, as data; its words in a file |
+//! | `contact.rs`, `contact_row.rs` | wheels, balls and knife edges at one position; their rows |
+//! | `round_contact.rs` | the contacts of ellipsoids and tyres |
 //! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
@@ -24,10 +26,13 @@
 mod chain;
 mod closing;
 mod contact;
+mod contact_row;
+mod contact_shape;
 mod contact_types;
 mod numeric;
 mod ranges;
 mod reach;
+mod round_contact;
 mod row;
 mod rows_at;
 mod solve;
@@ -39,11 +44,11 @@ use crate::fault::Location;
 use crate::math::Vec3;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates, TwistPoint};
 pub use closing::{CLOSING_TYPES, ClosingType};
-pub use contact::{
+pub use contact_shape::{
     ContactAxes, ContactNumbers, ContactRow, ContactShape, DISC_ROWS, EDGE_ROWS, PlaneContact,
     SPHERE_ROWS,
 };
-pub use contact_types::{DISC, KNIFE_EDGE, SPHERE};
+pub use contact_types::{DISC, ELLIPSOID, KNIFE_EDGE, SPHERE};
 pub use ranges::{ClosedRange, RangeEnd, TreeLimits};
 pub use reach::Unreached;
 pub use row::{ClosingRow, RowKind};

@@ -184,15 +184,18 @@ impl Closure {
             let mut moved = q.to_vec();
             self.move_by(&mut moved, &tangent.collect::<Vec<_>>());
             let closed = self.assemble(rows, &mut moved, &free) <= CLOSED;
-            if closed && !self.nearly_flat(&moved) && self.signs_at(&moved) == self.signs {
+            if closed
+                && self.flat_wheel(&moved, LEAST_COSINE).is_none()
+                && self.signs_at(&moved) == self.signs
+            {
                 q.copy_from_slice(&moved);
             }
         }
     }
 
-    /// Returns whether a wheel almost lies flat: there are other branches of positions, on which it is flat whatever
-    /// else moves.
-    fn nearly_flat(&self, q: &[Dd]) -> bool {
+    /// Returns the first wheel whose lean has a cosine below `least`. Where it is 0 other branches of positions begin,
+    /// on which the wheel lies flat whatever else moves.
+    pub fn flat_wheel(&self, q: &[Dd], least: f64) -> Option<usize> {
         let axes = RowAxes {
             reversed: false,
             of_plane: false,
@@ -202,8 +205,8 @@ impl Closure {
             self.rows_at(closes, axes, (q, &DoubleDouble))
                 .cosine_of_lean()
         };
-        let mut cosines = (0..self.loops.len()).filter_map(cosine);
-        cosines.any(|x| x.to_f64().abs() < LEAST_COSINE)
+        let flat = |&closes: &usize| cosine(closes).is_some_and(|x| x.to_f64().abs() < least);
+        (0..self.loops.len()).find(flat)
     }
 
     /// Returns for each block whether the determinant of its columns is positive; none before the signs of the start

@@ -5,7 +5,7 @@ use std::ops::Mul;
 use bgdyn_runtime::Dd;
 
 use super::chain::{RelativePlace, RelativeRates};
-use super::contact::ContactRow;
+use super::contact_shape::ContactRow;
 use crate::math::{Ring, Vec3};
 use crate::mechanism::joint::Column;
 

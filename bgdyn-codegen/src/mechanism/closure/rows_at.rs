@@ -6,7 +6,8 @@ use std::ops::Mul;
 use bgdyn_runtime::Dd;
 
 use super::chain::{ChainFrames, LoopChain, RelativePlace, TwistPoint};
-use super::contact::{ContactAxes, ContactFrame, ContactNumbers};
+use super::contact::ContactFrame;
+use super::contact_shape::{ContactAxes, ContactNumbers};
 use super::row::RowKind;
 use super::{Closure, KinematicLoop};
 use crate::math::{Ring, Vec3};
@@ -126,8 +127,17 @@ impl<E: Ring + Mul<Dd, Output = E>> RowsAt<'_, E> {
             (RowKind::Contact(row), Some((frame, axes))) => row.rate(frame, column, *axes),
             (RowKind::Contact(_), None) => self.zero,
         };
+        let turns = |j: CoordinateId| {
+            let mut others = self.place.columns.iter();
+            let (contact, axes) = self.contact.as_ref()?;
+            let moves = others.any(|(k, _)| *k == j);
+            (!moves && !contact.moved_by_spin(row, *axes)).then_some(self.zero)
+        };
         let columns = self.columns.iter();
-        columns.map(|(j, column)| (*j, rate(column))).collect()
+        let rate = |(j, column): &(CoordinateId, Column<E>)| {
+            (*j, turns(*j).unwrap_or_else(|| rate(column)))
+        };
+        columns.map(rate).collect()
     }
 
     /// Returns the derivative of the rate if no joint accelerates; `v` are the velocities of the open tree, at which

@@ -26,17 +26,27 @@ pub enum ContactKind {
         /// The direction along which it does not move.
         direction: Located<Vector>,
     },
-    /// A wheel or a ball.
+    /// A wheel, a ball or an ellipsoid.
     Rolling {
         /// The axle of a wheel.
         axle: Option<Located<Vector>>,
-        /// Its radius, m.
-        radius: Dd,
+        /// Its size.
+        size: RollingSize,
         /// Where a wheel slips.
         slip: Slip,
         /// The name of its plane; `None` for the world's x–y plane.
         on: Option<Located<String>>,
     },
+}
+
+/// The size of a body that rolls, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RollingSize {
+    /// The radius of a wheel or a ball; of a tyre that of the circle through the middles of its sections, and the radius
+    /// of these, else 0.
+    Radius(Dd, Dd),
+    /// The half-axes of an ellipsoid along the axes of its link or frame.
+    HalfAxes([Dd; 3]),
 }
 
 /// The directions in which a wheel may slip.

@@ -36,7 +36,7 @@ use crate::mechanism::check::parameters::Parameters;
 use crate::mechanism::{Joint, Leader, Link, LinkId, Motion};
 use crate::name::is_identifier;
 use constraint_type::{ConstraintType, ReadConstraint};
-pub(super) use contact::{ContactEntry, ContactKind, Slip};
+pub(super) use contact::{ContactEntry, ContactKind, RollingSize, Slip};
 use row::{RowReader, one_degree, unknown};
 
 /// All types of constraints.

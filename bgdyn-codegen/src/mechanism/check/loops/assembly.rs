@@ -16,6 +16,9 @@ const STARTS: u64 = 200;
 /// A residual below this is that of a closed position.
 const CLOSED: f64 = 1e-25;
 
+/// A wheel whose lean has a smaller cosine lies flat.
+const FLAT: f64 = 1e-6;
+
 /// Positions with such a gap that are tried for motion.
 const NEAR: usize = 8;
 
@@ -48,7 +51,7 @@ pub(super) fn assemble(
     let mut best = (f64::INFINITY, given.clone());
     let mut near: Vec<OpenPosition> = Vec::new();
     let rounded = ROUNDED * closure.size();
-    let mut wrong: Option<usize> = None;
+    let (mut wrong, mut flat): (Option<usize>, Option<usize>) = (None, None);
     // Of any loop: which rows stay open is decided by `rank::leave_out`.
     let tolerance = read.iter().map(|one| one.tolerance).fold(0.0, f64::max);
     for seed in 0..STARTS {
@@ -73,6 +76,10 @@ pub(super) fn assemble(
             }
             continue;
         }
+        if let Some(one) = closure.flat_wheel(&q, FLAT) {
+            flat = flat.or(Some(one));
+            continue;
+        }
         match on_other_branch(closure, read, &q) {
             None => {
                 closure.start = q;
@@ -82,15 +89,19 @@ pub(super) fn assemble(
             Some(one) => wrong = wrong.or(Some(one)),
         }
     }
-    match wrong {
-        Some(one) => {
+    match (wrong, flat) {
+        (Some(one), _) => {
             let location = read[one]
                 .branch
                 .as_ref()
                 .map_or(&read[one].closes.location, |b| &b.location);
             faults.push(wording::branch_not_found(location, &read[one].closes.name));
         }
-        None => report_gap(closure, (best, &near), faults),
+        (None, Some(one)) => {
+            let one = &closure.loops[one];
+            faults.push(wording::wheel_lies_flat(&one.location, &one.name));
+        }
+        (None, None) => report_gap(closure, (best, &near), faults),
     }
     None
 }

@@ -7,11 +7,11 @@ use super::read::{Context, ReadLoop, path, step};
 use crate::fault::{Faults, wording};
 use crate::format::Located;
 use crate::math::Vec3;
-use crate::mechanism::check::constraint::{ContactEntry, ContactKind, Slip};
+use crate::mechanism::check::constraint::{ContactEntry, ContactKind, RollingSize, Slip};
 use crate::mechanism::check::direction::Directions;
 use crate::mechanism::closure::{
-    Closure, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS, KNIFE_EDGE, KinematicLoop,
-    LoopChain, PlaneContact, SPHERE, SPHERE_ROWS,
+    Closure, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS, ELLIPSOID, KNIFE_EDGE,
+    KinematicLoop, LoopChain, PlaneContact, SPHERE, SPHERE_ROWS,
 };
 use crate::mechanism::joint::DoubleDouble;
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose};
@@ -35,9 +35,10 @@ pub(super) fn read(
         ContactKind::Rolling { on, .. } => on.as_ref(),
     };
     let (plane_link, plane) = planes::plane(on, planes, faults)?;
-    let contact = |shape, radius, rows| PlaneContact {
+    let contact = |shape, (radius, crown), rows| PlaneContact {
         shape,
         radius,
+        crown,
         spin: Vec::new(),
         rows,
         upward: None,
@@ -46,18 +47,28 @@ pub(super) fn read(
     let (kind, contact) = match &entry.kind {
         ContactKind::Edge { direction } => {
             let shape = ContactShape::Edge(directions.axis(direction, faults)?);
-            (&KNIFE_EDGE, contact(shape, Dd::ZERO, EDGE_ROWS.to_vec()))
+            let none = (Dd::ZERO, Dd::ZERO);
+            (&KNIFE_EDGE, contact(shape, none, EDGE_ROWS.to_vec()))
         }
         ContactKind::Rolling {
-            axle, radius, slip, ..
-        } => match axle {
-            None => (
-                &SPHERE,
-                contact(ContactShape::Sphere, *radius, SPHERE_ROWS.to_vec()),
-            ),
-            Some(axle) => {
+            axle, size, slip, ..
+        } => match (axle, *size) {
+            (Some(axle), RollingSize::Radius(radius, crown)) => {
                 let shape = ContactShape::Disc(directions.axis(axle, faults)?);
-                (&DISC, contact(shape, *radius, rows(*slip)))
+                (&DISC, contact(shape, (radius, crown), rows(*slip)))
+            }
+            (_, RollingSize::HalfAxes([a, b, c])) if a != b || b != c => {
+                let shape = ContactShape::Ellipsoid([a, b, c]);
+                let largest = [b, c].into_iter().fold(a, |x, y| if y > x { y } else { x });
+                let rows = SPHERE_ROWS.to_vec();
+                (&ELLIPSOID, contact(shape, (largest, Dd::ZERO), rows))
+            }
+            (_, RollingSize::Radius(radius, _) | RollingSize::HalfAxes([radius, ..])) => {
+                let rows = SPHERE_ROWS.to_vec();
+                (
+                    &SPHERE,
+                    contact(ContactShape::Sphere, (radius, Dd::ZERO), rows),
+                )
             }
         },
     };

@@ -45,10 +45,11 @@ pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
             let one = &closure.loops[row.closes];
             let value = values[0].0[r].to_f64();
             faults.push(match &one.contact {
-                Some(contact) => {
-                    let radius = contact.radius.to_f64();
-                    wording::wheel_never_touches(&one.location, &one.name, (value, radius))
-                }
+                Some(contact) => wording::wheel_never_touches(
+                    &one.location,
+                    &one.name,
+                    (value, &contact.sizes()),
+                ),
                 None => wording::loop_row_never_holds(
                     &one.location,
                     (&one.name, row.name),
