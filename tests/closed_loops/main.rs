@@ -10,6 +10,7 @@ bgdyn::bgdyn!("../../specs/loops/slider_crank.yaml");
 bgdyn::bgdyn!("../../specs/loops/slider_crank_near_singular.yaml");
 bgdyn::bgdyn!("../../specs/loops/delta_robot.yaml");
 bgdyn::bgdyn!("excavator_bucket.yaml");
+bgdyn::bgdyn!("andrews_run.scene.yaml");
 bgdyn::bgdyn!("crank_run.scene.yaml");
 bgdyn::bgdyn!("five_bar_run.scene.yaml");
 bgdyn::bgdyn!("stewart_run.scene.yaml");
