@@ -60,18 +60,18 @@ impl EffectKind for Coulomb {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["kinetic"], "friction opposes the motion");
-        check.ordered("kinetic", "static", REST_HOLDS_MORE);
+        check.not_negative(&[KINETIC], "friction opposes the motion");
+        check.ordered(&KINETIC, &STATIC, REST_HOLDS_MORE);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
+        let (name, joint) = (&element.name, element.needed_name(&JOINT));
         let slip = layout.motion_in_words(joint, "slip");
         let mode = format!("whether `{joint}` slips (−1, 1: the sign of {slip}) or is held (0)");
         layout.mode(name.clone(), mode);
         let event = format!("`{joint}` comes to rest, or breaks away");
         layout.event(name.clone(), event);
-        if let Some(reference) = element.name("reference") {
+        if let Some(reference) = element.name(&REFERENCE) {
             let dimension = layout.position_of(joint);
             layout.reference(reference, Level::Rate, Level::Acceleration, dimension);
         }
@@ -85,7 +85,7 @@ impl Effect for Coulomb {
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let port = sums.port(element);
-        let reference = element.name("reference");
+        let reference = element.name(&REFERENCE);
         let counterpart = [Level::Rate, Level::Acceleration].map(|l| sums.reference(reference, l));
         let kinetic = sums.number(element, &KINETIC);
         let limit = sums.optional(element, &STATIC).unwrap_or(kinetic);

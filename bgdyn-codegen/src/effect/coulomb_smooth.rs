@@ -63,8 +63,8 @@ impl EffectKind for CoulombSmooth {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["kinetic"], "friction opposes the motion");
-        check.positive(&["width"], NO_WIDTH);
+        check.not_negative(&[KINETIC], "friction opposes the motion");
+        check.positive(&[WIDTH], NO_WIDTH);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

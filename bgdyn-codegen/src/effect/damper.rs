@@ -44,8 +44,8 @@ impl EffectKind for Damper {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.one_of(&["joint", "between"]);
-        check.not_negative(&["damping"], "a negative damping would drive the motion");
+        check.one_of(&[MAYBE_JOINT, BETWEEN]);
+        check.not_negative(&[DAMPING], "a negative damping would drive the motion");
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

@@ -57,7 +57,7 @@ impl EffectKind for Drag {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let numbers = ["linear", "quadratic", "angular"];
+        let numbers = [LINEAR, QUADRATIC, ANGULAR];
         check.not_negative(&numbers, "a negative drag would drive the link");
         if numbers.iter().all(|key| check.number(key).is_none()) {
             check.report(wording::no_drag(
@@ -79,7 +79,7 @@ impl Effect for Drag {
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        let site = sums.site(element.name(AT.name).unwrap_or_default());
+        let site = sums.site(element.needed_name(&AT));
         let jacobian = sums.jacobian(site);
         let [wx, wy, wz, vx, vy, vz] = twist(&jacobian, sums);
         let (omega, v) = (Vec3([wx, wy, wz]), Vec3([vx, vy, vz]));

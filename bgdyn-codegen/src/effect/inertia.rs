@@ -9,6 +9,16 @@ use crate::mechanism::Mechanism;
 
 pub(super) struct LinkInertia;
 
+/// The word for masses at the centres of mass.
+const LUMPED: &str = "lumped";
+
+const STAGE: Key = Key {
+    name: "stage",
+    reads: Reads::Word(&["distributed", LUMPED]),
+    needed: false,
+    about: "`distributed` (also where nothing is said) or `lumped`; scenes without this effect are lumped",
+};
+
 impl EffectKind for LinkInertia {
     fn keyword(&self) -> &'static str {
         "inertia"
@@ -31,18 +41,13 @@ impl EffectKind for LinkInertia {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[Key {
-            name: "stage",
-            reads: Reads::Word(&["distributed", "lumped"]),
-            needed: false,
-            about: "`distributed` (also where nothing is said) or `lumped`; scenes without this effect are lumped",
-        }]
+        &[STAGE]
     }
 }
 
 impl Effect for LinkInertia {
     fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
-        if element.name("stage") != Some("lumped") {
+        if !element.says(&STAGE, LUMPED) {
             graph.add_link_inertia(mechanism);
         }
     }

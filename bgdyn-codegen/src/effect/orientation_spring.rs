@@ -11,7 +11,7 @@ use bgdyn_runtime::Dd;
 use super::spring::BETWEEN;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind, PortSite, SiteId};
-use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::declaration::{EffectKind, Element, ValueCheck, undeclared};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
 use crate::format::{Dimension, Key, Reads};
@@ -63,8 +63,8 @@ impl EffectKind for OrientationSpring {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["stiffness"], "a negative stiffness pushes away from rest");
-        check.not_negative(&["damping"], "a negative damping would drive the motion");
+        check.not_negative(&[STIFFNESS], "a negative stiffness pushes away from rest");
+        check.not_negative(&[DAMPING], "a negative damping would drive the motion");
     }
 }
 
@@ -89,8 +89,8 @@ impl Effect for OrientationSpring {
             }
         };
         network.add_on(turning, NodeKind::Compliance, nodes::label(element));
-        if element.quantity(DAMPING.name).is_some() {
-            let damping = nodes::number(element, "d", DAMPING.name);
+        if element.quantity(&DAMPING).is_some() {
+            let damping = nodes::number(element, "d", &DAMPING);
             network.add_on(turning, NodeKind::Resistor, damping);
         }
     }
@@ -124,8 +124,9 @@ impl Effect for OrientationSpring {
 
 /// Returns the names of the two places.
 fn places(element: &Element) -> [&str; 2] {
-    let names = element.names(BETWEEN.name).map(|names| names.each_ref());
-    names.map_or([""; 2], |names| names.map(String::as_str))
+    let names = element.names(&PLACES).map(|names| names.each_ref());
+    let names = names.unwrap_or_else(|| undeclared(element, "value of the key", PLACES.name));
+    names.map(String::as_str)
 }
 
 /// Returns Σ a_i × b_i and Σ a_i · b_i of the columns.

@@ -85,18 +85,18 @@ impl EffectKind for Stribeck {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["kinetic", "damping"], "friction opposes the motion");
-        check.ordered("kinetic", "static", REST_HOLDS_MORE);
+        check.not_negative(&[KINETIC, DAMPING], "friction opposes the motion");
+        check.ordered(&KINETIC, &STATIC, REST_HOLDS_MORE);
         check.positive(
-            &["stribeck_speed"],
+            &[STRIBECK_SPEED],
             "friction without the curve is `type: coulomb_smooth`",
         );
-        check.positive(&["width"], NO_WIDTH);
-        let [width, speed] = ["width", "stribeck_speed"].map(|key| check.value_or(key, 0.0));
+        check.positive(&[WIDTH], NO_WIDTH);
+        let [width, speed] = [WIDTH, STRIBECK_SPEED].map(|key| check.value_or(&key, 0.0));
         if speed > 0.0 && width > speed {
-            let location = check.location("width");
+            let location = check.location(&WIDTH);
             let text = |key| check.number(key).map_or("", |q| q.text.as_str());
-            let (width, speed) = (text("width"), text("stribeck_speed"));
+            let (width, speed) = (text(&WIDTH), text(&STRIBECK_SPEED));
             check.report(wording::width_above_stribeck_speed(&location, width, speed));
         }
     }

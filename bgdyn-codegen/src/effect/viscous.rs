@@ -62,7 +62,7 @@ impl EffectKind for Viscous {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["damping"], "a negative damping would drive the joint");
+        check.not_negative(&[DAMPING], "a negative damping would drive the joint");
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

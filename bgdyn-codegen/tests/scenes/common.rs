@@ -79,7 +79,11 @@ fn current_limit(system: &SceneEquations, mode: &str) -> Option<(usize, f64, Dd)
         .find_map(|(end, side)| Some((mode.strip_suffix(end)?, *side)))?;
     let element = system.scene.elements.iter().find(|e| e.name == name)?;
     let winding = system.scene.layout.coordinate_named(name)?;
-    Some((winding, side, element.quantity("current_limit")?.value))
+    Some((
+        winding,
+        side,
+        element.quantity(element.effect.key("current_limit"))?.value,
+    ))
 }
 
 /// A random state of a scene near its start, with random inputs and accelerations; `slipping`

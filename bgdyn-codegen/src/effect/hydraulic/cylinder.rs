@@ -92,8 +92,8 @@ impl EffectKind for Cylinder {
         &KEYS
     }
 
-    fn nodes(&self, given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
-        if given("area_b") { &["a", "b"] } else { &["a"] }
+    fn nodes(&self, given: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
+        if given(&AREA_B) { &["a", "b"] } else { &["a"] }
     }
 
     fn order(&self) -> u8 {
@@ -101,19 +101,16 @@ impl EffectKind for Cylinder {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.one_of(&["joint", "between"]);
+        check.one_of(&[MAYBE_JOINT, BETWEEN]);
+        check.positive(&[AREA_A, AREA_B], "a side that does not act is left out");
         check.positive(
-            &["area_a", "area_b"],
-            "a side that does not act is left out",
-        );
-        check.positive(
-            &["stroke"],
+            &[STROKE],
             "leave it out where `dead_b` is the volume at `offset`",
         );
-        check.not_negative(&["dead_a", "dead_b"], "there is no such volume");
-        for key in ["dead_b", "stroke"] {
-            if check.number(key).is_some() && check.number("area_b").is_none() {
-                check.report(wording::side_without_area(&check.location(key), key));
+        check.not_negative(&[DEAD_A, DEAD_B], "there is no such volume");
+        for key in [DEAD_B, STROKE] {
+            if check.number(&key).is_some() && check.number(&AREA_B).is_none() {
+                check.report(wording::side_without_area(&check.location(&key), key.name));
             }
         }
     }
@@ -148,11 +145,11 @@ impl Effect for Cylinder {
         let port = nodes::port(element, network);
         let sides = [("", AREA_A, DEAD_A), ("−", AREA_B, DEAD_B)];
         for (node, (sign, area, dead)) in element.nodes().into_iter().zip(sides) {
-            let area = element.written(area.name).unwrap_or_default();
+            let area = element.written(&area).unwrap_or_default();
             let text = format!("{}, A = {sign}{area}", element.name);
             let side = network.add(NodeKind::Transformer, text);
             network.bond(side, port);
-            let dead = element.written(dead.name).map(|v| format!("V₀ = {v}"));
+            let dead = element.written(&dead).map(|v| format!("V₀ = {v}"));
             let pressure = add_volume(element, &node, dead, scene, network);
             network.bond(pressure, side);
         }

@@ -31,7 +31,7 @@ impl EffectKind for Fluid {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "oil has about 1.4 GPa, less with air in it";
-        check.positive(&[BULK_MODULUS.name], why);
+        check.positive(&[BULK_MODULUS], why);
     }
 }
 

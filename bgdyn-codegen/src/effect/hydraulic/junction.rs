@@ -34,7 +34,7 @@ impl EffectKind for JunctionEffect {
         &[FLUID]
     }
 
-    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+    fn nodes(&self, _: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
         &[""]
     }
 

@@ -43,8 +43,8 @@ impl EffectKind for Leakage {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "what lets nothing through is left out";
-        check.positive(&[CONDUCTANCE.name], why);
-        joins_two(check, FROM.name, TO.name);
+        check.positive(&[CONDUCTANCE], why);
+        joins_two(check, &FROM, &TO);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -54,7 +54,7 @@ impl EffectKind for Leakage {
 
 impl Effect for Leakage {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        let ends = [FROM, TO].map(|key| element.needed_name(&key));
         nodes::add_pipe(nodes::label(element), ends, network);
     }
 

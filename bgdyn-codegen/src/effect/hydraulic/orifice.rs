@@ -48,14 +48,14 @@ impl EffectKind for Orifice {
     }
 
     fn in_series(&self, element: &Element) -> bool {
-        element.name(OPENING.name).is_none()
+        element.name(&OPENING).is_none()
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         let why = "what lets nothing through is left out";
-        check.positive(&[ORIFICE.name], why);
-        check.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
-        joins_two(check, FROM.name, TO.name);
+        check.positive(&[ORIFICE], why);
+        check.positive(&[LAMINAR], "leave it out for turbulent flow alone");
+        joins_two(check, &FROM, &TO);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -63,7 +63,7 @@ impl EffectKind for Orifice {
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        if let Some(opening) = element.name(OPENING.name) {
+        if let Some(opening) = element.name(&OPENING) {
             let about = format!("opening of `{opening}`, 0 … 1");
             layout.shared_input(opening, Dimension::One, about);
             let about = format!(
@@ -77,18 +77,18 @@ impl EffectKind for Orifice {
 
 impl Effect for Orifice {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        let ends = [FROM, TO].map(|key| element.needed_name(&key));
         nodes::add_pipe(nodes::label(element), ends, network);
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        if let Some(opening) = element.name(OPENING.name) {
+        if let Some(opening) = element.name(&OPENING) {
             let x = sums.input(opening);
             sums.event(&limit(element), x.min(sums.b.number(1.0) - x));
         }
         resist(element, sums, |sums, drop| {
             let open = Drop::of(element, sums).flow(drop, sums.b);
-            match element.name(OPENING.name) {
+            match element.name(&OPENING) {
                 Some(opening) => {
                     let (zero, one) = (sums.b.zero(), sums.b.number(1.0));
                     sums.input(opening).max(zero).min(one) * open

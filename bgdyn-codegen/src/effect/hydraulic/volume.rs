@@ -33,7 +33,7 @@ pub(super) fn fluid_of<'a>(node: &Element, elements: &'a [Element]) -> Option<&'
     let mut fluids = elements
         .iter()
         .filter(|e| e.effect.keyword() == FLUID_KEYWORD);
-    match node.name(FLUID.name) {
+    match node.name(&FLUID) {
         Some(name) => fluids.find(|f| f.name == name),
         None => fluids.next().filter(|_| fluids.next().is_none()),
     }
@@ -47,7 +47,7 @@ pub(super) fn has_fluid(node: &Element, beside: &SceneContext<'_>, faults: &mut 
     let all = beside.elements.iter();
     let fluids = all.filter(|e| e.effect.keyword() == FLUID_KEYWORD);
     let known: Vec<&str> = fluids.map(|fluid| fluid.name.as_str()).collect();
-    let asked = node.name(FLUID.name);
+    let asked = node.name(&FLUID);
     faults.push(wording::no_fluid(&node.location, &node.name, asked, &known));
 }
 

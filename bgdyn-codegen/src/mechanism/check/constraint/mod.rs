@@ -136,7 +136,7 @@ fn read(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Opti
     let missing = kind
         .keys()
         .iter()
-        .find(|key| key.needed && fields.get(key.name).is_none());
+        .find(|key| key.needed && fields.get(key).is_none());
     if let Some(key) = missing {
         let location = &raw.location;
         let key = (key.name, key.about);

@@ -59,18 +59,18 @@ impl ConstraintType for Rolling {
     }
 
     fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
-        let at = reader.text(fields, LINK.name)?;
+        let at = reader.text(fields, &LINK)?;
         let radius = radius(fields, reader)?;
-        let axle = match fields.get(AXIS.name) {
+        let axle = match fields.get(&AXIS) {
             None => None,
-            Some(_) => Some(reader.axis(fields, AXIS.name)?),
+            Some(_) => Some(reader.axis(fields, &AXIS)?),
         };
         let slip = slip(fields, reader, axle.is_some())?;
         let kind = ContactKind::Rolling {
             axle,
             radius,
             slip,
-            on: reader.text(fields, ON.name),
+            on: reader.text(fields, &ON),
         };
         Some(ReadConstraint::Contact(Box::new(ContactEntry {
             name: reader.name.value.clone(),
@@ -82,7 +82,7 @@ impl ConstraintType for Rolling {
 }
 
 fn radius(fields: &Fields, reader: &mut RowReader<'_>) -> Option<Dd> {
-    let entry = fields.get(RADIUS.name)?;
+    let entry = fields.get(&RADIUS)?;
     if let ParsedValue::Number(number) = &entry.value
         && number.parameter.is_some()
     {
@@ -104,7 +104,7 @@ fn slip(fields: &Fields, reader: &mut RowReader<'_>, wheel: bool) -> Option<Slip
     let Some(Located {
         value: ParsedValue::Words(words),
         location,
-    }) = fields.get(ROWS.name)
+    }) = fields.get(&ROWS)
     else {
         return Some(Slip::NONE);
     };
