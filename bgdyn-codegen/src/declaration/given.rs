@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::{Quantity, ValueCheck};
-use crate::fault::{Fault, Location, wording};
+use crate::fault::{Fault, Help, Location, wording};
 use crate::format::Key;
 
 impl ValueCheck<'_> {
@@ -24,7 +24,7 @@ impl ValueCheck<'_> {
     }
 
     /// Reports numbers of these keys that are negative.
-    pub fn not_negative(&mut self, keys: &[Key], why: &str) {
+    pub fn not_negative(&mut self, keys: &[Key], why: Help) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value < Dd::ZERO) {
                 let fault = wording::negative_value(&q.location, key.name, &q.text, why);
@@ -34,7 +34,7 @@ impl ValueCheck<'_> {
     }
 
     /// Reports numbers of these keys that are not greater than zero.
-    pub fn positive(&mut self, keys: &[Key], why: &str) {
+    pub fn positive(&mut self, keys: &[Key], why: Help) {
         for key in keys {
             if let Some(q) = self.number(key).filter(|q| q.value <= Dd::ZERO) {
                 let fault = wording::value_not_positive(&q.location, key.name, &q.text, why);
@@ -44,7 +44,7 @@ impl ValueCheck<'_> {
     }
 
     /// Reports a number of this key that is greater than 1.
-    pub fn at_most_one(&mut self, key: &Key, why: &str) {
+    pub fn at_most_one(&mut self, key: &Key, why: Help) {
         if let Some(q) = self.number(key).filter(|q| q.value > Dd::ONE) {
             let fault = wording::value_above_one(&q.location, key.name, &q.text, why);
             self.report(fault);
@@ -63,7 +63,7 @@ impl ValueCheck<'_> {
     }
 
     /// Reports a first number that is greater than the second.
-    pub fn ordered(&mut self, small: &Key, large: &Key, why: &str) {
+    pub fn ordered(&mut self, small: &Key, large: &Key, why: Help) {
         if let (Some(a), Some(b)) = (self.number(small), self.number(large))
             && a.value > b.value
         {

@@ -6,6 +6,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Hold};
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::{Level, StateLayout};
 
@@ -13,9 +14,6 @@ pub(super) struct Coulomb;
 
 /// The dimensions of a joint's effort.
 pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::Force]);
-
-/// The message if `static` is less than `kinetic`.
-pub(super) const REST_HOLDS_MORE: &str = "rest holds at least what slipping resists";
 
 const KINETIC: Key = Key {
     name: "kinetic",
@@ -60,8 +58,8 @@ impl EffectKind for Coulomb {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&[KINETIC], "friction opposes the motion");
-        check.ordered(&KINETIC, &STATIC, REST_HOLDS_MORE);
+        check.not_negative(&[KINETIC], Help::FrictionOpposes);
+        check.ordered(&KINETIC, &STATIC, Help::RestHoldsMore);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

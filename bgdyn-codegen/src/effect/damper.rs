@@ -6,6 +6,7 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::Key;
 use crate::layout::StateLayout;
 
@@ -45,7 +46,7 @@ impl EffectKind for Damper {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         check.one_of(&[MAYBE_JOINT, BETWEEN]);
-        check.not_negative(&[DAMPING], "a negative damping would drive the motion");
+        check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

@@ -18,7 +18,7 @@ use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Hold};
 use crate::expr::Expr;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -118,21 +118,18 @@ impl EffectKind for DcMotor {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&[RESISTANCE], "no winding has it");
-        check.positive(
-            &[INDUCTANCE],
-            "leave it out for the motor without inductance, whose current follows from the voltage at once",
-        );
+        check.not_negative(&[RESISTANCE], Help::ResistanceOfWinding);
+        check.positive(&[INDUCTANCE], Help::InductanceIsOptional);
         check.positive(
             &[VOLTAGE_LIMIT, CURRENT_LIMIT, EFFICIENCY],
-            "leave it out where nothing limits the motor",
+            Help::LimitsAreOptional,
         );
         let no_resistance = check.value_or(&RESISTANCE, 1.0) == 0.0;
         if no_resistance && check.number(&INDUCTANCE).is_none() {
             let location = check.location(&RESISTANCE);
             check.report(wording::motor_without_impedance(&location));
         }
-        check.at_most_one(&EFFICIENCY, "an efficiency above 1 makes power of nothing");
+        check.at_most_one(&EFFICIENCY, Help::EfficiencyAboveOne);
     }
 
     fn algebraic(&self, element: &Element) -> Option<&'static str> {

@@ -6,7 +6,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effort_sums::EffortSums;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 
@@ -58,7 +58,7 @@ impl EffectKind for Drag {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         let numbers = [LINEAR, QUADRATIC, ANGULAR];
-        check.not_negative(&numbers, "a negative drag would drive the link");
+        check.not_negative(&numbers, Help::DragDrivesLink);
         if numbers.iter().all(|key| check.number(key).is_none()) {
             check.report(wording::no_drag(
                 &check.element.location,

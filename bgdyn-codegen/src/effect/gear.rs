@@ -10,6 +10,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, load_event};
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -56,8 +57,8 @@ impl EffectKind for GearEffect {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.positive(&[EFFICIENCY], "a gear that lets nothing through is a lock");
-        check.at_most_one(&EFFICIENCY, "an efficiency above 1 makes power of nothing");
+        check.positive(&[EFFICIENCY], Help::EfficiencyOfLock);
+        check.at_most_one(&EFFICIENCY, Help::EfficiencyAboveOne);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::coulomb::{EFFORT, REST_HOLDS_MORE};
+use super::coulomb::EFFORT;
 use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
@@ -15,7 +15,7 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::{Level, StateLayout};
 
@@ -89,10 +89,10 @@ impl EffectKind for LuGre {
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         check.positive(
             &[STIFFNESS, KINETIC, STRIBECK_SPEED],
-            "without it the law has no rest: leave the effect out",
+            Help::BristlesNeedRest,
         );
-        check.not_negative(&[DAMPING, VISCOUS], "it would drive the joint");
-        check.ordered(&KINETIC, &STATIC, REST_HOLDS_MORE);
+        check.not_negative(&[DAMPING, VISCOUS], Help::BristlesDriveJoint);
+        check.ordered(&KINETIC, &STATIC, Help::RestHoldsMore);
         if check.number(&STATIC).is_some() && check.number(&STRIBECK_SPEED).is_none() {
             let location = check.location(&STATIC);
             check.report(wording::no_stribeck_speed(&location));

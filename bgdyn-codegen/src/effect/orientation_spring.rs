@@ -14,6 +14,7 @@ use crate::bond_graph::{BondNetwork, NodeKind, PortSite, SiteId};
 use crate::declaration::{EffectKind, Element, ValueCheck, undeclared};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::math::{Mat3, Vec3};
 
@@ -63,8 +64,8 @@ impl EffectKind for OrientationSpring {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&[STIFFNESS], "a negative stiffness pushes away from rest");
-        check.not_negative(&[DAMPING], "a negative damping would drive the motion");
+        check.not_negative(&[STIFFNESS], Help::StiffnessPushes);
+        check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
     }
 }
 

@@ -8,7 +8,7 @@ use super::Effect;
 use super::wrench::{AT, moves};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, Quantity, SceneContext, ValueCheck};
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Mechanism, Pose, Tensor, Value, check_tensor};
@@ -66,7 +66,7 @@ impl EffectKind for Payload {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&[MASS], "no body has it");
+        check.not_negative(&[MASS], Help::NoBodyHasIt);
         let given: [_; 6] = check.element.group(&INERTIA);
         let entries = given.map(|(_, entry)| entry.map_or(Dd::ZERO, |q| q.value));
         if let Some(first) = given.into_iter().find_map(|(_, entry)| entry) {

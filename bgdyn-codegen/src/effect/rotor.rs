@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{CoordinateId, Mechanism, Parameter, ParameterId, Value};
@@ -68,7 +68,7 @@ impl EffectKind for RotorEffect {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&[INERTIA], "no body has it");
+        check.not_negative(&[INERTIA], Help::NoBodyHasIt);
         if check.element.vector(&AXIS).is_some() && check.element.name(&ON).is_none() {
             check.report(wording::rotor_axis_without_link(&check.element.location));
         }

@@ -14,6 +14,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -58,15 +59,9 @@ impl EffectKind for SeriesElastic {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.positive(
-            &[STIFFNESS],
-            "without a spring nothing connects the drive with its joint",
-        );
-        check.not_negative(&[DAMPING], "a negative damping would drive the motion");
-        check.positive(
-            &[INERTIA, RATIO],
-            "without a rotor there is nothing on the drive's side: use `type: spring`",
-        );
+        check.positive(&[STIFFNESS], Help::SpringIsNeeded);
+        check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
+        check.positive(&[INERTIA, RATIO], Help::RotorIsNeeded);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

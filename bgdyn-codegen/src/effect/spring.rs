@@ -7,6 +7,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::{Level, StateLayout};
 
@@ -70,7 +71,7 @@ impl EffectKind for Spring {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         check.one_of(&[MAYBE_JOINT, BETWEEN]);
-        check.not_negative(&[STIFFNESS], "a negative stiffness pushes away from rest");
+        check.not_negative(&[STIFFNESS], Help::StiffnessPushes);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

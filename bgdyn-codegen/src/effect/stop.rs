@@ -17,7 +17,7 @@ use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Port};
 use crate::expr::Expr;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 use crate::mechanism::Limits;
@@ -88,16 +88,10 @@ impl EffectKind for Stop {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         check.fixed(&[RESTITUTION, IMPACT_SPEED]);
-        check.positive(
-            &[STIFFNESS, IMPACT_SPEED],
-            "a scene without stops leaves the effect out",
-        );
-        check.positive(
-            &[RESTITUTION],
-            "no damping takes all the speed from an impact: write a small one, 0.01",
-        );
-        check.at_most_one(&RESTITUTION, "an impact would give back more than it took");
-        check.ordered(&LOWER, &UPPER, "the joint moves between its stops");
+        check.positive(&[STIFFNESS, IMPACT_SPEED], Help::StopsAreOptional);
+        check.positive(&[RESTITUTION], Help::RestitutionIsPositive);
+        check.at_most_one(&RESTITUTION, Help::RestitutionAboveOne);
+        check.ordered(&LOWER, &UPPER, Help::JointIsBetweenStops);
         if check.number(&LOWER).or(check.number(&UPPER)).is_none() {
             let joint = check.element.needed_name(&JOINT);
             check.report(wording::no_stops(&check.element.location, joint));

@@ -3,7 +3,7 @@
 use super::number::number;
 use super::yaml::{Data, YamlEntry, YamlKind, YamlTree};
 use super::{Field, Located, Number, Vector};
-use crate::fault::wording::Wanted;
+use crate::fault::wording::{Wanted, expected};
 use crate::fault::{Faults, Location, wording};
 use crate::unit::Dimension;
 
@@ -280,7 +280,7 @@ impl Reader {
         else {
             self.faults.push(wording::wrong_type(
                 &at.location,
-                ("a number", "`1.5`, or with a unit: `5 mm`"),
+                expected::NUMBER,
                 &describe(at.tree),
             ));
             return None;
@@ -295,20 +295,12 @@ impl Reader {
         if !matches!(at.tree.data, Data::Map(_)) {
             return self.number(at, fit);
         }
-        let what = ("a parameter", "`{ parameter: payload, value: 1.5 }`");
+        let what = expected::PARAMETER;
         let map = self.mapping(at, what, &[PARAMETER, "value"])?;
-        let name = self.needed(
-            &map,
-            PARAMETER,
-            "`parameter: …`, the parameter's name",
-            Self::text,
-        );
-        let value = self.needed(
-            &map,
-            "value",
-            "`value: …`, the value that `Default` takes",
-            |r, at| r.number(at, fit),
-        );
+        let name = self.needed(&map, PARAMETER, expected::PARAMETER_KEY, Self::text);
+        let value = self.needed(&map, "value", expected::VALUE_KEY, |r, at| {
+            r.number(at, fit)
+        });
         Some(Number {
             parameter: Some(name.given()?.clone()),
             ..value.value()?.clone()
@@ -326,7 +318,7 @@ impl Reader {
         at: &At<'_>,
         mut read: impl FnMut(&mut Self, &At<'_>) -> Option<Number>,
     ) -> Option<Vector> {
-        let items = self.list(at, ("a list of three numbers", "`[x, y, z]`"))?;
+        let items = self.list(at, expected::TRIPLE)?;
         let count = items.len();
         let numbers: Vec<Option<Located<Number>>> = items
             .into_iter()

@@ -142,7 +142,10 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
         modes.push(Dd::from_f64(if slipping { sign } else { 0.0 }));
         // A held joint moves with its counterpart.
         let element = system.scene.elements.iter().find(|e| e.name == part.name);
-        let reference = element.and_then(|e| e.name("reference"));
+        let reference = element.and_then(|e| {
+            let mut keys = e.effect.keys().iter();
+            e.name(keys.find(|key| key.name == "reference")?)
+        });
         let rate = reference.map(|r| format!("{r}_rate"));
         let speed = layout
             .inputs

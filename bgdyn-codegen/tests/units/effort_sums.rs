@@ -106,19 +106,19 @@ fn values_are_found_by_declared_keys_of_their_type_only() {
         ..DECLARED
     };
     let lookups: [(&str, Law); 14] = [
-        ("key `undeclared`", |e, _| drop(e.has(&UNDECLARED))),
-        ("key `undeclared`", |e, _| drop(e.quantity(&UNDECLARED))),
-        ("key `undeclared`", |e, _| drop(e.written(&UNDECLARED))),
-        ("key `choice`", |e, _| drop(e.quantity(&CHOICE))),
-        ("key `declared`", |e, _| drop(e.name(&RETYPED))),
-        ("key `declared`", |e, _| drop(e.name(&DECLARED))),
-        ("key `declared`", |e, _| drop(e.names(&DECLARED))),
-        ("key `declared`", |e, _| drop(e.words(&DECLARED))),
-        ("key `declared`", |e, _| drop(e.vector(&DECLARED))),
-        ("key `declared`", |e, _| drop(e.group::<2>(&GROUP))),
-        ("word `third`", |e, _| drop(e.says(&CHOICE, "third"))),
+        ("key `undeclared`", |e, _| _ = e.has(&UNDECLARED)),
+        ("key `undeclared`", |e, _| _ = e.quantity(&UNDECLARED)),
+        ("key `undeclared`", |e, _| _ = e.written(&UNDECLARED)),
+        ("key `choice`", |e, _| _ = e.quantity(&CHOICE)),
+        ("key `declared`", |e, _| _ = e.name(&RETYPED)),
+        ("key `declared`", |e, _| _ = e.name(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.names(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.words(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.vector(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.group::<2>(&GROUP)),
+        ("word `third`", |e, _| _ = e.says(&CHOICE, "third")),
         ("value of the key `choice`", |e, _| {
-            let _ = e.needed_name(&CHOICE);
+            _ = e.needed_name(&CHOICE)
         }),
         ("value of the keys `joint, between`", |e, sums| {
             let _ = sums.port(e);

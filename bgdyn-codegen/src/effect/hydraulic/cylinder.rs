@@ -11,7 +11,7 @@ use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::{Dimension, Key};
 use crate::layout::StateLayout;
 
@@ -102,12 +102,9 @@ impl EffectKind for Cylinder {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         check.one_of(&[MAYBE_JOINT, BETWEEN]);
-        check.positive(&[AREA_A, AREA_B], "a side that does not act is left out");
-        check.positive(
-            &[STROKE],
-            "leave it out where `dead_b` is the volume at `offset`",
-        );
-        check.not_negative(&[DEAD_A, DEAD_B], "there is no such volume");
+        check.positive(&[AREA_A, AREA_B], Help::SideIsOptional);
+        check.positive(&[STROKE], Help::StrokeIsOptional);
+        check.not_negative(&[DEAD_A, DEAD_B], Help::VolumeIsPositive);
         for key in [DEAD_B, STROKE] {
             if check.number(&key).is_some() && check.number(&AREA_B).is_none() {
                 check.report(wording::side_without_area(&check.location(&key), key.name));
@@ -170,8 +167,7 @@ impl Effect for Cylinder {
         let sides = element.nodes().into_iter().zip(volumes);
         for ((node, volume), area) in sides.zip([area_a, -area_b]) {
             let what = format!("the volume of `{node}`, m^3,");
-            let way_out =
-                "see to `offset`, `stroke` and the dead volumes, or to the joint's limits";
+            let way_out = Help::CylinderIsLongEnough.text();
             sums.stays_positive(volume, what, way_out);
             force = force + area * fill(element, &node, volume, sums);
         }

@@ -8,7 +8,7 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -56,9 +56,9 @@ impl EffectKind for FourWayValve {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what lets nothing through is left out";
+        let why = Help::ClosedIsOptional;
         check.positive(&[ORIFICE], why);
-        check.positive(&[LAMINAR], "leave it out for turbulent flow alone");
+        check.positive(&[LAMINAR], Help::LaminarIsOptional);
         let ports = [SUPPLY, TANK, A, B];
         for (i, one) in ports.iter().enumerate() {
             for other in &ports[i + 1..] {

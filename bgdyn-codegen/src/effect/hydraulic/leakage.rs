@@ -7,7 +7,7 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::Key;
 
 pub(in crate::effect) struct Leakage;
@@ -42,7 +42,7 @@ impl EffectKind for Leakage {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what lets nothing through is left out";
+        let why = Help::ClosedIsOptional;
         check.positive(&[CONDUCTANCE], why);
         joins_two(check, &FROM, &TO);
     }

@@ -7,7 +7,7 @@ use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::Effect;
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key};
 use crate::layout::StateLayout;
 
@@ -46,7 +46,7 @@ impl EffectKind for Line {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what has no volume is a junction: `{ type: junction }`";
+        let why = Help::LineIsJunction;
         check.positive(&[OWN_VOLUME], why);
     }
 

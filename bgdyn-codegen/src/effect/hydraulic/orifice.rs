@@ -9,7 +9,7 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -52,9 +52,9 @@ impl EffectKind for Orifice {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what lets nothing through is left out";
+        let why = Help::ClosedIsOptional;
         check.positive(&[ORIFICE], why);
-        check.positive(&[LAMINAR], "leave it out for turbulent flow alone");
+        check.positive(&[LAMINAR], Help::LaminarIsOptional);
         joins_two(check, &FROM, &TO);
     }
 

@@ -7,7 +7,7 @@ use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind};
 use crate::declaration::{Element, SceneContext};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::Dimension;
 use crate::layout::{InitialValueAs, StateLayout};
 
@@ -101,7 +101,7 @@ pub(super) fn declare_volume(node: &str, layout: &mut StateLayout) {
     let entered = InitialValueAs {
         dimension: Dimension::Pressure,
         least: Dd::from_f64(VACUUM),
-        way_out: "write its pressure, against the surroundings; less than a vacuum there is none",
+        way_out: Help::PressureAboveVacuum.text(),
     };
     layout.state_entered(node.to_owned(), Dimension::Volume, about, entered);
 }
