@@ -1,5 +1,7 @@
-//! Coulomb friction with sticking and slipping: it holds its joint up to the static limit; beyond, the
-//! joint slides against the kinetic effort. A mode of the state distinguishes the two.
+//! Coulomb friction with sticking and slipping.
+//!
+//! It holds its joint up to the static limit; beyond, the joint slides against the kinetic effort. A mode of the
+//! state distinguishes the two.
 
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes};

@@ -1,6 +1,7 @@
-//! A DC motor with permanent magnets: a gyrator between the current and the joint. The charge is a
-//! coordinate, the current its velocity, the inductance its store and the voltage its drive. Without
-//! inductance the current is an algebraic function of the voltage.
+//! A DC motor with permanent magnets: a gyrator between the current and the joint.
+//!
+//! The charge is a coordinate, the current its velocity, the inductance its store and the voltage its drive.
+//! Without inductance the current is an algebraic function of the voltage.
 //!
 //! The supply limits the voltage, the amplifier the current. Without inductance both limits are kinks of
 //! the law, located by events. With inductance the current is a state, and the amplifier holds it: a limit

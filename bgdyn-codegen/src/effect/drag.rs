@@ -1,5 +1,7 @@
-//! Drag of a medium at rest on a site of a link: f = −(c₁ + c₂ |v|) v against the velocity v of its
-//! origin, m = −c_ω ω against its angular velocity. c₁ is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
+//! Drag of a medium at rest on a site of a link.
+//!
+//! It is f = −(c₁ + c₂ |v|) v against the velocity v of its origin, m = −c_ω ω against its angular velocity. c₁
+//! is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
 use super::wrench::{AT, act, moves, twist};
 use super::{Effect, nodes};

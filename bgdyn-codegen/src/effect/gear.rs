@@ -1,5 +1,6 @@
-//! A gear with losses between a joint's drive and the joint: the joint receives η τ if the drive supplies
-//! power (τ q̇ ≥ 0), τ/η if the joint drives the gear.
+//! A gear with losses between a joint's drive and the joint.
+//!
+//! The joint receives η τ if the drive supplies power (τ q̇ ≥ 0), τ/η if the joint drives the gear.
 //!
 //! η is the efficiency of gear catalogues, equal in both directions. At rest the gear holds the joint with
 //! any effort between the two. The loss is proportional to the load; losses without load belong to the

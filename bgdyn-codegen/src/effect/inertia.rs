@@ -1,5 +1,6 @@
-//! Link inertia, lumped or distributed: the second stage of a study adds its terms to the equations of the
-//! first (Kuzmin 2007, conclusion).
+//! Link inertia, lumped or distributed.
+//!
+//! The second stage of a study adds its terms to the equations of the first (Kuzmin 2007, conclusion).
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};

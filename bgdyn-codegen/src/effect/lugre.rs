@@ -1,5 +1,6 @@
-//! LuGre friction (Canudas de Wit, Olsson, Åström, Lischinsky 1995): the deflection z of bristles
-//! between the surfaces is a state.
+//! LuGre friction: the deflection z of bristles between the surfaces is a state.
+//!
+//! The law is that of Canudas de Wit, Olsson, Åström and Lischinsky 1995.
 //!
 //! With the bristle energy σ₀z²/2, the slip s dissipates |s| (g u² − σ₁ |s| u + (σ₁ + σ₂) |s|), u =
 //! ±σ₀z/g. This is nonnegative at every speed with u ≤ F_s/F_c only if σ₂ ≥ σ₁ (F_s − F_c)/F_c. Barabanov

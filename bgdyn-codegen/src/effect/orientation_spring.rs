@@ -1,5 +1,6 @@
-//! A spring that turns one link or frame to the orientation of another, with a damper: a rubber bushing, a ball
-//! joint with a restoring moment.
+//! A spring that turns one link or frame to the orientation of another, with a damper.
+//!
+//! Examples are a rubber bushing, and a ball joint with a restoring moment.
 //!
 //! With the unit vectors a_i of the axes of the first place and b_i of the second, turned by θ about n against
 //! the first, Σ a_i × b_i = 2 n sin θ and Σ a_i · b_i = 1 + 2 cos θ. The moment on the second place is

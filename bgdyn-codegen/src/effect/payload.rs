@@ -1,6 +1,7 @@
-//! A body carried by a link. It becomes a link of the mechanism, fixed at the site, before the graph is
-//! built. Its known parameters become part of the base parameters of its carrier; a run-time parameter
-//! attaches it, and detaches it if set to 0.
+//! A body carried by a link.
+//!
+//! It becomes a link of the mechanism, fixed at the site, before the graph is built. Its known parameters become
+//! part of the base parameters of its carrier; a run-time parameter attaches it, and detaches it if set to 0.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,7 @@
-//! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full rotor
-//! that also rotates with the link that carries it.
+//! The rotor of a drive behind a gear.
+//!
+//! It is a reflected inertia N²·J on the joint's junction, or the full rotor that also rotates with the link that
+//! carries it.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,6 @@
-//! The common law of dampers and smooth friction: an effort that depends on the slip of a port against its
-//! counterpart, and dissipates the power that it receives.
+//! The common law of dampers and smooth friction.
+//!
+//! The effort depends on the slip of a port against its counterpart, and dissipates the power that it receives.
 
 use super::viscous::REFERENCE;
 use crate::declaration::Element;

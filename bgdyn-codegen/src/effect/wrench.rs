@@ -1,5 +1,6 @@
-//! An external wrench on a link or at a frame, with six inputs or a selection of them. It is an effort
-//! source on the flow V = [ω; v] of the site: τ_j += J_jᵀ w.
+//! An external wrench on a link or at a frame, with six inputs or a selection of them.
+//!
+//! It is an effort source on the flow V = [ω; v] of the site: τ_j += J_jᵀ w.
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};

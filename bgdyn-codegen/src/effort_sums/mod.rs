@@ -1,5 +1,4 @@
-//! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws
-//! add.
+//! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws add.
 
 mod attitude;
 mod gear;

@@ -1,7 +1,8 @@
-//! A hydraulic cylinder at a joint or along the line between two sites: a transformer from the pressures
-//! of its two sides to its force, f = p_a A_a − p_b A_b, and two volumes that its motion changes, V_a =
-//! V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a rotating joint it is a vane actuator: areas
-//! are volumes per angle, the force is a torque.
+//! A hydraulic cylinder at a joint or along the line between two sites.
+//!
+//! It is a transformer from the pressures of its two sides to its force, f = p_a A_a − p_b A_b, and two volumes
+//! that its motion changes, V_a = V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a rotating joint it is
+//! a vane actuator: areas are volumes per angle, the force is a torque.
 
 use super::keys::{FAMILY, FLUID, number};
 use super::volume::{add_volume, declare_volume, fill, filled, has_fluid};

@@ -1,5 +1,7 @@
-//! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x connects the
-//! supply to one side and the other side to the tank, through orifices that open with |x|.
+//! A four-way valve, critically centred (Merritt 1967, chapter 5).
+//!
+//! A spool shifted by x connects the supply to one side and the other side to the tank, through orifices that
+//! open with |x|.
 
 use super::flow::{Drop, run};
 use super::keys::{FAMILY, LAMINAR, ORIFICE, joins_two, node};

@@ -1,5 +1,4 @@
-//! A node without a volume between two resistors: its pressure is solved for symbolically at generation
-//! time.
+//! A node without a volume between two resistors: its pressure is solved for symbolically at generation time.
 
 use super::flow::solve;
 use super::keys::{FAMILY, FLUID};

@@ -1,6 +1,8 @@
-//! An orifice, fixed or opened by an input: turbulent flow q = k √Δp (Merritt 1967, chapter 3), with an
-//! optional laminar part, Δp = R q + q|q|/k². This law is smooth at Δp = 0; its solution for the flow is q
-//! = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
+//! An orifice, fixed or opened by an input.
+//!
+//! The flow is turbulent, q = k √Δp (Merritt 1967, chapter 3), with an optional laminar part, Δp = R q + q|q|/k².
+//! This law is smooth at Δp = 0; its solution for the flow is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u
+//! scales the flow.
 
 use super::flow::{Drop, resist};
 use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};

@@ -1,5 +1,6 @@
-//! Reads the controllers that hold the pose of a joint with quasi-velocities: `free: { hold: { position: …,
-//! attitude: … } }`.
+//! Reads the controllers that hold the pose of a joint with quasi-velocities.
+//!
+//! Their keys are `free: { hold: { position: …, attitude: … } }`.
 
 use std::ops::Range;
 

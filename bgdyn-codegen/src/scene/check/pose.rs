@@ -1,5 +1,6 @@
-//! Parses the initial pose of a spherical or floating joint: `free: { xyz: […], rpy: […] }`, with `quaternion`
-//! in place of `rpy`.
+//! Parses the initial pose of a spherical or floating joint.
+//!
+//! It is `free: { xyz: […], rpy: […] }`, with `quaternion` in place of `rpy`.
 
 use bgdyn_runtime::Dd;
 

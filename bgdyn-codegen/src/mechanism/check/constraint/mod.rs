@@ -1,5 +1,6 @@
-//! Constraints with constant coefficients: which joints follow which, and whose motion is given, before any
-//! formulation sees them.
+//! Constraints with constant coefficients.
+//!
+//! They decide which joints follow which, and whose motion is given, before any formulation sees them.
 //!
 //! Wheels and knife edges are read here as well; their rows are those of `closure`.
 //!
