@@ -54,10 +54,11 @@ fn faults_are_made_in_the_folder_of_messages() {
     );
 }
 
-/// What a reader of files expects is text of a message: in the format's sources no string has an example.
+/// What a reader of files expects is text of a message: in the sources of the formats no string has an example.
 #[test]
 fn readers_expect_what_the_folder_of_messages_describes() {
-    let found = places("format/", &["\"`", "\"a list of", "after a dash"]);
+    let words = ["\"`", "after a dash"];
+    let found = [places("format/", &words), places("scene/", &words)].concat();
     // The only example that is computed is that of a group, from the names of its numbers.
     let found: Vec<&String> = found
         .iter()

@@ -3,7 +3,7 @@
 use super::number::number;
 use super::yaml::{Data, YamlEntry, YamlKind, YamlTree};
 use super::{Field, Located, Number, Vector};
-use crate::fault::wording::{Wanted, expected};
+use crate::fault::wording::{Found, Wanted, expected};
 use crate::fault::{Faults, Location, wording};
 use crate::unit::Dimension;
 
@@ -91,7 +91,7 @@ impl Reader {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, describe(at.tree)));
             return None;
         };
         if !keys.contains(&PARAMETER) && self.refuse_parameter(at) {
@@ -145,7 +145,7 @@ impl Reader {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, describe(at.tree)));
             return None;
         };
         if self.refuse_parameter(at) {
@@ -233,7 +233,7 @@ impl Reader {
         }
         let Data::List(items) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, describe(at.tree)));
             return None;
         };
         Some(
@@ -259,8 +259,8 @@ impl Reader {
             _ => {
                 self.faults.push(wording::wrong_type(
                     &at.location,
-                    ("text", "it between quotes: `\"…\"`"),
-                    &describe(at.tree),
+                    expected::TEXT,
+                    describe(at.tree),
                 ));
                 None
             }
@@ -281,7 +281,7 @@ impl Reader {
             self.faults.push(wording::wrong_type(
                 &at.location,
                 expected::NUMBER,
-                &describe(at.tree),
+                describe(at.tree),
             ));
             return None;
         };
@@ -363,30 +363,16 @@ fn is_parameter(tree: &YamlTree) -> bool {
     matches!(&tree.data, Data::Map(entries) if entries.iter().any(named))
 }
 
-/// Describes a value, for messages.
-fn describe(tree: &YamlTree) -> String {
+/// Returns what a value is.
+fn describe(tree: &YamlTree) -> Found<'_> {
     match &tree.data {
-        Data::List(items) => format!("a list of {}", items.len()),
-        Data::Map(_) => "a mapping".to_owned(),
-        Data::Scalar {
-            kind: YamlKind::Nothing,
-            ..
-        } => "nothing".to_owned(),
-        Data::Scalar {
-            kind: YamlKind::Truth,
-            text,
-        } => {
-            format!("the truth value {}", wording::quote(text))
-        }
-        Data::Scalar {
-            kind: YamlKind::Number,
-            text,
-        } => format!("the number {}", wording::quote(text)),
-        Data::Scalar {
-            kind: YamlKind::Text { .. },
-            text,
-        } => {
-            format!("the text {}", wording::quote(text))
-        }
+        Data::List(items) => Found::List(items.len()),
+        Data::Map(_) => Found::Mapping,
+        Data::Scalar { kind, text } => match kind {
+            YamlKind::Nothing => Found::Nothing,
+            YamlKind::Truth => Found::Truth(text),
+            YamlKind::Number => Found::Number(text),
+            YamlKind::Text { .. } => Found::Text(text),
+        },
     }
 }

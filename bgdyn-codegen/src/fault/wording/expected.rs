@@ -66,6 +66,27 @@ pub(crate) const LOOP: Wanted<'static> = (
     "`- { name: …, type: hinge, a: { link: … }, b: { link: … } }`",
 );
 
+// Parts of a scene and planes
+
+pub(crate) const TEXT: Wanted<'static> = ("text", "it between quotes: `\"…\"`");
+pub(crate) const INPUT: Wanted<'static> = ("what drives the input", "`{ constant: 2 }`");
+pub(crate) const COURSE: Wanted<'static> = ("a course in time", "`{ constant: 2 }`");
+pub(crate) const RAMP: Wanted<'static> = ("a ramp", "`{ from: 0, rate: 0.1 }`");
+pub(crate) const POINTS: Wanted<'static> = ("a list of points", "`[[0 s, 0], [1 s, 2]]`");
+pub(crate) const POINT: Wanted<'static> = ("a point", "`[0.5 s, 2]`");
+pub(crate) const CONTROLLER: Wanted<'static> = (
+    "a controller",
+    "`{ target: 0.5, stiffness: 100, damping: 20 }`",
+);
+pub(crate) const HARMONIC: Wanted<'static> =
+    ("a harmonic course", "`{ amplitude: 2, frequency: 1 Hz }`");
+pub(crate) const ORIENTATION: Wanted<'static> = ("an orientation", "`{ rpy: [0, 0, 90 deg] }`");
+pub(crate) const INTEGRATION: Wanted<'static> = (
+    "how the scene is run",
+    "`{ method: rk4, step: 1 ms, end: 5 s }`",
+);
+pub(crate) const PLANE: Wanted<'static> = ("a plane's keys", "`{ normal: z, offset: 0 m }`");
+
 // Keys that a mapping needs
 
 pub(crate) const FORMAT_KEY: &str = "`format: 1`, the version of the format";
@@ -86,3 +107,15 @@ pub(crate) const LOOP_TYPE_KEY: &str =
     "`type: …`: `hinge`, `point`, `slider` or another type of loop";
 pub(crate) const LOOP_A_KEY: &str = "`a: { link: … }`, one place";
 pub(crate) const LOOP_B_KEY: &str = "`b: { link: … }`, the place it is connected to";
+
+// Examples of parts of poses
+
+pub(crate) const POSE: &str = "`{ xyz: [0, 0, 1], rpy: [0, 0, 90 deg] }`";
+pub(crate) const ROTATION: &str = "`{ rpy: [0, 0, 90 deg] }`";
+pub(crate) const THREE_NUMBERS: &str = "`[0, 0, 1]`";
+pub(crate) const QUATERNION: &str = "x, y, z, w: `[0, 0, 0, 1]`";
+pub(crate) const HOLD_OF_ANGLE: &str = "`{ angle: { target: 90 deg, stiffness: 8, damping: 2 } }`";
+pub(crate) const HOLD_OF_ATTITUDE: &str =
+    "`{ attitude: { target: { rpy: [0, 0, 0] }, stiffness: 8, damping: 2 } }`";
+pub(crate) const HOLD: &str = "`{ target: …, stiffness: 8, damping: 2 }`";
+pub(crate) const TWO_NUMBERS: &str = "`[0, 1]`";

@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::super::{Integration, IntegratorName, StepControl};
+use crate::fault::wording::expected;
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Dimension, Field, Fields, Key, Located, ParsedValue, Raw, Reads};
 
@@ -53,10 +54,7 @@ pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integratio
 }
 
 fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
-    let what = (
-        "how the scene is run",
-        "`{ method: rk4, step: 1 ms, end: 5 s }`",
-    );
+    let what = expected::INTEGRATION;
     let fields = raw.fields(what, &KEYS, faults)?;
     let method = method(&fields, faults);
     let end = positive(&fields, &END_TIME, "a time such as `5 s`", faults);

@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::read::{Context, find_link, turn_to_axis};
+use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Key, Located, ParsedValue, Raw, Reads, check_unit};
 use crate::math::Vec3;
@@ -64,7 +65,7 @@ pub(super) fn plane(
 }
 
 fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
-    let what = ("a plane's keys", "`{ normal: z, offset: 0 m }`");
+    let what = expected::PLANE;
     let fields = raw.fields(what, &PLANE_KEYS, faults)?;
     let link = match fields.get(&LINK) {
         Some(Located {
