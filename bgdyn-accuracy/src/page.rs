@@ -22,7 +22,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// Returns this machine, as far as the system describes it.
+    /// Returns what the system says of this machine.
     pub fn here() -> Machine {
         let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
         let model = info.lines().find_map(|l| l.strip_prefix("model name"));

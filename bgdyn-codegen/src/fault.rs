@@ -11,6 +11,7 @@ use std::fmt;
 
 use quote::one_line;
 pub(crate) use suggest::unknown_name;
+pub use wording::Help;
 
 /// A position in the spec's text; lines and columns count from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -1,5 +1,4 @@
-//! Finds the entries of a matrix that are inner products of the vectors of two tables, which a loop can
-//! compute.
+//! Finds the entries of a matrix that are inner products of the vectors of two tables, which a loop can compute.
 //!
 //! The mass matrix of 64 links has 2,016 entries, most of them sums of six products: a vector of the
 //! column times a vector of the row. Unrolled, they exceed the instruction cache.

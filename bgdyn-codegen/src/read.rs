@@ -124,12 +124,8 @@ pub fn read_scene(
         }
     };
     for element in system.idle() {
-        let at = element.name("at").unwrap_or_default();
-        faults.push(wording::no_motion_there(
-            &element.location,
-            &element.name,
-            at,
-        ));
+        let (location, name) = (&element.location, &element.name);
+        faults.push(wording::no_motion_there(location, name, &element.sites()));
     }
     faults.sort();
     for joint in system.without_inertia() {

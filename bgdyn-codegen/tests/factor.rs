@@ -230,7 +230,7 @@ fn functions_of_random_mechanisms_keep_their_values() {
     for seed in 0..25 {
         mechanism(seed, 4);
     }
-    // A massless link between two axes that are parallel but for 9e-8.
+    // A massless link between two axes that are parallel to within 9e-8.
     mechanism(1298, 6);
     // An axis off by 1e-13 and no snapping: potential energies differ by 1.3e-28 of the natural effort.
     mechanism(2296, 6);

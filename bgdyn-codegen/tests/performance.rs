@@ -175,7 +175,7 @@ fn the_page_holds_what_is_generated() {
          Multiplications and additions of one call, as the compiled code executes them: each distinct \
          product and each sum once, negation and arithmetic on the mechanism's own numbers free, \
          the sine and cosine of an angle counted as a pair apart. All ten inertial parameters of \
-         every link are random, but for Armstrong's PUMA, which has his zeros. \"Best known\" is the \
+         every link are random, except for Armstrong's PUMA, which has his zeros. \"Best known\" is the \
          least that was found for the same robot with any other generator, published or run, or \
          in the studies that came before this one, counted by the same rule; its derivatives are \
          plain forward differentiation of the best inverse dynamics.\n\n",

@@ -103,8 +103,8 @@ fn the_baseline_counts_what_others_count() {
 fn arms_outside_the_table() {
     let mut text = String::from(
         "# Arms outside the table\n\n\
-         Arms that the generator was not tuned on, all with general tensors and centres of mass but \
-         for the one that says otherwise; their specs are in \
+         Arms that the generator was not tuned on, all with general tensors and centres of mass except \
+         the one that says otherwise; their specs are in \
          [`bgdyn-codegen/tests/outside/`](../bgdyn-codegen/tests/outside). The baseline is Newton and \
          Euler's recursion in link axes with base parameters: numbers folded, products with 0 and 1 \
          left out, equal expressions shared, and nothing else. The test makes it by itself, finds it \

@@ -61,7 +61,7 @@ pub trait HybridSystem<T: Scalar> {
     /// Returns the names of the components of the state.
     fn state_names(&self) -> &'static ArrayOf<Self::State, &'static str>;
     /// Returns the number of positions in the state. They come first, then the velocities: the rates of the
-    /// positions in their order, but for the joints of [`HybridSystem::quasi_joints`], and in scenes that have
+    /// positions in their order, except for the joints of [`HybridSystem::quasi_joints`], and in scenes that have
     /// [`HybridSystem::position_rates`] of their own. A winding's charge is not part of the state; its current follows
     /// the other velocities.
     fn positions(&self) -> usize;

@@ -59,7 +59,7 @@ fn every_spec_fits() {
 }
 
 /// The rules about keys, words, types and units that one value alone can violate.
-const TOLD: [&str; 10] = [
+const RULES_OF_VALUES: [&str; 10] = [
     "unknown-key",
     "missing-key",
     "unknown-joint-type",
@@ -82,7 +82,7 @@ fn what_is_no_spec_does_not_fit() {
             .next()
             .and_then(|n| n.strip_suffix(".yaml"));
         let faults = bgdyn_codegen::read(&text, stem).1;
-        let Some(rule) = TOLD
+        let Some(rule) = RULES_OF_VALUES
             .iter()
             .find(|rule| faults.0.iter().any(|f| f.rule == **rule))
         else {
@@ -98,7 +98,7 @@ fn what_is_no_spec_does_not_fit() {
         assert!(!validator.is_valid(&instance), "{name} breaks `{rule}`");
         seen.insert(*rule);
     }
-    assert_eq!(seen, BTreeSet::from(TOLD));
+    assert_eq!(seen, BTreeSet::from(RULES_OF_VALUES));
 }
 
 /// A spec with an unknown key in each mapping of the format; the parser lists the known keys.

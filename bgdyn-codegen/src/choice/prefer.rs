@@ -1,5 +1,4 @@
-//! Returns the function that is generated for a method: the one with the least cost, or the most accurate
-//! one.
+//! Returns the function that is generated for a method: the one with the least cost, or the most accurate one.
 
 use std::rc::Rc;
 

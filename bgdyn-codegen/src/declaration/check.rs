@@ -12,10 +12,7 @@ impl Declaration {
     /// Returns the element if its names are known and its numbers obey its rules.
     pub fn element(&self, context: &NameScope, faults: &mut Faults) -> Option<Element> {
         let before = faults.count();
-        let joint = match self.fields.get("joint").map(|e| &e.value) {
-            Some(ParsedValue::Text(joint)) => Some(joint.as_str()),
-            _ => None,
-        };
+        let joint = self.joint();
         // An effect along a line acts on a length.
         let motion = joint.map_or(Some(Motion::Translation), |joint| context.motion_of(joint));
         let mut element = Element {
@@ -25,7 +22,7 @@ impl Declaration {
             values: Vec::new(),
         };
         for key in self.effect.keys() {
-            match self.fields.get(key.name) {
+            match self.fields.get(key) {
                 Some(Located {
                     value: ParsedValue::Group(numbers),
                     ..

@@ -2,7 +2,7 @@
 
 use super::EffectKind;
 use super::element::node_names;
-use crate::format::{Fields, Located};
+use crate::format::{Fields, Located, ParsedValue};
 
 /// An effect as declared in a mechanism's file; a scene may use it, with other values.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,5 +20,14 @@ impl Declaration {
     pub fn nodes(&self) -> Vec<String> {
         let sides = self.effect.nodes(&|key| self.fields.get(key).is_some());
         node_names(&self.name.value, sides)
+    }
+
+    /// Returns the joint or coordinate that it acts on; `None` if it acts elsewhere.
+    pub(super) fn joint(&self) -> Option<&str> {
+        let key = self.effect.joint_key()?;
+        match &self.fields.get(key)?.value {
+            ParsedValue::Text(joint) => Some(joint),
+            _ => None,
+        }
     }
 }

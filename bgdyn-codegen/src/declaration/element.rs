@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Location};
-use crate::format::{Dimension, Key, Reads};
+use crate::format::{Dimension, Key};
 use crate::layout::StateLayout;
 use crate::mechanism::{Limits, Mechanism};
 
@@ -80,7 +80,7 @@ pub trait EffectKind: Sync {
 
     /// Returns its hydraulic nodes; `given` returns whether a key is present. The empty string is a node
     /// with the name of the effect, `a` a node with the suffix `_a`.
-    fn nodes(&self, _given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+    fn nodes(&self, _given: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
         &[]
     }
 
@@ -123,7 +123,7 @@ pub trait EffectKind: Sync {
     }
 
     /// Returns the default of a missing key from the limits of its joint.
-    fn limit_for(&self, _key: &str, _: &Limits) -> Option<f64> {
+    fn limit_for(&self, _key: &Key, _: &Limits) -> Option<f64> {
         None
     }
 
@@ -164,85 +164,6 @@ pub struct ValueCheck<'a> {
     pub element: &'a Element,
     /// The errors found.
     pub faults: &'a mut Faults,
-}
-
-impl Element {
-    /// Returns the value of a key.
-    pub fn get(&self, key: &str) -> Option<&ElementValue> {
-        self.values.iter().find(|(k, _)| *k == key).map(|(_, v)| v)
-    }
-
-    /// Returns the number of a key.
-    pub fn quantity(&self, key: &str) -> Option<&Quantity> {
-        match self.get(key) {
-            Some(ElementValue::Number(quantity)) => Some(quantity),
-            _ => None,
-        }
-    }
-
-    /// Returns the number of a key in the file's text, or the name of its run-time parameter.
-    pub fn written(&self, key: &str) -> Option<String> {
-        let quantity = self.quantity(key)?;
-        Some(quantity.parameter.clone().unwrap_or(quantity.text.clone()))
-    }
-
-    /// Returns its numbers by key.
-    pub fn quantities(&self) -> impl Iterator<Item = (&'static str, &Quantity)> {
-        self.values.iter().filter_map(|(key, value)| match value {
-            ElementValue::Number(quantity) => Some((*key, quantity)),
-            _ => None,
-        })
-    }
-
-    /// Returns the word or name of a key.
-    pub fn name(&self, key: &str) -> Option<&str> {
-        match self.get(key) {
-            Some(ElementValue::Name(name)) => Some(name),
-            _ => None,
-        }
-    }
-
-    /// Returns the two names of a key.
-    pub fn names(&self, key: &str) -> Option<&[String; 2]> {
-        match self.get(key) {
-            Some(ElementValue::Names(names)) => Some(names),
-            _ => None,
-        }
-    }
-
-    /// Returns a description of one of its numbers: "mass of `part`".
-    pub fn meaning(&self, key: &str) -> String {
-        format!("{key} of `{}`", self.name)
-    }
-
-    /// Returns the words of a key.
-    pub fn words(&self, key: &str) -> Option<&[String]> {
-        match self.get(key) {
-            Some(ElementValue::Words(words)) => Some(words),
-            _ => None,
-        }
-    }
-
-    /// Returns the names of its hydraulic nodes.
-    pub fn nodes(&self) -> Vec<String> {
-        let sides = self.effect.nodes(&|key| self.get(key).is_some());
-        node_names(&self.name, sides)
-    }
-
-    /// Returns the names of the hydraulic nodes that it joins.
-    pub fn joins(&self) -> Vec<&str> {
-        let keys = self.effect.keys().iter();
-        let keys = keys.filter(|k| k.reads == Reads::Node);
-        keys.filter_map(|k| self.name(k.name)).collect()
-    }
-
-    /// Returns the three numbers of a key.
-    pub fn vector(&self, key: &str) -> Option<[Dd; 3]> {
-        match self.get(key) {
-            Some(ElementValue::Vector(vector)) => Some(*vector),
-            _ => None,
-        }
-    }
 }
 
 /// Returns the nodes of an effect: its name, or its name with each of its sides.

@@ -14,13 +14,12 @@ pub const JOINTS: Key = Key {
     about: "`all`, or a list: one effect for each, called NAME_JOINT",
 };
 
-/// The key of one joint, which [`JOINTS`] replaces.
-const JOINT: &str = "joint";
-
-/// Returns the keys for declaring an effect: its own, and the key of several joints if it acts on a joint.
+/// Returns the keys for declaring an effect: its own, and the key of several joints, which replaces that of one, if it
+/// acts on a joint.
 pub fn keys_declared(effect: &dyn EffectKind) -> Vec<Key> {
     let mut keys = effect.keys().to_vec();
-    if let Some(at) = keys.iter().position(|key| key.name == JOINT) {
+    let joint = effect.joint_key();
+    if let Some(at) = keys.iter().position(|key| Some(key) == joint) {
         keys.insert(at + 1, JOINTS);
     }
     keys
@@ -29,23 +28,27 @@ pub fn keys_declared(effect: &dyn EffectKind) -> Vec<Key> {
 impl Declaration {
     /// Returns whether it declares one effect per joint.
     pub fn has_joints(&self) -> bool {
-        self.fields.get(JOINTS.name).is_some()
+        self.fields.get(&JOINTS).is_some()
     }
 
     /// Returns one effect for each of its joints, or itself if it has no `joints`. `all` are the names for
     /// the word "all".
     pub fn of_each_joint(self, all: &[&str], faults: &mut Faults) -> Vec<Declaration> {
-        let Some(joints) = self.fields.get(JOINTS.name).cloned() else {
+        let Some(joints) = self.fields.get(&JOINTS).cloned() else {
             return vec![self];
         };
-        if let Some(joint) = self.fields.get(JOINT) {
+        // Only effects that act on a joint can have the key `joints`.
+        let Some(key) = self.effect.joint_key() else {
+            return vec![self];
+        };
+        if let Some(joint) = self.fields.get(key) {
             faults.push(wording::joint_and_joints(&joint.location, &self.name.value));
             return vec![];
         }
         let Some(names) = names(&joints, all, faults) else {
             return vec![];
         };
-        let own = self.fields.without(JOINTS.name);
+        let own = self.fields.without(&JOINTS);
         let one = |joint: Located<String>| {
             let name = format!("{}_{}", self.name.value, joint.value);
             Declaration {
@@ -54,20 +57,20 @@ impl Declaration {
                     location: self.name.location.clone(),
                 },
                 effect: self.effect,
-                fields: own.clone().with(JOINT, joint),
+                fields: own.clone().with(key, joint),
             }
         };
         names.into_iter().map(one).collect()
     }
 
-    /// Returns these values, and those of `base` for missing keys; `joint` and `joints` replace each
-    /// other.
-    pub(super) fn over(fields: Fields, base: &Fields) -> Fields {
-        let given = |key| fields.get(key).is_some();
-        let base = match given(JOINT) || given(JOINTS.name) {
-            true => base.clone().without(JOINT).without(JOINTS.name),
-            false => base.clone(),
-        };
+    /// Returns these values, and its own for missing keys; `joint` and `joints` replace each other.
+    pub(super) fn fields_with(&self, fields: Fields) -> Fields {
+        let joint = self.effect.joint_key().into_iter();
+        let keys: Vec<&Key> = joint.chain([&JOINTS]).collect();
+        let mut base = self.fields.clone();
+        if keys.iter().any(|key| fields.get(key).is_some()) {
+            base = keys.into_iter().fold(base, Fields::without);
+        }
         fields.over(&base)
     }
 }

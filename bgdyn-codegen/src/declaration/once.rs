@@ -6,7 +6,7 @@ use crate::fault::{Faults, wording};
 /// Refuses a second effect of a type that a joint can have once: with two dry frictions at one joint,
 /// the share of each in the holding effort would be undetermined.
 pub(crate) fn once_per_joint(elements: &[Element], faults: &mut Faults) {
-    let on = |e: &Element| (e.effect.keyword(), e.name("joint").map(str::to_owned));
+    let on = |e: &Element| (e.effect.keyword(), e.joint().map(str::to_owned));
     for (i, element) in elements.iter().enumerate() {
         let first = elements[..i].iter().find(|e| on(e) == on(element));
         if let Some(first) = first.filter(|e| e.effect.once_per_joint()) {

@@ -7,7 +7,7 @@ use crate::format::{Fields, Key, Located, Raw, Reads};
 use crate::name::is_identifier;
 
 /// The key for the type of an effect.
-const TYPE: Key = Key {
+pub(crate) const TYPE: Key = Key {
     name: "type",
     reads: Reads::Word(&[]),
     needed: true,
@@ -98,7 +98,7 @@ fn with_overrides(raw: &Raw, own: &Declaration, faults: &mut Faults) -> Option<D
     Some(Declaration {
         name: raw.name.clone(),
         effect: own.effect,
-        fields: Declaration::over(fields, &own.fields),
+        fields: own.fields_with(fields),
     })
 }
 

@@ -1,6 +1,6 @@
 //! Names that refused effects may have defined, so that their uses are not reported as unknown.
 
-use super::{Declaration, EffectKinds};
+use super::{Declaration, EffectKinds, TYPE};
 use crate::format::{Key, ParsedValue, Raw, Reads};
 
 /// The names and families of refused effects.
@@ -24,13 +24,13 @@ impl RejectedEffects {
     pub(crate) fn call(&mut self, raw: &Raw, known: &[Declaration], kinds: &EffectKinds) {
         let name = &raw.name.value;
         let own = known.iter().find(|d| d.name.value == *name);
-        let word = raw.peek("type").map_or(name.clone(), |word| word.value);
+        let word = raw.peek(TYPE.name).map_or(name.clone(), |word| word.value);
         let family = match own {
             Some(own) => Some(own.effect.family()),
             None => kinds.named(&word).map(|effect| effect.family()),
         };
         let keys = kinds.iter().flat_map(|kind| inputs(kind.keys()));
-        let inputs = keys.filter_map(|key| raw.peek(key));
+        let inputs = keys.filter_map(|key| raw.peek(key.name));
         self.words.extend(inputs.map(|input| input.value));
         self.words.push(name.clone());
         // An unknown word may refer to any effect of the mechanism.
@@ -77,7 +77,6 @@ impl RejectedEffects {
 }
 
 /// Returns the keys whose values are names of inputs.
-fn inputs(keys: &'static [Key]) -> impl Iterator<Item = &'static str> {
-    let inputs = keys.iter().filter(|key| key.reads == Reads::Input);
-    inputs.map(|key| key.name)
+fn inputs(keys: &'static [Key]) -> impl Iterator<Item = &'static Key> {
+    keys.iter().filter(|key| key.reads == Reads::Input)
 }

@@ -2,7 +2,7 @@
 
 use super::{Declaration, EffectKind, RejectedEffects};
 use crate::fault::{Faults, wording};
-use crate::format::{Key, ParsedValue};
+use crate::format::Key;
 use crate::mechanism::{
     CoordinateId, Coupling, DependentVelocity, Joint, Limits, LinkId, Mechanism, Motion,
     SiteOrigins,
@@ -97,10 +97,7 @@ impl NameScope {
     /// Returns the names with those that these effects add.
     pub fn with<'a>(mut self, declared: impl Iterator<Item = &'a Declaration> + Clone) -> Self {
         for d in declared.clone().filter(|d| d.effect.adds_coordinate()) {
-            let on = match d.fields.get("joint").map(|j| &j.value) {
-                Some(ParsedValue::Text(joint)) => self.motion_of(joint),
-                _ => None,
-            };
+            let on = d.joint().and_then(|joint| self.motion_of(joint));
             let motion = on.unwrap_or(Motion::Rotation);
             self.coordinates.push((d.name.value.clone(), motion));
             self.added.push(d.name.value.clone());
@@ -120,7 +117,7 @@ impl NameScope {
             .limits
             .iter()
             .find(|(name, _)| Some(name.as_str()) == joint)?;
-        effect.limit_for(key.name, limits)
+        effect.limit_for(key, limits)
     }
 
     pub(super) fn motion_of(&self, coordinate: &str) -> Option<Motion> {

@@ -1,11 +1,14 @@
-//! Coulomb friction with sticking and slipping: it holds its joint up to the static limit; beyond, the
-//! joint slides against the kinetic effort. A mode of the state distinguishes the two.
+//! Coulomb friction with sticking and slipping.
+//!
+//! It holds its joint up to the static limit; beyond, the joint slides against the kinetic effort. A mode of the
+//! state distinguishes the two.
 
 use super::viscous::{JOINT, REFERENCE};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Hold};
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::{Level, StateLayout};
 
@@ -13,9 +16,6 @@ pub(super) struct Coulomb;
 
 /// The dimensions of a joint's effort.
 pub(super) const EFFORT: Reads = Reads::Number(&[Dimension::Torque, Dimension::Force]);
-
-/// The message if `static` is less than `kinetic`.
-pub(super) const REST_HOLDS_MORE: &str = "rest holds at least what slipping resists";
 
 const KINETIC: Key = Key {
     name: "kinetic",
@@ -60,18 +60,18 @@ impl EffectKind for Coulomb {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["kinetic"], "friction opposes the motion");
-        check.ordered("kinetic", "static", REST_HOLDS_MORE);
+        check.not_negative(&[KINETIC], Help::FrictionOpposes);
+        check.ordered(&KINETIC, &STATIC, Help::RestHoldsMore);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
+        let (name, joint) = (&element.name, element.needed_name(&JOINT));
         let slip = layout.motion_in_words(joint, "slip");
         let mode = format!("whether `{joint}` slips (−1, 1: the sign of {slip}) or is held (0)");
         layout.mode(name.clone(), mode);
         let event = format!("`{joint}` comes to rest, or breaks away");
         layout.event(name.clone(), event);
-        if let Some(reference) = element.name("reference") {
+        if let Some(reference) = element.name(&REFERENCE) {
             let dimension = layout.position_of(joint);
             layout.reference(reference, Level::Rate, Level::Acceleration, dimension);
         }
@@ -85,7 +85,7 @@ impl Effect for Coulomb {
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let port = sums.port(element);
-        let reference = element.name("reference");
+        let reference = element.name(&REFERENCE);
         let counterpart = [Level::Rate, Level::Acceleration].map(|l| sums.reference(reference, l));
         let kinetic = sums.number(element, &KINETIC);
         let limit = sums.optional(element, &STATIC).unwrap_or(kinetic);

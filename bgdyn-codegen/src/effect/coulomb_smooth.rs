@@ -10,6 +10,7 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -25,10 +26,6 @@ pub(super) const WIDTH: Key = Key {
     needed: true,
     about: "w, the slip at which friction has 76 % (tanh 1) of its size",
 };
-
-/// The message if a width is not greater than 0.
-pub(super) const NO_WIDTH: &str =
-    "friction that jumps with the direction is `type: coulomb`, which sticks and slips";
 
 const KINETIC: Key = Key {
     name: "kinetic",
@@ -63,8 +60,8 @@ impl EffectKind for CoulombSmooth {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["kinetic"], "friction opposes the motion");
-        check.positive(&["width"], NO_WIDTH);
+        check.not_negative(&[KINETIC], Help::FrictionOpposes);
+        check.positive(&[WIDTH], Help::WidthOfJump);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

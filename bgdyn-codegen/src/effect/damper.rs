@@ -6,6 +6,7 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::Key;
 use crate::layout::StateLayout;
 
@@ -44,8 +45,8 @@ impl EffectKind for Damper {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.one_of(&["joint", "between"]);
-        check.not_negative(&["damping"], "a negative damping would drive the motion");
+        check.one_of(&[MAYBE_JOINT, BETWEEN]);
+        check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

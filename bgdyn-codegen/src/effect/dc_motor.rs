@@ -1,6 +1,7 @@
-//! A DC motor with permanent magnets: a gyrator between the current and the joint. The charge is a
-//! coordinate, the current its velocity, the inductance its store and the voltage its drive. Without
-//! inductance the current is an algebraic function of the voltage.
+//! A DC motor with permanent magnets: a gyrator between the current and the joint.
+//!
+//! The charge is a coordinate, the current its velocity, the inductance its store and the voltage its drive.
+//! Without inductance the current is an algebraic function of the voltage.
 //!
 //! The supply limits the voltage, the amplifier the current. Without inductance both limits are kinks of
 //! the law, located by events. With inductance the current is a state, and the amplifier holds it: a limit
@@ -18,7 +19,7 @@ use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Hold};
 use crate::expr::Expr;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -118,32 +119,29 @@ impl EffectKind for DcMotor {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["resistance"], "no winding has it");
+        check.not_negative(&[RESISTANCE], Help::ResistanceOfWinding);
+        check.positive(&[INDUCTANCE], Help::InductanceIsOptional);
         check.positive(
-            &["inductance"],
-            "leave it out for the motor without inductance, whose current follows from the voltage at once",
+            &[VOLTAGE_LIMIT, CURRENT_LIMIT, EFFICIENCY],
+            Help::LimitsAreOptional,
         );
-        check.positive(
-            &["voltage_limit", "current_limit", "efficiency"],
-            "leave it out where nothing limits the motor",
-        );
-        let no_resistance = check.value_or("resistance", 1.0) == 0.0;
-        if no_resistance && check.number("inductance").is_none() {
-            let location = check.location("resistance");
+        let no_resistance = check.value_or(&RESISTANCE, 1.0) == 0.0;
+        if no_resistance && check.number(&INDUCTANCE).is_none() {
+            let location = check.location(&RESISTANCE);
             check.report(wording::motor_without_impedance(&location));
         }
-        check.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
+        check.at_most_one(&EFFICIENCY, Help::EfficiencyAboveOne);
     }
 
     fn algebraic(&self, element: &Element) -> Option<&'static str> {
-        let at_once = element.quantity("inductance").is_none();
+        let at_once = element.quantity(&INDUCTANCE).is_none();
         at_once.then_some("without inductance: R i + k N q̇ = u solved for i")
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
+        let (name, joint) = (&element.name, element.needed_name(&JOINT));
         let about = format!("voltage of `{name}`");
-        if element.quantity("inductance").is_some() {
+        if element.quantity(&INDUCTANCE).is_some() {
             let dimensions = [Dimension::One, Dimension::Current, Dimension::Voltage];
             layout.coordinate(&element.name, format!("{name}_current"), false, dimensions);
             layout.drive(name.clone(), name, joint, about);
@@ -151,7 +149,7 @@ impl EffectKind for DcMotor {
             layout.control(name.clone(), Dimension::Voltage, joint, about);
         }
         declare_limits(element, layout);
-        if element.quantity("efficiency").is_some() {
+        if element.quantity(&EFFICIENCY).is_some() {
             declare_mode(element, &part_name(element, GEAR), layout);
         }
     }
@@ -160,15 +158,15 @@ impl EffectKind for DcMotor {
 impl Effect for DcMotor {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
         let joint = nodes::port(element, network);
-        let number = |symbol, key: &Key| nodes::number(element, symbol, key.name);
+        let number = |symbol, key: &Key| nodes::number(element, symbol, key);
         let mut text = format!("k N, {}", number("k", &TORQUE_CONSTANT));
         for (symbol, key) in [("N", &RATIO), ("η", &EFFICIENCY)] {
-            if element.quantity(key.name).is_some() {
+            if element.quantity(key).is_some() {
                 text += &format!(", {}", number(symbol, key));
             }
         }
         let gyrator = network.add(NodeKind::Gyrator, text);
-        network.set_powers(gyrator, nodes::gear_losses(element));
+        network.set_powers(gyrator, nodes::gear_losses(element, &EFFICIENCY));
         network.bond(gyrator, joint);
         let current = network.add(NodeKind::One, "i, A");
         network.bond(current, gyrator);
@@ -178,7 +176,7 @@ impl Effect for DcMotor {
             format!("u, {}", element.name),
         );
         network.add_on(current, NodeKind::Resistor, number("R", &RESISTANCE));
-        if element.quantity(INDUCTANCE.name).is_some() {
+        if element.quantity(&INDUCTANCE).is_some() {
             network.add_on(current, NodeKind::Inertia, number("L", &INDUCTANCE));
         }
     }
@@ -215,7 +213,7 @@ impl Effect for DcMotor {
             sums.port_units(element)[2],
             "effort of the motor at the joint".into(),
         );
-        if element.quantity("inductance").is_none() {
+        if element.quantity(&INDUCTANCE).is_none() {
             let about = "A".into();
             sums.reading(format!("{name}_current"), flowing.current, "A", about);
         }
@@ -249,14 +247,14 @@ const SIDES: [(&str, f64); 2] = [("upper_limit", 1.0), ("lower_limit", -1.0)];
 /// Declares the kinks of the limits, and the modes of a current that is held.
 fn declare_limits(element: &Element, layout: &mut StateLayout) {
     let name = &element.name;
-    if element.quantity(VOLTAGE_LIMIT.name).is_some() {
+    if element.quantity(&VOLTAGE_LIMIT).is_some() {
         let about = format!("the voltage of `{name}` reaches its limit, or leaves it");
         layout.event(part_name(element, VOLTAGE_LIMIT.name), about);
     }
-    if element.quantity(CURRENT_LIMIT.name).is_none() {
+    if element.quantity(&CURRENT_LIMIT).is_none() {
         return;
     }
-    if element.quantity("inductance").is_none() {
+    if element.quantity(&INDUCTANCE).is_none() {
         let about = format!("the current of `{name}` reaches its limit, or leaves it");
         layout.event(part_name(element, CURRENT_LIMIT.name), about);
         return;

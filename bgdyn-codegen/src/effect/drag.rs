@@ -1,12 +1,14 @@
-//! Drag of a medium at rest on a site of a link: f = −(c₁ + c₂ |v|) v against the velocity v of its
-//! origin, m = −c_ω ω against its angular velocity. c₁ is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
+//! Drag of a medium at rest on a site of a link.
+//!
+//! It is f = −(c₁ + c₂ |v|) v against the velocity v of its origin, m = −c_ω ω against its angular velocity. c₁
+//! is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
 use super::wrench::{AT, act, moves, twist};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effort_sums::EffortSums;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 
@@ -57,8 +59,8 @@ impl EffectKind for Drag {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let numbers = ["linear", "quadratic", "angular"];
-        check.not_negative(&numbers, "a negative drag would drive the link");
+        let numbers = [LINEAR, QUADRATIC, ANGULAR];
+        check.not_negative(&numbers, Help::DragDrivesLink);
         if numbers.iter().all(|key| check.number(key).is_none()) {
             check.report(wording::no_drag(
                 &check.element.location,
@@ -79,7 +81,7 @@ impl Effect for Drag {
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        let site = sums.site(element.name(AT.name).unwrap_or_default());
+        let site = sums.site(element.needed_name(&AT));
         let jacobian = sums.jacobian(site);
         let [wx, wy, wz, vx, vy, vz] = twist(&jacobian, sums);
         let (omega, v) = (Vec3([wx, wy, wz]), Vec3([vx, vy, vz]));

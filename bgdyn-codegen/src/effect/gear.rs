@@ -1,5 +1,6 @@
-//! A gear with losses between a joint's drive and the joint: the joint receives η τ if the drive supplies
-//! power (τ q̇ ≥ 0), τ/η if the joint drives the gear.
+//! A gear with losses between a joint's drive and the joint.
+//!
+//! The joint receives η τ if the drive supplies power (τ q̇ ≥ 0), τ/η if the joint drives the gear.
 //!
 //! η is the efficiency of gear catalogues, equal in both directions. At rest the gear holds the joint with
 //! any effort between the two. The loss is proportional to the load; losses without load belong to the
@@ -10,6 +11,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, load_event};
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -56,11 +58,8 @@ impl EffectKind for GearEffect {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.positive(
-            &["efficiency"],
-            "a gear that lets nothing through is a lock",
-        );
-        check.at_most_one("efficiency", "an efficiency above 1 makes power of nothing");
+        check.positive(&[EFFICIENCY], Help::EfficiencyOfLock);
+        check.at_most_one(&EFFICIENCY, Help::EfficiencyAboveOne);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
@@ -70,10 +69,10 @@ impl EffectKind for GearEffect {
 
 impl Effect for GearEffect {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let joint = element.name("joint").unwrap_or_default();
-        let efficiency = nodes::number(element, "η", EFFICIENCY.name);
+        let joint = element.needed_name(&JOINT);
+        let efficiency = nodes::number(element, "η", &EFFICIENCY);
         let gear = network.add_to_drive(joint, format!("{}, {efficiency}", element.name));
-        network.set_powers(gear, nodes::gear_losses(element));
+        network.set_powers(gear, nodes::gear_losses(element, &EFFICIENCY));
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
@@ -84,7 +83,7 @@ impl Effect for GearEffect {
 /// Declares the mode of a gear with losses, with its event, and the event at which its load changes sign,
 /// a kink of the law.
 pub(super) fn declare_mode(element: &Element, mode: &str, layout: &mut StateLayout) {
-    let joint = element.name("joint").unwrap_or_default();
+    let joint = element.needed_name(&JOINT);
     let rate = layout.motion_in_words(joint, "rate");
     let about =
         format!("whether `{joint}` moves (−1, 1: the sign of {rate}) or its gear holds it (0)");

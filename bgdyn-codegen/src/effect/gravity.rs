@@ -10,6 +10,13 @@ use crate::mechanism::Mechanism;
 
 pub(super) struct Gravity;
 
+const ACCELERATION: Key = Key {
+    name: "acceleration",
+    reads: Reads::Vector(&[Dimension::Acceleration]),
+    needed: false,
+    about: "acceleration of free fall in world axes instead of the mechanism's",
+};
+
 impl EffectKind for Gravity {
     fn keyword(&self) -> &'static str {
         "gravity"
@@ -32,18 +39,13 @@ impl EffectKind for Gravity {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[Key {
-            name: "acceleration",
-            reads: Reads::Vector(&[Dimension::Acceleration]),
-            needed: false,
-            about: "acceleration of free fall in world axes instead of the mechanism's",
-        }]
+        &[ACCELERATION]
     }
 }
 
 impl Effect for Gravity {
     fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
-        let other = element.vector("acceleration").map(Vec3);
+        let other = element.vector(&ACCELERATION).map(Vec3);
         graph.add_gravity(other.unwrap_or(mechanism.gravity()));
     }
 

@@ -1,5 +1,6 @@
-//! Link inertia, lumped or distributed: the second stage of a study adds its terms to the equations of the
-//! first (Kuzmin 2007, conclusion).
+//! Link inertia, lumped or distributed.
+//!
+//! The second stage of a study adds its terms to the equations of the first (Kuzmin 2007, conclusion).
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};
@@ -8,6 +9,16 @@ use crate::format::{Key, Reads};
 use crate::mechanism::Mechanism;
 
 pub(super) struct LinkInertia;
+
+/// The word for masses at the centres of mass.
+const LUMPED: &str = "lumped";
+
+const STAGE: Key = Key {
+    name: "stage",
+    reads: Reads::Word(&["distributed", LUMPED]),
+    needed: false,
+    about: "`distributed` (also where nothing is said) or `lumped`; scenes without this effect are lumped",
+};
 
 impl EffectKind for LinkInertia {
     fn keyword(&self) -> &'static str {
@@ -31,18 +42,13 @@ impl EffectKind for LinkInertia {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[Key {
-            name: "stage",
-            reads: Reads::Word(&["distributed", "lumped"]),
-            needed: false,
-            about: "`distributed` (also where nothing is said) or `lumped`; scenes without this effect are lumped",
-        }]
+        &[STAGE]
     }
 }
 
 impl Effect for LinkInertia {
     fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
-        if element.name("stage") != Some("lumped") {
+        if !element.says(&STAGE, LUMPED) {
             graph.add_link_inertia(mechanism);
         }
     }

@@ -1,5 +1,6 @@
-//! LuGre friction (Canudas de Wit, Olsson, Åström, Lischinsky 1995): the deflection z of bristles
-//! between the surfaces is a state.
+//! LuGre friction: the deflection z of bristles between the surfaces is a state.
+//!
+//! The law is that of Canudas de Wit, Olsson, Åström and Lischinsky 1995.
 //!
 //! With the bristle energy σ₀z²/2, the slip s dissipates |s| (g u² − σ₁ |s| u + (σ₁ + σ₂) |s|), u =
 //! ±σ₀z/g. This is nonnegative at every speed with u ≤ F_s/F_c only if σ₂ ≥ σ₁ (F_s − F_c)/F_c. Barabanov
@@ -7,7 +8,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::coulomb::{EFFORT, REST_HOLDS_MORE};
+use super::coulomb::EFFORT;
 use super::coulomb_smooth::SPEED;
 use super::stribeck::{KINETIC, curve};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
@@ -15,7 +16,7 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::{Level, StateLayout};
 
@@ -88,27 +89,27 @@ impl EffectKind for LuGre {
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
         check.positive(
-            &["stiffness", "kinetic", "stribeck_speed"],
-            "without it the law has no rest: leave the effect out",
+            &[STIFFNESS, KINETIC, STRIBECK_SPEED],
+            Help::BristlesNeedRest,
         );
-        check.not_negative(&["damping", "viscous"], "it would drive the joint");
-        check.ordered("kinetic", "static", REST_HOLDS_MORE);
-        if check.number("static").is_some() && check.number("stribeck_speed").is_none() {
-            let location = check.location("static");
+        check.not_negative(&[DAMPING, VISCOUS], Help::BristlesDriveJoint);
+        check.ordered(&KINETIC, &STATIC, Help::RestHoldsMore);
+        if check.number(&STATIC).is_some() && check.number(&STRIBECK_SPEED).is_none() {
+            let location = check.location(&STATIC);
             check.report(wording::no_stribeck_speed(&location));
         }
-        let [damping, viscous] = ["damping", "viscous"].map(|key| check.value_or(key, 0.0));
-        let kinetic = check.value_or("kinetic", 1.0);
-        let excess = (check.value_or("static", kinetic) - kinetic) / kinetic;
+        let [damping, viscous] = [DAMPING, VISCOUS].map(|key| check.value_or(&key, 0.0));
+        let kinetic = check.value_or(&KINETIC, 1.0);
+        let excess = (check.value_or(&STATIC, kinetic) - kinetic) / kinetic;
         if viscous < damping * excess {
-            let location = check.location("damping");
+            let location = check.location(&DAMPING);
             let least = damping * excess;
             check.report(wording::friction_feeds_energy(&location, least));
         }
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let joint = element.name("joint").unwrap_or_default();
+        let joint = element.needed_name(&JOINT);
         let dimension = layout.position_of(joint);
         let about = format!("deflection of the bristles at `{joint}`");
         layout.state(element.name.clone(), dimension, about);
@@ -127,7 +128,7 @@ impl Effect for LuGre {
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let port = sums.port(element);
-        let counterpart = sums.reference(element.name("reference"), Level::Rate);
+        let counterpart = sums.reference(element.name(&REFERENCE), Level::Rate);
         let slip = port.rate - counterpart;
         let z = sums.state(&element.name);
         let number = |key: &Key| sums.number(element, key);

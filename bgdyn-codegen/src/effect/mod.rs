@@ -1,5 +1,4 @@
-//! The effects that a scene can include besides the links: one file per effect, one line each in
-//! [`EFFECTS`].
+//! The effects that a scene can include besides the links: one file per effect, one line each in [`EFFECTS`].
 //!
 //! An effect is an element of the bond graph. Its file defines the meaning of its keys, its additions to
 //! the state ([`EffectKind::declare`]), and its constitutive law ([`Effect::law`]): efforts on junctions,

@@ -1,7 +1,11 @@
 //! Bond graph nodes that several effects add in the same way, and their texts.
 
+use super::rotor::{INERTIA, RATIO};
+use super::viscous::REFERENCE;
+use super::wrench::AT;
 use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind, PortSite, PowerTerm};
-use crate::declaration::Element;
+use crate::declaration::{Element, undeclared};
+use crate::format::Key;
 
 /// Returns the label of an element: `seal (viscous)`.
 pub(super) fn label(element: &Element) -> String {
@@ -9,37 +13,50 @@ pub(super) fn label(element: &Element) -> String {
 }
 
 /// Returns a number in the file's text: `R = 0.6 ohm`.
-pub(super) fn number(element: &Element, symbol: &str, key: &str) -> String {
+pub(super) fn number(element: &Element, symbol: &str, key: &Key) -> String {
     format!("{symbol} = {}", element.written(key).unwrap_or_default())
 }
 
 /// Returns the 1-junction of the flow that the element acts on: of its `joint`, or of the line between its
 /// two sites.
 pub(super) fn port(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
-    match element.names("between") {
+    match element.ends() {
         Some(ends) => network.port(PortSite::Line(ends.clone())),
-        None => network.velocity(element.name("joint").unwrap_or_default()),
+        None => {
+            let joint = element.joint();
+            network.velocity(joint.unwrap_or_else(|| undeclared(element, "port", "joint")))
+        }
     }
 }
 
 /// Returns the 1-junction of the motion of the element's site.
 pub(super) fn site(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
-    let name = element.name("at").unwrap_or_default();
-    network.port(PortSite::Site(name.to_owned()))
+    let name = element.needed_name(&AT).to_owned();
+    network.port(PortSite::Site(name))
 }
 
-/// Adds a resistor or a compliance at the element's port. With a moving reference it acts on the
-/// difference of the two flows.
-pub(super) fn add_acting(
+/// Adds a resistor or a compliance at the element's port.
+pub(super) fn add_at_port(
     element: &Element,
     kind: NodeKind,
     network: &mut BondNetwork,
 ) -> GraphNodeId {
     let port = port(element, network);
-    let Some(reference) = element.name("reference") else {
-        return network.add_on(port, kind, label(element));
+    network.add_on(port, kind, label(element))
+}
+
+/// Adds a resistor or a compliance at the port of an element that may have a reference. With a moving reference it
+/// acts on the difference of the two flows.
+pub(super) fn add_acting(
+    element: &Element,
+    kind: NodeKind,
+    network: &mut BondNetwork,
+) -> GraphNodeId {
+    let Some(reference) = element.name(&REFERENCE) else {
+        return add_at_port(element, kind, network);
     };
-    let flow = match element.name("joint") {
+    let port = port(element, network);
+    let flow = match element.joint() {
         Some(_) => "q̇",
         None => "ṡ",
     };
@@ -59,17 +76,17 @@ pub(super) fn add_rotor(
     junction: GraphNodeId,
     network: &mut BondNetwork,
 ) -> GraphNodeId {
-    let inertia = number(element, "J", "inertia");
-    let text = match element.written("ratio") {
+    let inertia = number(element, "J", &INERTIA);
+    let text = match element.written(&RATIO) {
         Some(ratio) => format!("N²J of {}, {inertia}, N = {ratio}", element.name),
         None => format!("{}, {inertia}", element.name),
     };
     network.add_on(junction, NodeKind::Inertia, text)
 }
 
-/// Returns the power terms of a gear with an efficiency.
-pub(super) fn gear_losses(element: &Element) -> &'static [PowerTerm] {
-    match element.quantity("efficiency") {
+/// Returns the power terms of a gear that may have the efficiency of this key.
+pub(super) fn gear_losses(element: &Element, efficiency: &Key) -> &'static [PowerTerm] {
+    match element.quantity(efficiency) {
         Some(_) => &[PowerTerm::Dissipated],
         None => &[],
     }

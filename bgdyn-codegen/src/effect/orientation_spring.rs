@@ -1,5 +1,6 @@
-//! A spring that turns one link or frame to the orientation of another, with a damper: a rubber bushing, a ball
-//! joint with a restoring moment.
+//! A spring that turns one link or frame to the orientation of another, with a damper.
+//!
+//! Examples are a rubber bushing, and a ball joint with a restoring moment.
 //!
 //! With the unit vectors a_i of the axes of the first place and b_i of the second, turned by θ about n against
 //! the first, Σ a_i × b_i = 2 n sin θ and Σ a_i · b_i = 1 + 2 cos θ. The moment on the second place is
@@ -11,9 +12,10 @@ use bgdyn_runtime::Dd;
 use super::spring::BETWEEN;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind, PortSite, SiteId};
-use crate::declaration::{EffectKind, Element, ValueCheck};
+use crate::declaration::{EffectKind, Element, ValueCheck, undeclared};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::math::{Mat3, Vec3};
 
@@ -63,8 +65,8 @@ impl EffectKind for OrientationSpring {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["stiffness"], "a negative stiffness pushes away from rest");
-        check.not_negative(&["damping"], "a negative damping would drive the motion");
+        check.not_negative(&[STIFFNESS], Help::StiffnessPushes);
+        check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
     }
 }
 
@@ -89,8 +91,8 @@ impl Effect for OrientationSpring {
             }
         };
         network.add_on(turning, NodeKind::Compliance, nodes::label(element));
-        if element.quantity(DAMPING.name).is_some() {
-            let damping = nodes::number(element, "d", DAMPING.name);
+        if element.quantity(&DAMPING).is_some() {
+            let damping = nodes::number(element, "d", &DAMPING);
             network.add_on(turning, NodeKind::Resistor, damping);
         }
     }
@@ -124,8 +126,9 @@ impl Effect for OrientationSpring {
 
 /// Returns the names of the two places.
 fn places(element: &Element) -> [&str; 2] {
-    let names = element.names(BETWEEN.name).map(|names| names.each_ref());
-    names.map_or([""; 2], |names| names.map(String::as_str))
+    let names = element.names(&PLACES).map(|names| names.each_ref());
+    let names = names.unwrap_or_else(|| undeclared(element, "value of the key", PLACES.name));
+    names.map(String::as_str)
 }
 
 /// Returns Σ a_i × b_i and Σ a_i · b_i of the columns.

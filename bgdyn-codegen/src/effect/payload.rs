@@ -1,22 +1,23 @@
-//! A body carried by a link. It becomes a link of the mechanism, fixed at the site, before the graph is
-//! built. Its known parameters become part of the base parameters of its carrier; a run-time parameter
-//! attaches it, and detaches it if set to 0.
+//! A body carried by a link.
+//!
+//! It becomes a link of the mechanism, fixed at the site, before the graph is built. Its known parameters become
+//! part of the base parameters of its carrier; a run-time parameter attaches it, and detaches it if set to 0.
 
 use bgdyn_runtime::Dd;
 
 use super::Effect;
 use super::wrench::{AT, moves};
 use crate::bond_graph::BondNetwork;
-use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
-use crate::fault::Faults;
+use crate::declaration::{EffectKind, Element, Quantity, SceneContext, ValueCheck};
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{Inertial, Mechanism, Pose, Tensor, Value, check_tensor};
 
 pub(super) struct Payload;
 
-const COM: [&str; 3] = ["com.x", "com.y", "com.z"];
-const INERTIA: [&str; 6] = [
+const COM_NAMES: [&str; 3] = ["com.x", "com.y", "com.z"];
+const INERTIA_NAMES: [&str; 6] = [
     "inertia.xx",
     "inertia.yy",
     "inertia.zz",
@@ -24,6 +25,25 @@ const INERTIA: [&str; 6] = [
     "inertia.xz",
     "inertia.yz",
 ];
+
+const MASS: Key = Key {
+    name: "mass",
+    reads: Reads::Number(&[Dimension::Mass]),
+    needed: true,
+    about: "its mass",
+};
+const COM: Key = Key {
+    name: "com",
+    reads: Reads::Group(&COM_NAMES, &[Dimension::Length]),
+    needed: false,
+    about: "its centre of mass in the axes of the place; the origin without it",
+};
+const INERTIA: Key = Key {
+    name: "inertia",
+    reads: Reads::Group(&INERTIA_NAMES, &[Dimension::Inertia]),
+    needed: false,
+    about: "its tensor about the centre of mass in the axes of the place; a point mass without it",
+};
 
 impl EffectKind for Payload {
     fn keyword(&self) -> &'static str {
@@ -43,36 +63,15 @@ impl EffectKind for Payload {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "mass",
-                reads: Reads::Number(&[Dimension::Mass]),
-                needed: true,
-                about: "its mass",
-            },
-            AT,
-            Key {
-                name: "com",
-                reads: Reads::Group(&COM, &[Dimension::Length]),
-                needed: false,
-                about: "its centre of mass in the axes of the place; the origin without it",
-            },
-            Key {
-                name: "inertia",
-                reads: Reads::Group(&INERTIA, &[Dimension::Inertia]),
-                needed: false,
-                about: "its tensor about the centre of mass in the axes of the place; a point mass without it",
-            },
-        ]
+        &[MASS, AT, COM, INERTIA]
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["mass"], "no body has it");
-        let entries = INERTIA.map(|key| check.number(key).map_or(Dd::ZERO, |q| q.value));
-        let first = INERTIA.into_iter().find(|key| check.number(key).is_some());
-        if let Some(first) = first {
-            let location = check.location(first);
-            check_tensor(&location, &entries, check.faults);
+        check.not_negative(&[MASS], Help::NoBodyHasIt);
+        let given: [_; 6] = check.element.group(&INERTIA);
+        let entries = given.map(|(_, entry)| entry.map_or(Dd::ZERO, |q| q.value));
+        if let Some(first) = given.into_iter().find_map(|(_, entry)| entry) {
+            check_tensor(&first.location, &entries, check.faults);
         }
     }
 
@@ -81,29 +80,25 @@ impl EffectKind for Payload {
     }
 
     fn modify_mechanism(&self, element: &Element, mechanism: &mut Mechanism) {
-        let mut value = |key: &str| match element.quantity(key) {
+        let mut value = |(name, quantity): (&str, Option<&Quantity>)| match quantity {
             None => Value::Fixed(Dd::ZERO),
             Some(q) => match &q.parameter {
                 None => Value::Fixed(q.value),
-                Some(name) => {
-                    let (meaning, unit) = (element.meaning(key), q.dimension.si());
-                    mechanism.parameter(name, meaning, q.value, unit)
+                Some(parameter) => {
+                    let (meaning, unit) = (element.meaning(name), q.dimension.si());
+                    mechanism.parameter(parameter, meaning, q.value, unit)
                 }
             },
         };
         let inertial = Inertial {
-            mass: value("mass"),
-            com: Vec3(COM.map(&mut value)),
+            mass: value((MASS.name, element.quantity(&MASS))),
+            com: Vec3(element.group(&COM).map(&mut value)),
             inertia: Tensor {
-                entries: INERTIA.map(&mut value),
+                entries: element.group(&INERTIA).map(&mut value),
                 axes: Pose::IDENTITY.rotation,
             },
         };
-        mechanism.carry(
-            &element.name,
-            element.name(AT.name).unwrap_or_default(),
-            inertial,
-        );
+        mechanism.carry(&element.name, element.needed_name(&AT), inertial);
     }
 }
 

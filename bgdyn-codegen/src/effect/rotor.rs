@@ -1,17 +1,52 @@
-//! The rotor of a drive behind a gear: reflected inertia N²·J on the joint's junction, or the full rotor
-//! that also rotates with the link that carries it.
+//! The rotor of a drive behind a gear.
+//!
+//! It is a reflected inertia N²·J on the joint's junction, or the full rotor that also rotates with the link that
+//! carries it.
 
 use bgdyn_runtime::Dd;
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::math::Vec3;
 use crate::mechanism::{CoordinateId, Mechanism, Parameter, ParameterId, Value};
 
 pub(super) struct RotorEffect;
+
+/// The inertia of a rotor.
+pub(super) const INERTIA: Key = Key {
+    name: "inertia",
+    reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
+    needed: true,
+    about: "J, the rotor's moment of inertia about its axis",
+};
+/// The ratio of the gear between a rotor and its joint.
+pub(super) const RATIO: Key = Key {
+    name: "ratio",
+    reads: Reads::Number(&[Dimension::One]),
+    needed: false,
+    about: "N, turns of the rotor per turn of the joint; 1 without it",
+};
+const JOINT: Key = Key {
+    name: "joint",
+    reads: Reads::Joint,
+    needed: true,
+    about: "the joint; the rotor of a `series_elastic` is its own `inertia`",
+};
+const ON: Key = Key {
+    name: "on",
+    reads: Reads::Site,
+    needed: false,
+    about: "the link or frame that the motor sits on: the full rotor, with its gyroscopic terms",
+};
+const AXIS: Key = Key {
+    name: "axis",
+    reads: Reads::Vector(&[Dimension::One]),
+    needed: false,
+    about: "with `on`: the rotor's axis in that frame's axes; z without it",
+};
 
 impl EffectKind for RotorEffect {
     fn keyword(&self) -> &'static str {
@@ -31,49 +66,18 @@ impl EffectKind for RotorEffect {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            Key {
-                name: "inertia",
-                reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
-                needed: true,
-                about: "J, the rotor's moment of inertia about its axis",
-            },
-            Key {
-                name: "joint",
-                reads: Reads::Joint,
-                needed: true,
-                about: "the joint; the rotor of a `series_elastic` is its own `inertia`",
-            },
-            Key {
-                name: "ratio",
-                reads: Reads::Number(&[Dimension::One]),
-                needed: false,
-                about: "N, turns of the rotor per turn of the joint; 1 without it",
-            },
-            Key {
-                name: "on",
-                reads: Reads::Site,
-                needed: false,
-                about: "the link or frame that the motor sits on: the full rotor, with its gyroscopic terms",
-            },
-            Key {
-                name: "axis",
-                reads: Reads::Vector(&[Dimension::One]),
-                needed: false,
-                about: "with `on`: the rotor's axis in that frame's axes; z without it",
-            },
-        ]
+        &[INERTIA, JOINT, RATIO, ON, AXIS]
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["inertia"], "no body has it");
-        if check.element.vector("axis").is_some() && check.element.name("on").is_none() {
+        check.not_negative(&[INERTIA], Help::NoBodyHasIt);
+        if check.element.vector(&AXIS).is_some() && check.element.name(&ON).is_none() {
             check.report(wording::rotor_axis_without_link(&check.element.location));
         }
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
-        let joint = element.name("joint").unwrap_or_default();
+        let joint = element.needed_name(&JOINT);
         let mut followers = beside.mechanism.followers();
         let Some((_, coupling, _)) = followers.find(|(own, ..)| own.name == joint) else {
             return;
@@ -87,7 +91,7 @@ impl EffectKind for RotorEffect {
             ));
             return;
         };
-        if let Some(ratio) = element.quantity("ratio").filter(|q| q.parameter.is_some()) {
+        if let Some(ratio) = element.quantity(&RATIO).filter(|q| q.parameter.is_some()) {
             let location = &ratio.location;
             faults.push(wording::rotor_ratio_on_follower(location, joint, leader));
         }
@@ -114,7 +118,7 @@ fn follower(mechanism: &Mechanism, joint: &str) -> Option<(CoordinateId, Dd)> {
 
 impl Effect for RotorEffect {
     fn modify_graph(&self, element: &Element, mechanism: &Mechanism, graph: &mut BondGraph) {
-        let value = |key: &str, usual: f64| {
+        let value = |key: &Key, usual: f64| {
             let Some(quantity) = element.quantity(key) else {
                 return Value::Fixed(Dd::from_f64(usual));
             };
@@ -124,7 +128,7 @@ impl Effect for RotorEffect {
                 None => Value::Fixed(quantity.value),
             }
         };
-        let joint = element.name("joint").unwrap_or_default();
+        let joint = element.needed_name(&JOINT);
         let (coordinate, factor) = match follower(mechanism, joint) {
             Some((leader, factor)) => (Some(leader), factor),
             None => (graph.coordinate_named(joint), Dd::ONE),
@@ -133,21 +137,21 @@ impl Effect for RotorEffect {
             return;
         };
         // Turns of the rotor per turn of the leader.
-        let ratio = match value("ratio", 1.0) {
+        let ratio = match value(&RATIO, 1.0) {
             Value::Fixed(ratio) => Value::Fixed(ratio * factor),
             parameter => parameter,
         };
-        let carrier = element.name("on").and_then(|name| {
+        let carrier = element.name(&ON).and_then(|name| {
             let site = graph.sites.iter().find(|s| s.name == name)?;
             let z = [Dd::ZERO, Dd::ZERO, Dd::ONE];
-            let axis = Vec3(element.vector("axis").unwrap_or(z));
+            let axis = Vec3(element.vector(&AXIS).unwrap_or(z));
             let length = axis.dot(axis).sqrt();
             let axis = site.place.rotation * axis.map(|x| x / length);
             site.link.map(|link| Gyrostat { link, axis })
         });
         graph.multibody.rotors.push(RotorStore {
             coordinate,
-            inertia: value("inertia", 0.0),
+            inertia: value(&INERTIA, 0.0),
             ratio,
             carrier,
         });
@@ -159,6 +163,6 @@ impl Effect for RotorEffect {
         // Its energy is included in that of the links.
         network.set_powers(rotor, &[]);
         let more = |link| format!("its spin also acts on {link}, which is not drawn");
-        network.set_more(rotor, element.name("on").map(more));
+        network.set_more(rotor, element.name(&ON).map(more));
     }
 }

@@ -8,11 +8,13 @@
 
 use bgdyn_runtime::Dd;
 
+use super::rotor::{INERTIA, RATIO};
 use super::viscous::{EFFORT_PER_RATE, JOINT};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -29,18 +31,6 @@ const DAMPING: Key = Key {
     reads: EFFORT_PER_RATE,
     needed: false,
     about: "damping D, in parallel with the spring; default 0",
-};
-const INERTIA: Key = Key {
-    name: "inertia",
-    reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
-    needed: true,
-    about: "J, the rotor's moment of inertia about its axis",
-};
-const RATIO: Key = Key {
-    name: "ratio",
-    reads: Reads::Number(&[Dimension::One]),
-    needed: false,
-    about: "N, turns of the rotor per turn of the joint; 1 without it",
 };
 
 impl EffectKind for SeriesElastic {
@@ -69,19 +59,13 @@ impl EffectKind for SeriesElastic {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.positive(
-            &["stiffness"],
-            "without a spring nothing connects the drive with its joint",
-        );
-        check.not_negative(&["damping"], "a negative damping would drive the motion");
-        check.positive(
-            &["inertia", "ratio"],
-            "without a rotor there is nothing on the drive's side: use `type: spring`",
-        );
+        check.positive(&[STIFFNESS], Help::SpringIsNeeded);
+        check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
+        check.positive(&[INERTIA, RATIO], Help::RotorIsNeeded);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let joint = element.name("joint").unwrap_or_default();
+        let joint = element.needed_name(&JOINT);
         layout.coordinate_beside(&element.name, joint);
     }
 }
@@ -95,10 +79,10 @@ impl Effect for SeriesElastic {
         network.bond(drive, effort);
         let stretch = network.add(NodeKind::One, "θ̇ − q̇");
         network.bond(effort, stretch);
-        let stiffness = nodes::number(element, "K", STIFFNESS.name);
+        let stiffness = nodes::number(element, "K", &STIFFNESS);
         network.add_on(stretch, NodeKind::Compliance, stiffness);
-        if element.quantity(DAMPING.name).is_some() {
-            let damping = nodes::number(element, "D", DAMPING.name);
+        if element.quantity(&DAMPING).is_some() {
+            let damping = nodes::number(element, "D", &DAMPING);
             network.add_on(stretch, NodeKind::Resistor, damping);
         }
         if network.is_driven(&element.name) {

@@ -1,6 +1,8 @@
-//! The common law of dampers and smooth friction: an effort that depends on the slip of a port against its
-//! counterpart, and dissipates the power that it receives.
+//! The common law of dampers and smooth friction.
+//!
+//! The effort depends on the slip of a port against its counterpart, and dissipates the power that it receives.
 
+use super::viscous::REFERENCE;
 use crate::declaration::Element;
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
@@ -9,8 +11,8 @@ use crate::layout::{Level, StateLayout};
 
 /// Declares the counterpart's speed as an input, if the element has a reference.
 pub(super) fn declare(element: &Element, layout: &mut StateLayout) {
-    if let Some(reference) = element.name("reference") {
-        let dimension = match element.name("joint") {
+    if let Some(reference) = element.name(&REFERENCE) {
+        let dimension = match element.joint() {
             Some(joint) => layout.position_of(joint),
             None => Dimension::Length,
         };
@@ -25,7 +27,7 @@ pub(super) fn resist<'g>(
     effort: impl FnOnce(&EffortSums<'g, '_>, Expr<'g>) -> Expr<'g>,
 ) {
     let port = sums.port(element);
-    let counterpart = sums.reference(element.name("reference"), Level::Rate);
+    let counterpart = sums.reference(element.name(&REFERENCE), Level::Rate);
     let slip = port.rate - counterpart;
     let effort = effort(sums, slip);
     sums.push(&port, effort);

@@ -7,6 +7,7 @@ use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::{Level, StateLayout};
 
@@ -69,13 +70,13 @@ impl EffectKind for Spring {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.one_of(&["joint", "between"]);
-        check.not_negative(&["stiffness"], "a negative stiffness pushes away from rest");
+        check.one_of(&[MAYBE_JOINT, BETWEEN]);
+        check.not_negative(&[STIFFNESS], Help::StiffnessPushes);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        if let Some(reference) = element.name("reference") {
-            let dimension = match element.name("joint") {
+        if let Some(reference) = element.name(&REFERENCE) {
+            let dimension = match element.joint() {
                 Some(joint) => layout.position_of(joint),
                 None => Dimension::Length,
             };
@@ -91,7 +92,7 @@ impl Effect for Spring {
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let port = sums.port(element);
-        let reference = element.name("reference");
+        let reference = element.name(&REFERENCE);
         let [location, rate] = [Level::Position, Level::Rate].map(|l| sums.reference(reference, l));
         let stretch = port.displacement - location - sums.number(element, &REST);
         let (stiffness, preload) = (

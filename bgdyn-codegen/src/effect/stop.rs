@@ -17,7 +17,7 @@ use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Port};
 use crate::expr::Expr;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 use crate::mechanism::Limits;
@@ -78,34 +78,28 @@ impl EffectKind for Stop {
         &[STIFFNESS, RESTITUTION, IMPACT_SPEED, LOWER, UPPER, JOINT]
     }
 
-    fn limit_for(&self, key: &str, limits: &Limits) -> Option<f64> {
+    fn limit_for(&self, key: &Key, limits: &Limits) -> Option<f64> {
         match key {
-            "lower" => limits.lower,
-            "upper" => limits.upper,
+            key if *key == LOWER => limits.lower,
+            key if *key == UPPER => limits.upper,
             _ => None,
         }
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.fixed(&["restitution", "impact_speed"]);
-        check.positive(
-            &["stiffness", "impact_speed"],
-            "a scene without stops leaves the effect out",
-        );
-        check.positive(
-            &["restitution"],
-            "no damping takes all the speed from an impact: write a small one, 0.01",
-        );
-        check.at_most_one("restitution", "an impact would give back more than it took");
-        check.ordered("lower", "upper", "the joint moves between its stops");
-        if check.number("lower").or(check.number("upper")).is_none() {
-            let joint = check.element.name("joint").unwrap_or_default();
+        check.fixed(&[RESTITUTION, IMPACT_SPEED]);
+        check.positive(&[STIFFNESS, IMPACT_SPEED], Help::StopsAreOptional);
+        check.positive(&[RESTITUTION], Help::RestitutionIsPositive);
+        check.at_most_one(&RESTITUTION, Help::RestitutionAboveOne);
+        check.ordered(&LOWER, &UPPER, Help::JointIsBetweenStops);
+        if check.number(&LOWER).or(check.number(&UPPER)).is_none() {
+            let joint = check.element.needed_name(&JOINT);
             check.report(wording::no_stops(&check.element.location, joint));
         }
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let (name, joint) = (&element.name, element.name("joint").unwrap_or_default());
+        let (name, joint) = (&element.name, element.needed_name(&JOINT));
         layout.event(begins(name), format!("`{joint}` meets a stop"));
         layout.event(ends(name), format!("`{joint}` leaves a stop"));
         let about =
@@ -116,7 +110,7 @@ impl EffectKind for Stop {
 
 impl Effect for Stop {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let stop = nodes::add_acting(element, NodeKind::Compliance, network);
+        let stop = nodes::add_at_port(element, NodeKind::Compliance, network);
         network.set_powers(stop, &[PowerTerm::Stored, PowerTerm::Dissipated]);
     }
 
@@ -180,7 +174,7 @@ fn one_side<'g>(
     let value = |key| element.quantity(key).map_or(Dd::ONE, |q| q.value);
     let damping = sums
         .b
-        .constant(damping(value("restitution"), value("impact_speed")));
+        .constant(damping(value(&RESTITUTION), value(&IMPACT_SPEED)));
     let (depth, rate) = (depth.max(zero), port.rate * outwards);
     let elastic = sums.number(element, &STIFFNESS) * depth;
     let follows = damping * rate + sums.b.number(1.0);

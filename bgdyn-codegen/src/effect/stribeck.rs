@@ -6,15 +6,15 @@
 //! rises over the width w while the curve falls, so the peak is F_s only if w ≪ v_s. Like every law
 //! without memory it never holds, but creeps.
 
-use super::coulomb::{EFFORT, REST_HOLDS_MORE};
-use super::coulomb_smooth::{NO_WIDTH, SPEED, WIDTH};
+use super::coulomb::EFFORT;
+use super::coulomb_smooth::{SPEED, WIDTH};
 use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::wording;
+use crate::fault::{Help, wording};
 use crate::format::Key;
 use crate::layout::StateLayout;
 
@@ -85,18 +85,15 @@ impl EffectKind for Stribeck {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["kinetic", "damping"], "friction opposes the motion");
-        check.ordered("kinetic", "static", REST_HOLDS_MORE);
-        check.positive(
-            &["stribeck_speed"],
-            "friction without the curve is `type: coulomb_smooth`",
-        );
-        check.positive(&["width"], NO_WIDTH);
-        let [width, speed] = ["width", "stribeck_speed"].map(|key| check.value_or(key, 0.0));
+        check.not_negative(&[KINETIC, DAMPING], Help::FrictionOpposes);
+        check.ordered(&KINETIC, &STATIC, Help::RestHoldsMore);
+        check.positive(&[STRIBECK_SPEED], Help::CurveIsOptional);
+        check.positive(&[WIDTH], Help::WidthOfJump);
+        let [width, speed] = [WIDTH, STRIBECK_SPEED].map(|key| check.value_or(&key, 0.0));
         if speed > 0.0 && width > speed {
-            let location = check.location("width");
+            let location = check.location(&WIDTH);
             let text = |key| check.number(key).map_or("", |q| q.text.as_str());
-            let (width, speed) = (text("width"), text("stribeck_speed"));
+            let (width, speed) = (text(&WIDTH), text(&STRIBECK_SPEED));
             check.report(wording::width_above_stribeck_speed(&location, width, speed));
         }
     }

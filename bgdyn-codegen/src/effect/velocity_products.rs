@@ -1,5 +1,6 @@
-//! Velocity products: the rates of the transformers, d/dt ∂r_i/∂q_j and ρ̇_j, with the gyroscopic term ω ×
-//! J ω. Quasi-static scenes omit them.
+//! Velocity products: the rates of the transformers, with the gyroscopic term.
+//!
+//! They are d/dt ∂r_i/∂q_j, ρ̇_j and ω × J ω. Quasi-static scenes omit them.
 
 use super::Effect;
 use crate::bond_graph::{BondGraph, BondNetwork};

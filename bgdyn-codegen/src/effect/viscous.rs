@@ -4,6 +4,7 @@ use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::EffortSums;
+use crate::fault::Help;
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -62,7 +63,7 @@ impl EffectKind for Viscous {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.not_negative(&["damping"], "a negative damping would drive the joint");
+        check.not_negative(&[DAMPING], Help::DampingDrivesJoint);
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {

@@ -1,5 +1,6 @@
-//! An external wrench on a link or at a frame, with six inputs or a selection of them. It is an effort
-//! source on the flow V = [ω; v] of the site: τ_j += J_jᵀ w.
+//! An external wrench on a link or at a frame, with six inputs or a selection of them.
+//!
+//! It is an effort source on the flow V = [ω; v] of the site: τ_j += J_jᵀ w.
 
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
@@ -24,9 +25,25 @@ pub(super) const AT: Key = Key {
 /// Moments first, as in all spatial vectors.
 const COMPONENTS: [&str; 6] = ["mx", "my", "mz", "fx", "fy", "fz"];
 
+/// The word for the axes of the link.
+const OF_LINK: &str = "link";
+
+const AXES: Key = Key {
+    name: "axes",
+    reads: Reads::Word(&["world", OF_LINK]),
+    needed: false,
+    about: "axes of its components: `world` (also where nothing is said), or `link`, those of the place",
+};
+const SELECTED: Key = Key {
+    name: "components",
+    reads: Reads::Words(&COMPONENTS),
+    needed: false,
+    about: "the components that are inputs; default all six",
+};
+
 /// Returns the components that are inputs.
 fn components(element: &Element) -> Vec<&'static str> {
-    let asked = element.words("components");
+    let asked = element.words(&SELECTED);
     let wanted = |c: &&str| asked.is_none_or(|asked| asked.iter().any(|a| a == c));
     COMPONENTS.into_iter().filter(wanted).collect()
 }
@@ -34,7 +51,7 @@ fn components(element: &Element) -> Vec<&'static str> {
 /// Refuses a site that cannot move.
 pub(super) fn moves(element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
     let mut frames = beside.mechanism.frames().iter();
-    let at = element.name(AT.name).unwrap_or_default();
+    let at = element.needed_name(&AT);
     if frames.any(|f| f.name == at && f.link.is_none()) {
         faults.push(wording::acts_on_the_world(
             &element.location,
@@ -88,25 +105,11 @@ impl EffectKind for WrenchEffect {
     }
 
     fn keys(&self) -> &'static [Key] {
-        &[
-            AT,
-            Key {
-                name: "axes",
-                reads: Reads::Word(&["world", "link"]),
-                needed: false,
-                about: "axes of its components: `world` (also where nothing is said), or `link`, those of the place",
-            },
-            Key {
-                name: "components",
-                reads: Reads::Words(&COMPONENTS),
-                needed: false,
-                about: "the components that are inputs; default all six",
-            },
-        ]
+        &[AT, AXES, SELECTED]
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let Some(asked) = check.element.words("components") else {
+        let Some(asked) = check.element.words(&SELECTED) else {
             return;
         };
         let twice = (1..asked.len()).find(|&i| asked[..i].contains(&asked[i]));
@@ -124,10 +127,10 @@ impl EffectKind for WrenchEffect {
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        let (name, at) = (&element.name, element.name(AT.name).unwrap_or_default());
-        let axes = match element.name("axes") {
-            Some("link") => "its own axes",
-            _ => "world axes",
+        let (name, at) = (&element.name, element.needed_name(&AT));
+        let axes = match element.says(&AXES, OF_LINK) {
+            true => "its own axes",
+            false => "world axes",
         };
         for component in components(element) {
             let (what, dimension) = match component.as_bytes() {
@@ -147,14 +150,14 @@ impl Effect for WrenchEffect {
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        let site = sums.site(element.name(AT.name).unwrap_or_default());
+        let site = sums.site(element.needed_name(&AT));
         let inputs = components(element);
         let check = COMPONENTS.map(|c| match inputs.contains(&c) {
             true => sums.input(&format!("{}_{c}", element.name)),
             false => sums.b.zero(),
         });
         let [mx, my, mz, fx, fy, fz] = check;
-        let wrench = if element.name("axes") == Some("link") {
+        let wrench = if element.says(&AXES, OF_LINK) {
             let axes = sums.pose(site).0;
             let (moment, force) = (axes * Vec3([mx, my, mz]), axes * Vec3([fx, fy, fz]));
             let ([mx, my, mz], [fx, fy, fz]) = (moment.0, force.0);

@@ -1,7 +1,7 @@
 //! Adds gears with losses between efforts and coordinates.
 
 use super::{EffortSums, LossyGear, Port, load_event};
-use crate::declaration::Element;
+use crate::declaration::{Element, undeclared};
 use crate::expr::Expr;
 use crate::format::Key;
 
@@ -37,10 +37,9 @@ impl<'g> EffortSums<'g, '_> {
 
     /// Adds a gear between a coordinate's drive and the coordinate.
     pub fn gear_of_drive(&mut self, element: &Element, efficiency: &Key) {
-        let joint = element.name("joint").unwrap_or_default();
-        let found = self.scene.layout.coordinate_named(joint);
-        let Some(j) = found else { return };
-        let port = self.coordinate(joint);
+        let joint = element.joint();
+        let joint = joint.unwrap_or_else(|| undeclared(element, "value of the key", "joint"));
+        let (j, port) = (self.coordinate_index(joint), self.coordinate(joint));
         if let Some(gear) = self.gear(element, efficiency, (&port, &element.name)) {
             self.gears.insert(j, gear);
             let lost = (self.own_effort(j) - self.drive(j)) * self.v[j];

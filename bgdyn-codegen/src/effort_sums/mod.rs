@@ -1,5 +1,4 @@
-//! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws
-//! add.
+//! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws add.
 
 mod attitude;
 mod gear;
@@ -179,8 +178,10 @@ impl<'g> EffortSums<'g, '_> {
             })
         };
         let own = |name: &str| {
-            let found = self.scene.parameters.iter().position(|p| p.name == name);
-            self.b.leaf(Leaf::Parameter(found.unwrap_or_default()))
+            let mut parameters = self.scene.parameters.iter();
+            let found = parameters.position(|p| p.name == name);
+            let found = found.expect("the parameters of the mechanism are those of the scene");
+            self.b.leaf(Leaf::Parameter(found))
         };
         let all = self.graph.parameters.iter().enumerate();
         all.map(|(p, parameter)| input(p).unwrap_or_else(|| own(&parameter.name)).signed())

@@ -2,11 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::undeclared::undeclared;
 use super::{ActuatorEfforts, EffortSums, Port};
 use crate::bond_graph::SiteId;
-use crate::declaration::Chain;
-use crate::declaration::{Element, Quantity};
+use crate::declaration::{Chain, Element, Quantity, undeclared};
 use crate::expr::{Expr, Leaf, Signed};
 use crate::format::{Dimension, Key};
 use crate::math::{Mat3, Vec3};
@@ -22,7 +20,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// Returns the number of a key; 0 if the file does not give it.
     ///
     /// # Panics
-    /// If the element's effect does not declare the key.
+    /// If the element's effect does not declare the key as a number.
     pub fn number(&self, element: &Element, key: &Key) -> Expr<'g> {
         self.optional(element, key).unwrap_or(self.b.zero())
     }
@@ -30,12 +28,9 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// Returns the number of a key; `None` if the file does not give it.
     ///
     /// # Panics
-    /// If the element's effect does not declare the key.
+    /// If the element's effect does not declare the key as a number.
     pub fn optional(&self, element: &Element, key: &Key) -> Option<Expr<'g>> {
-        if !element.effect.keys().iter().any(|k| k.name == key.name) {
-            undeclared(element, "key", key.name);
-        }
-        element.quantity(key.name).map(|q| self.quantity(q))
+        element.quantity(key).map(|q| self.quantity(q))
     }
 
     /// Returns a number as an expression.
@@ -107,7 +102,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// # Panics
     /// If it has neither, or the scene does not have it.
     pub fn port(&mut self, element: &Element) -> Port<'g> {
-        match (element.name("joint"), element.names("between")) {
+        match (element.joint(), element.ends()) {
             (Some(joint), _) => self.coordinate(joint),
             (None, Some([a, b])) => self.line(self.site(a), self.site(b)),
             (None, None) => undeclared(element, "value of the keys", "joint, between"),
@@ -118,7 +113,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
     /// or of a length.
     pub fn port_units(&self, element: &Element) -> [&'static str; 3] {
         let layout = &self.scene.layout;
-        let joint = element.name("joint");
+        let joint = element.joint();
         let own = joint.and_then(|joint| layout.dimensions_of(joint));
         let length = [Dimension::Length, Dimension::Speed, Dimension::Force];
         own.unwrap_or(length).map(Dimension::si)

@@ -1,7 +1,7 @@
 //! Looks up parts by name in a law; panics if the name is not declared, an error of the law's author.
 
 use super::EffortSums;
-use crate::declaration::Element;
+use crate::declaration::{Element, undeclared};
 use crate::scene::Variable;
 
 impl EffortSums<'_, '_> {
@@ -22,13 +22,4 @@ impl EffortSums<'_, '_> {
         let found = self.scene.layout.coordinate_named(name);
         found.unwrap_or_else(|| undeclared(self.element_at_work(), "coordinate", name))
     }
-}
-
-/// Panics: the law of this element uses a name that is not declared.
-pub(super) fn undeclared(element: &Element, kind: &str, name: &str) -> ! {
-    panic!(
-        "the law of the effect `{}` (element `{}`) uses the {kind} `{name}`, which is not declared",
-        element.effect.keyword(),
-        element.name,
-    )
 }

@@ -2,9 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::undeclared::undeclared;
 use super::{Condition, Contact, EffortSums, Hold, Port, Reading};
-use crate::declaration::Element;
+use crate::declaration::{Element, undeclared};
 use crate::expr::Expr;
 
 impl<'g> EffortSums<'g, '_> {

@@ -1,5 +1,6 @@
-//! Emits what mechanisms with loops and those with contacts have in common: names of the open tree and of the rows, the
-//! start, the joints whose positions close.
+//! Emits what mechanisms with loops and those with contacts have in common.
+//!
+//! These are names of the open tree and of the rows, the start, and the joints whose positions close.
 
 use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;

@@ -1,5 +1,7 @@
-//! Emits what only mechanisms with loops have: names of the open tree and of the rows, the function that closes
-//! positions, and the functions of positions of the trait `Dynamics`.
+//! Emits what only mechanisms with loops have.
+//!
+//! These are names of the open tree and of the rows, the function that closes positions, and the functions of
+//! positions of the trait `Dynamics`.
 
 use proc_macro2::TokenStream;
 use quote::quote;

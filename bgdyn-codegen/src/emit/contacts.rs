@@ -1,6 +1,8 @@
-//! Emits what only mechanisms with wheels or knife edges have: names of the open tree and of the rows, and the functions
-//! of positions of the trait `Dynamics`. All positions of the open tree are in q, and each may have any value: the
-//! velocities decide how they change together.
+//! Emits what only mechanisms with wheels or knife edges have.
+//!
+//! These are names of the open tree and of the rows, and the functions of positions of the trait `Dynamics`. All
+//! positions of the open tree are in q, and each may have any value: the velocities decide how they change
+//! together.
 
 use proc_macro2::TokenStream;
 use quote::quote;

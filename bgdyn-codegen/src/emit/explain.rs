@@ -1,5 +1,6 @@
-//! Emits private methods that pass a failed function's arguments to a callback, which searches them for
-//! the cause of the error: an argument that is NaN or infinite.
+//! Emits private methods that pass a failed function's arguments to a callback.
+//!
+//! The callback searches them for the cause of the error: an argument that is NaN or infinite.
 
 use std::collections::BTreeMap;
 

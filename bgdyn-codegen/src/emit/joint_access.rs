@@ -1,5 +1,6 @@
-//! Emits the access to the positions of joints with several velocities: their ranges in q and v, and their
-//! pose or rotation as types of nalgebra.
+//! Emits the access to the positions of joints with several velocities.
+//!
+//! It consists of their ranges in q and v, and their pose or rotation as types of nalgebra.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

@@ -1,5 +1,6 @@
-//! Emits the module of a refused spec with all names that a caller can use, so that the user sees only the
-//! error of the spec and no further errors at every call.
+//! Emits the module of a refused spec with all names that a caller can use.
+//!
+//! The user sees only the error of the spec and no further errors at every call.
 //!
 //! The types are those of the real module, so that type inference gives the same result. If the number of
 //! joints is a guess, the methods take vectors of any size.

@@ -1,5 +1,6 @@
-//! Emits the trait implementations of a mechanism's module: descriptions of its joints and frames, and its
-//! methods by delegation.
+//! Emits the trait implementations of a mechanism's module.
+//!
+//! They describe its joints and frames, and delegate to its methods.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;

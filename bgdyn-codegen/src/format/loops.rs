@@ -2,6 +2,7 @@
 
 use super::walk::{At, Reader};
 use super::{LoopEndSpec, LoopSpec};
+use crate::fault::wording::expected;
 use crate::unit::Dimension;
 
 impl Reader {
@@ -18,29 +19,18 @@ impl Reader {
             "redundant",
             "tolerance",
         ];
-        let example = "`- { name: …, type: hinge, a: { link: … }, b: { link: … } }`";
-        let map = self.mapping(at, ("a loop", example), &keys)?;
+        let map = self.mapping(at, expected::LOOP, &keys)?;
         Some(LoopSpec {
-            name: self.needed(&map, "name", "`name: …`, the loop's name", Self::text),
-            kind: self.needed(
-                &map,
-                "type",
-                "`type: …`: `hinge`, `point`, `slider` or another type of loop",
-                Self::text,
-            ),
-            a: self.needed(&map, "a", "`a: { link: … }`, one place", Self::loop_end),
-            b: self.needed(
-                &map,
-                "b",
-                "`b: { link: … }`, the place it is connected to",
-                Self::loop_end,
-            ),
+            name: self.needed(&map, "name", expected::LOOP_NAME_KEY, Self::text),
+            kind: self.needed(&map, "type", expected::LOOP_TYPE_KEY, Self::text),
+            a: self.needed(&map, "a", expected::LOOP_A_KEY, Self::loop_end),
+            b: self.needed(&map, "b", expected::LOOP_B_KEY, Self::loop_end),
             axis: self.field(&map, "axis", Self::axis),
             length: self.number_field(&map, "length", &[Dimension::Length]),
             branch: self.text_field(&map, "branch"),
             near: self.field(&map, "near", |r, at| {
                 let fit = [Dimension::Angle, Dimension::Length];
-                r.coefficients(at, &fit, ("positions by joint", "`{ elbow: 30 deg }`"))
+                r.coefficients(at, &fit, expected::NEAR)
             }),
             redundant: self.text_field(&map, "redundant"),
             tolerance: self.number_field(&map, "tolerance", &[Dimension::Length]),
@@ -50,10 +40,7 @@ impl Reader {
 
     /// Parses a place: a link with an origin on it, or a frame.
     fn loop_end(&mut self, at: &At<'_>) -> Option<LoopEndSpec> {
-        let what = (
-            "a place",
-            "`{ link: …, origin: { xyz: [x, y, z] } }` or `{ frame: … }`",
-        );
+        let what = expected::LOOP_END;
         let map = self.mapping(at, what, &["link", "origin", "frame"])?;
         Some(LoopEndSpec {
             link: self.text_field(&map, "link"),

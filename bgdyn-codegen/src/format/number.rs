@@ -1,4 +1,6 @@
-//! Parses a number: a decimal with up to 32 digits or a quotient of two such, and a unit of the expected
+//! Parses a number and its unit.
+//!
+//! A number is a decimal with up to 32 digits or a quotient of two such; the unit is one of the expected
 //! dimension.
 
 use bgdyn_runtime::Dd;

@@ -6,7 +6,8 @@ use super::{
     Field, FrameSpec, InertiaSpec, JointSpec, LENGTHS, LIMIT_PARTS, LimitsSpec, LinkSpec, Located,
     MimicSpec, Number, Origin, Spec, Vector,
 };
-use crate::fault::{Faults, wording};
+use crate::fault::Faults;
+use crate::fault::wording::{self, expected};
 use crate::unit::Dimension;
 use bgdyn_runtime::Dd;
 
@@ -38,66 +39,49 @@ impl Reader {
             "independent",
             "effects",
         ];
-        let map = self.mapping(at, ("a mapping", "`format: 1`, `links: …`"), &keys)?;
+        let map = self.mapping(at, expected::SPEC, &keys)?;
         Some(Spec {
-            format: self.needed(
-                &map,
-                "format",
-                "`format: 1`, the version of the format",
-                |r, at| r.number(at, &[Dimension::One]),
-            ),
+            format: self.needed(&map, "format", expected::FORMAT_KEY, |r, at| {
+                r.number(at, &[Dimension::One])
+            }),
             name: self.text_field(&map, "name"),
             label: self.text_field(&map, "label"),
             description: self.text_field(&map, "description"),
             gravity: self.vector_field(&map, "gravity", &[Dimension::Acceleration]),
             base: self.text_field(&map, "base"),
             snap: self.number_field(&map, "snap", &[Dimension::Angle]),
-            links: self.needed(&map, "links", "`links: …`, the list of links", |r, at| {
+            links: self.needed(&map, "links", expected::LINKS_KEY, |r, at| {
                 Some(
-                    r.list(
-                        at,
-                        ("a list of links", "each link after a dash: `- name: …`"),
-                    )?
-                    .iter()
-                    .filter_map(|at| r.link(at))
-                    .collect(),
+                    r.list(at, expected::LINKS)?
+                        .iter()
+                        .filter_map(|at| r.link(at))
+                        .collect(),
                 )
             }),
             frames: self.field(&map, "frames", |r, at| {
                 Some(
-                    r.list(
-                        at,
-                        (
-                            "a list of frames",
-                            "each frame after a dash: `- { name: …, link: … }`",
-                        ),
-                    )?
-                    .iter()
-                    .filter_map(|at| r.frame(at))
-                    .collect(),
+                    r.list(at, expected::FRAMES)?
+                        .iter()
+                        .filter_map(|at| r.frame(at))
+                        .collect(),
                 )
             }),
             constraints: self.field(&map, "constraints", |r, at| {
-                r.table(at, ("constraints by name", "`name: { type: gear, … }`"))
+                r.table(at, expected::CONSTRAINTS)
             }),
             planes: self.field(&map, "planes", |r, at| {
-                let what = ("planes by name", "`ground: { normal: z, offset: 0 m }`");
+                let what = expected::PLANES;
                 r.table(at, what)
             }),
             loops: self.field(&map, "loops", |r, at| {
-                let what = (
-                    "a list of loops",
-                    "each loop after a dash: `- { name: …, type: hinge, … }`",
-                );
+                let what = expected::LOOPS;
                 let all = r.list(at, what)?;
                 Some(all.iter().filter_map(|at| r.closing(at)).collect())
             }),
             independent: self.field(&map, "independent", |r, at| {
-                r.names_list(at, ("a list of joints", "`[crank, wrist]`"))
+                r.names_list(at, expected::INDEPENDENT)
             }),
-            effects: self.field(&map, "effects", |r, at| {
-                r.table(at, ("effects by name", "`name: { type: viscous, … }`"))
-            }),
+            effects: self.field(&map, "effects", |r, at| r.table(at, expected::EFFECTS)),
             location: map.location,
             complete: false,
         })
@@ -114,13 +98,9 @@ impl Reader {
             "inertia",
             "nonphysical",
         ];
-        let map = self.mapping(
-            at,
-            ("a link", "`- name: …` and its other keys below"),
-            &keys,
-        )?;
+        let map = self.mapping(at, expected::LINK, &keys)?;
         Some(LinkSpec {
-            name: self.needed(&map, "name", "`name: …`, the link's name", Self::text),
+            name: self.needed(&map, "name", expected::LINK_NAME_KEY, Self::text),
             label: self.text_field(&map, "label"),
             parent: self.text_field(&map, "parent"),
             joint: self.field(&map, "joint", Self::joint),
@@ -147,20 +127,11 @@ impl Reader {
             "mimic",
             "quaternion",
         ];
-        let map = self.mapping(
-            at,
-            ("a joint", "`{ name: …, type: revolute, axis: z }`"),
-            &keys,
-        )?;
+        let map = self.mapping(at, expected::JOINT, &keys)?;
         Some(JointSpec {
             name: self.text_field(&map, "name"),
             label: self.text_field(&map, "label"),
-            kind: self.needed(
-                &map,
-                "type",
-                "`type: …`: `revolute`, `prismatic`, `floating`, `fixed` or another joint type",
-                Self::text,
-            ),
+            kind: self.needed(&map, "type", expected::JOINT_TYPE_KEY, Self::text),
             axis: self.field(&map, "axis", Self::axis),
             axis2: self.field(&map, "axis2", Self::axis),
             lead: self.number_field(&map, "lead", &[Dimension::Length, Dimension::Lead]),
@@ -173,12 +144,12 @@ impl Reader {
     }
 
     fn mimic(&mut self, at: &At<'_>) -> Option<MimicSpec> {
-        let what = ("a mapping", "`{ joint: …, ratio: 1, offset: 0 }`");
+        let what = expected::MIMIC;
         let map = self.mapping(at, what, &["joint", "ratio", "offset"])?;
         let ratios = [Dimension::One, Dimension::Lead, Dimension::AnglePerLength];
         let offsets = [Dimension::Angle, Dimension::Length];
         Some(MimicSpec {
-            joint: self.needed(&map, "joint", "`joint: …`, the joint it mimics", Self::text),
+            joint: self.needed(&map, "joint", expected::MIMIC_JOINT_KEY, Self::text),
             ratio: self.number_field(&map, "ratio", &ratios),
             offset: self.number_field(&map, "offset", &offsets),
         })
@@ -212,14 +183,7 @@ impl Reader {
     }
 
     pub(super) fn origin(&mut self, at: &At<'_>) -> Option<Origin> {
-        let map = self.mapping(
-            at,
-            (
-                "a placement",
-                "`{ xyz: [x, y, z], rpy: [roll, pitch, yaw] }`",
-            ),
-            &["xyz", "rpy"],
-        )?;
+        let map = self.mapping(at, expected::ORIGIN, &["xyz", "rpy"])?;
         Some(Origin {
             xyz: self.vector_field(&map, "xyz", &[Dimension::Length]),
             rpy: self.vector_field(&map, "rpy", &[Dimension::Angle]),
@@ -233,10 +197,7 @@ impl Reader {
     /// Parses limits that may have these parts, which have none themselves.
     fn limits_with(&mut self, at: &At<'_>, parts: &[&'static str]) -> Option<LimitsSpec> {
         let keys = [&["lower", "upper", "velocity", "effort"][..], parts].concat();
-        let what = (
-            "a mapping",
-            "`{ lower: …, upper: …, velocity: …, effort: … }`",
-        );
+        let what = expected::LIMITS;
         let map = self.mapping(at, what, &keys)?;
         let position = [Dimension::Angle, Dimension::Length];
         Some(LimitsSpec {
@@ -259,10 +220,7 @@ impl Reader {
         let entries = ["xx", "yy", "zz", "xy", "xz", "yz"];
         let others = ["products", "about", "rpy", "solid", "size", "axis"];
         let keys: Vec<&'static str> = [&entries[..], &others, &LENGTHS].concat();
-        let what = (
-            "a tensor or a solid",
-            "`{ xx: …, yy: …, zz: … }` or `{ solid: box, size: [x, y, z] }`",
-        );
+        let what = expected::INERTIA;
         let map = self.mapping(at, what, &keys)?;
         Some(InertiaSpec {
             entries: entries
@@ -279,30 +237,18 @@ impl Reader {
 
     fn products(&mut self, at: &At<'_>) -> Option<[Field<Number>; 3]> {
         let keys = ["xy", "xz", "yz"];
-        let what = ("products of inertia", "`{ xy: …, xz: …, yz: … }`");
+        let what = expected::PRODUCTS;
         let map = self.mapping(at, what, &keys)?;
         Some(keys.map(|key| self.number_field(&map, key, &[Dimension::Inertia])))
     }
 
     fn frame(&mut self, at: &At<'_>) -> Option<FrameSpec> {
         let keys = ["name", "link", "origin", "label"];
-        let map = self.mapping(
-            at,
-            (
-                "a frame",
-                "`- { name: …, link: …, origin: { xyz: [x, y, z] } }`",
-            ),
-            &keys,
-        )?;
+        let map = self.mapping(at, expected::FRAME, &keys)?;
         Some(FrameSpec {
-            name: self.needed(&map, "name", "`name: …`, the frame's name", Self::text),
+            name: self.needed(&map, "name", expected::FRAME_NAME_KEY, Self::text),
             label: self.text_field(&map, "label"),
-            link: self.needed(
-                &map,
-                "link",
-                "`link: …`, the link it is fixed to, or `world`",
-                Self::text,
-            ),
+            link: self.needed(&map, "link", expected::FRAME_LINK_KEY, Self::text),
             origin: self.field(&map, "origin", Self::origin),
             location: map.location,
         })

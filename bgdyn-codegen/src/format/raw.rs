@@ -97,14 +97,18 @@ pub struct Fields(Vec<(&'static str, Located<ParsedValue>)>);
 
 impl Fields {
     /// Returns the value of a key.
-    pub fn get(&self, key: &str) -> Option<&Located<ParsedValue>> {
+    pub fn get(&self, key: &Key) -> Option<&Located<ParsedValue>> {
+        self.named(key.name)
+    }
+
+    fn named(&self, key: &str) -> Option<&Located<ParsedValue>> {
         self.0.iter().find(|(k, _)| *k == key).map(|(_, e)| e)
     }
 
     /// Returns these, and those of `base` for missing keys.
     pub fn over(mut self, base: &Fields) -> Fields {
         for (key, entry) in &base.0 {
-            if self.get(key).is_none() {
+            if self.named(key).is_none() {
                 self.0.push((key, entry.clone()));
             }
         }
@@ -112,15 +116,15 @@ impl Fields {
     }
 
     /// Returns these without a key.
-    pub fn without(mut self, key: &str) -> Fields {
-        self.0.retain(|(k, _)| *k != key);
+    pub fn without(mut self, key: &Key) -> Fields {
+        self.0.retain(|(k, _)| *k != key.name);
         self
     }
 
     /// Returns these with a name as the value of a key.
-    pub fn with(mut self, key: &'static str, name: Located<String>) -> Fields {
+    pub fn with(mut self, key: &Key, name: Located<String>) -> Fields {
         let (value, location) = (ParsedValue::Text(name.value), name.location);
-        self.0.push((key, Located { value, location }));
+        self.0.push((key.name, Located { value, location }));
         self
     }
 

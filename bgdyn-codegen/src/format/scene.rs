@@ -4,6 +4,7 @@ use super::index::root_keys;
 use super::walk::{At, Reader};
 use super::yaml;
 use super::{Dimension, Field, Located, Number, Raw};
+use crate::fault::wording::expected;
 use crate::fault::{Faults, Location};
 
 /// A scene's file.
@@ -88,9 +89,9 @@ impl Reader {
             "outputs",
             "integration",
         ];
-        let map = self.mapping(at, ("a mapping", "`scene: 1`, `mechanism: …`"), &keys)?;
-        let version = "`scene: 1`, the version of the format";
-        let path = "`mechanism: …`, the path of the mechanism's file, from this one";
+        let map = self.mapping(at, expected::SCENE, &keys)?;
+        let version = expected::SCENE_KEY;
+        let path = expected::MECHANISM_KEY;
         let whole = |name: &str, at: &At<'_>| {
             let location = at.location.clone();
             let value = name.to_owned();
@@ -103,22 +104,11 @@ impl Reader {
             name: self.text_field(&map, "name"),
             description: self.text_field(&map, "description"),
             mechanism: self.needed(&map, "mechanism", path, Self::text),
-            lock: self.field(&map, "lock", |r, at| {
-                r.table(at, ("joints with their coordinates", "`wrist: 30 deg`"))
-            }),
-            effects: self.field(&map, "effects", |r, at| {
-                let item = "each effect after a dash: `- gravity`";
-                r.calls(at, ("a list of effects", item))
-            }),
-            inputs: self.field(&map, "inputs", |r, at| {
-                r.table(at, ("inputs by name", "`shoulder: { constant: 2 }`"))
-            }),
-            initial: self.field(&map, "initial", |r, at| {
-                r.table(at, ("initial values by name", "`shoulder: 10 deg`"))
-            }),
-            outputs: self.field(&map, "outputs", |r, at| {
-                r.calls(at, ("a list of names", "`[shoulder, tool]`"))
-            }),
+            lock: self.field(&map, "lock", |r, at| r.table(at, expected::LOCKS)),
+            effects: self.field(&map, "effects", |r, at| r.calls(at, expected::CALLS)),
+            inputs: self.field(&map, "inputs", |r, at| r.table(at, expected::INPUTS)),
+            initial: self.field(&map, "initial", |r, at| r.table(at, expected::INITIAL)),
+            outputs: self.field(&map, "outputs", |r, at| r.calls(at, expected::OUTPUTS)),
             integration: self.field(&map, "integration", |_, at| Some(whole("integration", at))),
             location: map.location,
             complete: false,

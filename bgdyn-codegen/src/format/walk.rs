@@ -3,7 +3,7 @@
 use super::number::number;
 use super::yaml::{Data, YamlEntry, YamlKind, YamlTree};
 use super::{Field, Located, Number, Vector};
-use crate::fault::wording::Wanted;
+use crate::fault::wording::{Found, Wanted, expected};
 use crate::fault::{Faults, Location, wording};
 use crate::unit::Dimension;
 
@@ -91,7 +91,7 @@ impl Reader {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, describe(at.tree)));
             return None;
         };
         if !keys.contains(&PARAMETER) && self.refuse_parameter(at) {
@@ -145,7 +145,7 @@ impl Reader {
         self.refuse_tag(at);
         let Data::Map(entries) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, describe(at.tree)));
             return None;
         };
         if self.refuse_parameter(at) {
@@ -233,7 +233,7 @@ impl Reader {
         }
         let Data::List(items) = &at.tree.data else {
             self.faults
-                .push(wording::wrong_type(&at.location, what, &describe(at.tree)));
+                .push(wording::wrong_type(&at.location, what, describe(at.tree)));
             return None;
         };
         Some(
@@ -259,8 +259,8 @@ impl Reader {
             _ => {
                 self.faults.push(wording::wrong_type(
                     &at.location,
-                    ("text", "it between quotes: `\"…\"`"),
-                    &describe(at.tree),
+                    expected::TEXT,
+                    describe(at.tree),
                 ));
                 None
             }
@@ -280,8 +280,8 @@ impl Reader {
         else {
             self.faults.push(wording::wrong_type(
                 &at.location,
-                ("a number", "`1.5`, or with a unit: `5 mm`"),
-                &describe(at.tree),
+                expected::NUMBER,
+                describe(at.tree),
             ));
             return None;
         };
@@ -295,20 +295,12 @@ impl Reader {
         if !matches!(at.tree.data, Data::Map(_)) {
             return self.number(at, fit);
         }
-        let what = ("a parameter", "`{ parameter: payload, value: 1.5 }`");
+        let what = expected::PARAMETER;
         let map = self.mapping(at, what, &[PARAMETER, "value"])?;
-        let name = self.needed(
-            &map,
-            PARAMETER,
-            "`parameter: …`, the parameter's name",
-            Self::text,
-        );
-        let value = self.needed(
-            &map,
-            "value",
-            "`value: …`, the value that `Default` takes",
-            |r, at| r.number(at, fit),
-        );
+        let name = self.needed(&map, PARAMETER, expected::PARAMETER_KEY, Self::text);
+        let value = self.needed(&map, "value", expected::VALUE_KEY, |r, at| {
+            r.number(at, fit)
+        });
         Some(Number {
             parameter: Some(name.given()?.clone()),
             ..value.value()?.clone()
@@ -326,7 +318,7 @@ impl Reader {
         at: &At<'_>,
         mut read: impl FnMut(&mut Self, &At<'_>) -> Option<Number>,
     ) -> Option<Vector> {
-        let items = self.list(at, ("a list of three numbers", "`[x, y, z]`"))?;
+        let items = self.list(at, expected::TRIPLE)?;
         let count = items.len();
         let numbers: Vec<Option<Located<Number>>> = items
             .into_iter()
@@ -371,30 +363,16 @@ fn is_parameter(tree: &YamlTree) -> bool {
     matches!(&tree.data, Data::Map(entries) if entries.iter().any(named))
 }
 
-/// Describes a value, for messages.
-fn describe(tree: &YamlTree) -> String {
+/// Returns what a value is.
+fn describe(tree: &YamlTree) -> Found<'_> {
     match &tree.data {
-        Data::List(items) => format!("a list of {}", items.len()),
-        Data::Map(_) => "a mapping".to_owned(),
-        Data::Scalar {
-            kind: YamlKind::Nothing,
-            ..
-        } => "nothing".to_owned(),
-        Data::Scalar {
-            kind: YamlKind::Truth,
-            text,
-        } => {
-            format!("the truth value {}", wording::quote(text))
-        }
-        Data::Scalar {
-            kind: YamlKind::Number,
-            text,
-        } => format!("the number {}", wording::quote(text)),
-        Data::Scalar {
-            kind: YamlKind::Text { .. },
-            text,
-        } => {
-            format!("the text {}", wording::quote(text))
-        }
+        Data::List(items) => Found::List(items.len()),
+        Data::Map(_) => Found::Mapping,
+        Data::Scalar { kind, text } => match kind {
+            YamlKind::Nothing => Found::Nothing,
+            YamlKind::Truth => Found::Truth(text),
+            YamlKind::Number => Found::Number(text),
+            YamlKind::Text { .. } => Found::Text(text),
+        },
     }
 }

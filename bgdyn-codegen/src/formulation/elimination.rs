@@ -1,5 +1,6 @@
-//! Eliminates a square matrix of expressions, with pivots chosen from their values at sampled positions: large at all
-//! of them, constant if possible.
+//! Eliminates a square matrix of expressions.
+//!
+//! Pivots are chosen from their values at sampled positions: large at all of them, constant if possible.
 
 use bgdyn_runtime::Dd;
 

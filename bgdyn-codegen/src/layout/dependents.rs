@@ -1,5 +1,6 @@
-//! Joints whose velocities follow from others through loops and contacts, in a scene's state: their positions are part of it,
-//! their velocities are not.
+//! Joints whose velocities follow from others through loops and contacts, in a scene's state.
+//!
+//! Their positions are part of the state, their velocities are not.
 
 use super::{DependentJoint, StateLayout};
 

@@ -1,5 +1,6 @@
-//! Positions of joints with quasi-velocities in a scene's state: which are coupled, rows of the Jacobian,
-//! lengths of quaternions.
+//! Positions of joints with quasi-velocities in a scene's state.
+//!
+//! The file finds which are coupled, their rows of the Jacobian, and lengths of quaternions.
 
 use bgdyn_runtime::{self as runtime, Dd};
 

@@ -1,5 +1,6 @@
-//! Locks joints of a mechanism: their links are welded together at given positions. Joints that follow only
-//! locked ones are locked with them; others keep the joints that still move.
+//! Locks joints of a mechanism: their links are welded together at given positions.
+//!
+//! Joints that follow only locked ones are locked with them; others keep the joints that still move.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,6 @@
-//! Locked joints of a mechanism with loops: the positions at which the loops close with them, and what their check
-//! begins with.
+//! Locked joints of a mechanism with loops.
+//!
+//! The file has the positions at which the loops close with them, and what their check begins with.
 
 use bgdyn_runtime::Dd;
 

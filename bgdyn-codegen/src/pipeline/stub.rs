@@ -1,5 +1,6 @@
-//! Returns the module that replaces that of a refused spec: all names that a caller can use, without
-//! working code.
+//! Returns the module that replaces that of a refused spec.
+//!
+//! It has all names that a caller can use, without working code.
 
 use std::path::Path;
 

@@ -1,7 +1,8 @@
-//! Causality of hydraulic elements: every element needs a cause, an effort or a flow that is determined at
-//! each instant. The state of a store is one. Without a store (a junction of two orifices without a
-//! volume, a winding without inductance) the laws of the elements form an algebraic loop. This file solves
-//! such loops at generation time, or reports them.
+//! Causality of hydraulic elements.
+//!
+//! Every element needs a cause, an effort or a flow that is determined at each instant. The state of a store is
+//! one. Without a store (a junction of two orifices without a volume, a winding without inductance) the laws of
+//! the elements form an algebraic loop. This file solves such loops at generation time, or reports them.
 //!
 //! Elements in series are solvable. They have the same flow q, and their pressure drops Δp_i = R_i q + S_i
 //! q|q| add up to R q + S q|q| with R = Σ R_i and S = Σ S_i, which has one solution. Not solvable are

@@ -87,16 +87,12 @@ impl Scene {
         let found: Vec<&Override> = all.iter().filter(|s| s.name == name).collect();
         match found.as_slice() {
             [one] => Ok((*one).clone()),
-            [] if all.is_empty() => {
-                Err(format!("no {what} is called `{name}`: the scene has none"))
-            }
+            [] if all.is_empty() => Err(wording::no_such_override(what, name)),
             [] => {
                 let names: Vec<&str> = all.iter().map(|s| s.name.as_str()).collect();
                 Err(unknown_name(what, name, &names, &names.join(", ")))
             }
-            _ => Err(format!(
-                "`{name}` is a part of the state and a parameter: rename the parameter"
-            )),
+            _ => Err(wording::ambiguous_override(name)),
         }
     }
 

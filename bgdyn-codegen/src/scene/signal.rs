@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::QuasiJoint;
@@ -156,7 +157,7 @@ pub(super) fn drive(
     if !raw.is_mapping() {
         return signal(raw, dimension, faults).map(InputSource::Waveform);
     }
-    let entries = raw.entries(("what drives the input", "`{ constant: 2 }`"), faults);
+    let entries = raw.entries(expected::INPUT, faults);
     let [only] = entries.as_slice() else {
         faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
@@ -186,13 +187,7 @@ fn controller(
     position: Dimension,
     faults: &mut Faults,
 ) -> Option<InputSource> {
-    let entries = raw.entries(
-        (
-            "a controller",
-            "`{ target: 0.5, stiffness: 100, damping: 20 }`",
-        ),
-        faults,
-    );
+    let entries = raw.entries(expected::CONTROLLER, faults);
     let mut target = None;
     let mut gains = [Dd::ZERO; 2];
     for entry in &entries {
@@ -232,7 +227,7 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
         let value = raw.number(&fit, faults)?.value.value;
         return Some(Waveform::Constant(value));
     }
-    let entries = raw.entries(("a course in time", "`{ constant: 2 }`"), faults);
+    let entries = raw.entries(expected::COURSE, faults);
     let [only] = entries.as_slice() else {
         faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
@@ -258,7 +253,7 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
 /// A ramp; its numbers are of the input's dimension.
 fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
     let mut found = [Dd::ZERO; 2];
-    for entry in raw.entries(("a ramp", "`{ from: 0, rate: 0.1 }`"), faults) {
+    for entry in raw.entries(expected::RAMP, faults) {
         match entry.name.value.as_str() {
             "from" => found[0] = entry.number(&[dimension], faults)?.value.value,
             "rate" => {
@@ -279,8 +274,7 @@ fn ramp(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform
 fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
     let mut own = [Dd::ZERO; 2];
     let mut time = [Dd::ZERO; 2];
-    let example = "`{ amplitude: 2, frequency: 1 Hz }`";
-    for entry in raw.entries(("a harmonic course", example), faults) {
+    for entry in raw.entries(expected::HARMONIC, faults) {
         let mut read = |fit: Dimension| Some(entry.number(&[fit], faults)?.value.value);
         match entry.name.value.as_str() {
             "amplitude" => own[0] = read(dimension)?,
@@ -313,10 +307,10 @@ fn unknown_key<R>(
 }
 
 fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
-    let example = ("a list of points", "`[[0 s, 0], [1 s, 2]]`");
+    let example = expected::POINTS;
     let mut points: Vec<[Dd; 2]> = Vec::new();
     for row in raw.items(example, faults)? {
-        let pair = row.items(("a point", "`[0.5 s, 2]`"), faults)?;
+        let pair = row.items(expected::POINT, faults)?;
         let [t, value] = pair.as_slice() else {
             faults.push(wording::not_a_point(&row.location));
             return None;

@@ -1,6 +1,7 @@
-//! Checks values that must stay positive, such as the volume of a cylinder's side. Each is evaluated at
-//! the start, then with one joint after the other moved from its lower to its upper limit. A violation
-//! found is an error; other violations are possible between the points, or if several joints move.
+//! Checks values that must stay positive, such as the volume of a cylinder's side.
+//!
+//! Each is evaluated at the start, then with one joint after the other moved from its lower to its upper limit. A
+//! violation found is an error; other violations are possible between the points, or if several joints move.
 
 use bgdyn_runtime::Dd;
 

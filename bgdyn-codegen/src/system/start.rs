@@ -1,5 +1,7 @@
-//! The start of a scene: first-order states in the quantities of their effects, and modes that are
-//! consistent with the rest of the state.
+//! The start of a scene.
+//!
+//! It has first-order states in the quantities of their effects, and modes that are consistent with the rest of
+//! the state.
 
 use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, resolve_stiction_by};
 use nalgebra::DVector;

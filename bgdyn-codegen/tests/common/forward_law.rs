@@ -1,5 +1,6 @@
 //! The law of forward dynamics, for one mechanism in one state: it is the inverse of inverse dynamics.
 
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 use nalgebra::{DMatrix, DVector};
@@ -25,11 +26,12 @@ impl Case {
         let pivot = least_pivot(self.literal.mass(&self.state));
         let mut worst = 0.0_f64;
         let a = DVector::from_row_slice(&self.state.a);
-        // The literal M does not fold enough to detect every singular one, and an elimination may miss
-        // consecutive massless links; they are not generated in such cases.
-        let factors = [&self.literal, &self.recursion].map(|m| m.function(Method::ForwardDynamics));
-        let ways = factors.map(|f| (f, false)).into_iter();
-        for (function, sure) in ways.chain(self.bodies.iter().map(|f| (f, true))) {
+        // The literal M does not fold enough to detect every singular one, and an elimination of M may miss
+        // consecutive massless links; they are not generated in such cases. Articulated bodies miss none.
+        let literal = self.literal.function(Method::ForwardDynamics);
+        let ways = self.ways(Method::ForwardDynamics).chain([literal]);
+        let ways = ways.map(|f| (f, articulated(f)));
+        for (function, sure) in ways.chain([(&self.chosen, true)]) {
             let (found, refused) = function.evaluate(state.inputs::<f64>());
             let place = self.place(&format!("forward dynamics, {}", function.formulation));
             let finite = found.iter().all(|x| x.is_finite());
@@ -93,6 +95,11 @@ impl Case {
             off <= 8.0 * n * f64::EPSILON * size
         })
     }
+}
+
+/// Returns whether a function of forward dynamics computes the pivots body by body.
+fn articulated(function: &Function) -> bool {
+    function.formulation.starts_with("articulated")
 }
 
 /// Returns the least pivot of M = LᵀDL in double-double, with the diagonal entry it was computed from; 0

@@ -4,6 +4,7 @@
 //! result (see [`super::natural_size`]), so every regrouping is shown to be exact. Rounding is 1e-32, but
 //! folded constants are accurate to 2⁻⁹⁸ = 3e-30 of the terms of their sums.
 
+use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
@@ -16,8 +17,6 @@ use super::values::{Direction, Methods, dot};
 use super::{
     Robot, State, assert_close, natural_effort, natural_inertia, natural_size, reach, sum_abs,
 };
-
-const FORWARD: Method = Method::ForwardDynamics;
 
 /// Tolerance of double-double results, relative to their natural size.
 pub const EXACT: f64 = 1e-28;
@@ -34,12 +33,10 @@ pub struct Case {
     pub robot: Robot,
     pub literal: Methods,
     pub recursion: Methods,
-    /// The recursion with each body's own inertia.
-    pub own: Methods,
-    /// The mass matrix in common axes.
-    pub common: Function,
-    /// Forward dynamics by articulated bodies, and the generated function.
-    pub bodies: [Function; 3],
+    /// The functions of all other formulations of the list.
+    pub others: Vec<Function>,
+    /// The generated function of forward dynamics.
+    pub chosen: Function,
     pub state: State,
     /// Natural size of an effort, and of an entry of M.
     pub effort: f64,
@@ -68,15 +65,10 @@ impl Case {
         let state = state(&robot);
         Case {
             what: format!("{name}\n{text}{state:?}"),
-            bodies: [
-                robot.whole("articulated", FORWARD),
-                robot.whole("articulated_base", FORWARD),
-                robot.chosen(FORWARD),
-            ],
+            chosen: robot.chosen(Method::ForwardDynamics),
             literal: Methods::new(&robot, "literal"),
             recursion: Methods::new(&robot, "recursion"),
-            own: Methods::new(&robot, "recursion_own"),
-            common: robot.function("common_axes", Method::MassMatrix),
+            others: others(&robot),
             effort: natural_effort(&robot, &state),
             inertia: natural_inertia(&robot, &state).1,
             draft,
@@ -108,9 +100,14 @@ impl Case {
         }
     }
 
-    /// Checks that recursion = literal, with base parameters and without, for every method except forward
-    /// dynamics, and for the mass matrix in common axes. Returns the largest difference, relative to
-    /// natural size.
+    /// Returns the functions of a method by all formulations but the literal sum.
+    pub(super) fn ways(&self, method: Method) -> impl Iterator<Item = &Function> {
+        let others = self.others.iter().filter(move |f| f.method == method);
+        [self.recursion.function(method)].into_iter().chain(others)
+    }
+
+    /// Checks that every formulation = literal, for every method except forward dynamics. Returns the largest
+    /// difference, relative to natural size.
     pub fn formulations_agree(&self) -> f64 {
         let mut worst = 0.0_f64;
         for method in Method::OF_TRAIT {
@@ -119,11 +116,10 @@ impl Case {
             }
             let y: Vec<Dd> = self.literal.value(method, &self.state);
             let tolerance = self.exact() * self.size(method);
-            let common = (method == Method::MassMatrix).then_some(&self.common);
-            let ways = [&self.recursion, &self.own].map(|way| way.function(method));
-            for way in ways.into_iter().chain(common) {
+            for way in self.ways(method) {
                 let x: Vec<Dd> = self.state.value(way);
-                assert_close(&x, &y, tolerance, self.place(&format!("{method:?}")));
+                let place = self.place(&format!("{method:?}, {}", way.formulation));
+                assert_close(&x, &y, tolerance, place);
                 let off = x.iter().zip(&y).map(|(x, y)| (*x - *y).abs().to_f64());
                 let off = off.fold(0.0, f64::max);
                 worst = worst.max(off / self.size(method).max(f64::MIN_POSITIVE));
@@ -286,6 +282,20 @@ impl Case {
             self.place("another order"),
         );
     }
+}
+
+/// Returns the functions of all formulations of the list except the literal sum and the recursion, for the methods
+/// that they know.
+fn others(robot: &Robot) -> Vec<Function> {
+    let ways = FORMULATIONS.into_iter();
+    let ways = ways.filter(|way| !super::FORMULATIONS.contains(&way.name()));
+    ways.flat_map(|way| {
+        let known = Method::OF_TRAIT.into_iter().filter(|&m| way.knows(m));
+        let made: Vec<Function> = known.filter_map(|m| robot.made(way, m)).collect();
+        assert!(!made.is_empty(), "{} makes no method", way.name());
+        made
+    })
+    .collect()
 }
 
 /// Returns the index of the run-time parameter of this name.

@@ -23,7 +23,7 @@ use std::rc::Rc;
 use bgdyn_codegen::bond_graph::{self, BondGraph};
 use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::formulation::{self, Prepared};
+use bgdyn_codegen::formulation::{self, Formulation, Prepared};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion, Value};
 use bgdyn_codegen::method::Method;
@@ -110,8 +110,13 @@ impl Robot {
     /// Returns the same before long functions are cut into blocks: one graph, for differentiation.
     pub fn whole(&self, formulation: &str, method: Method) -> Function {
         let formulation = formulation::by_name(formulation).expect("a formulation of this name");
-        let made = formulation.function(&self.prepared, method);
+        let made = self.made(formulation, method);
         made.expect("every formulation knows every method")
+    }
+
+    /// Returns a method's function by a formulation, in one block; `None` if it cannot create it for this mechanism.
+    pub fn made(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
+        formulation.function(&self.prepared, method)
     }
 }
 

@@ -285,7 +285,7 @@ fn units_are_those_of_the_follower() {
     let limited = format!("{TAIL}, limits: {{ lower: -0.2, upper: 0.8 }}");
     let system = scene(&limited, stop);
     let element = system.scene.elements.iter().find(|e| e.name == "e");
-    let lower = element.and_then(|e| e.quantity("lower"));
+    let lower = element.and_then(|e| e.quantity(e.effect.key("lower")));
     assert_eq!(lower.map(|q| q.value.to_f64()), Some(-0.2));
 }
 

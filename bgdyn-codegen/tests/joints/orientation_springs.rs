@@ -151,6 +151,13 @@ fn a_spring_between_places_that_do_not_turn_is_idle() {
     let system = scene(&[slide], effect, "");
     let idle: Vec<&str> = system.idle().iter().map(|e| e.name.as_str()).collect();
     assert_eq!(idle, ["k"]);
+    let mechanism = with_joints(&[slide]) + FRAMES;
+    let text = format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia{effect}]\n");
+    let (_, findings) = read_scene(&text, "scene", |_| Ok(mechanism)).expect("a sound scene");
+    let said: Vec<&str> = findings.0.iter().map(|f| f.message.as_str()).collect();
+    let expected =
+        "`k` does nothing: no joint moves `plate` against `seat` in a direction in which it acts";
+    assert_eq!(said, [expected]);
 }
 
 #[test]

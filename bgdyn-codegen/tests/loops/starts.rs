@@ -80,7 +80,7 @@ fn given_positions_are_kept_and_loops_closed() {
     }
 }
 
-/// A platform stays where the mechanism has it, but for what is given.
+/// A platform stays where the mechanism has it, except for what is given.
 #[test]
 fn positions_that_are_not_given_do_not_move() {
     let system = started("stewart_platform", "pz_position: 0.7, px_position: 0.05");

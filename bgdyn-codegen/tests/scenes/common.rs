@@ -79,7 +79,11 @@ fn current_limit(system: &SceneEquations, mode: &str) -> Option<(usize, f64, Dd)
         .find_map(|(end, side)| Some((mode.strip_suffix(end)?, *side)))?;
     let element = system.scene.elements.iter().find(|e| e.name == name)?;
     let winding = system.scene.layout.coordinate_named(name)?;
-    Some((winding, side, element.quantity("current_limit")?.value))
+    Some((
+        winding,
+        side,
+        element.quantity(element.effect.key("current_limit"))?.value,
+    ))
 }
 
 /// A random state of a scene near its start, with random inputs and accelerations; `slipping`
@@ -138,7 +142,10 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
         modes.push(Dd::from_f64(if slipping { sign } else { 0.0 }));
         // A held joint moves with its counterpart.
         let element = system.scene.elements.iter().find(|e| e.name == part.name);
-        let reference = element.and_then(|e| e.name("reference"));
+        let reference = element.and_then(|e| {
+            let mut keys = e.effect.keys().iter();
+            e.name(keys.find(|key| key.name == "reference")?)
+        });
         let rate = reference.map(|r| format!("{r}_rate"));
         let speed = layout
             .inputs

@@ -23,6 +23,12 @@ const UNDECLARED: Key = Key {
     ..DECLARED
 };
 
+const CHOICE: Key = Key {
+    name: "choice",
+    reads: Reads::Word(&["one", "other"]),
+    ..DECLARED
+};
+
 /// An effect whose law is defined by a test.
 struct Probe(fn(&Element, &mut EffortSums<'_, '_>));
 
@@ -40,7 +46,7 @@ impl EffectKind for Probe {
         "R"
     }
     fn keys(&self) -> &'static [Key] {
-        &[DECLARED]
+        &[DECLARED, CHOICE]
     }
 }
 
@@ -81,8 +87,65 @@ fn an_undeclared_key_is_named_with_its_effect_and_element() {
     let said = panic_of(|element, sums| {
         sums.number(element, &UNDECLARED);
     });
-    let expected = "the law of the effect `probe` (element `needle`) uses the key `undeclared`, which is not declared";
+    let expected =
+        "the effect `probe` (element `needle`) uses the key `undeclared`, which is not declared";
     assert_eq!(said.as_deref(), Some(expected));
+}
+
+/// Each lookup refuses a key that is not declared, and one that is declared with another type, although the file
+/// gives neither.
+#[test]
+fn values_are_found_by_declared_keys_of_their_type_only() {
+    type Law = fn(&Element, &mut EffortSums<'_, '_>);
+    const RETYPED: Key = Key {
+        reads: Reads::Site,
+        ..DECLARED
+    };
+    const GROUP: Key = Key {
+        reads: Reads::Group(&["a", "b"], &[Dimension::One]),
+        ..DECLARED
+    };
+    let lookups: [(&str, Law); 14] = [
+        ("key `undeclared`", |e, _| _ = e.has(&UNDECLARED)),
+        ("key `undeclared`", |e, _| _ = e.quantity(&UNDECLARED)),
+        ("key `undeclared`", |e, _| _ = e.written(&UNDECLARED)),
+        ("key `choice`", |e, _| _ = e.quantity(&CHOICE)),
+        ("key `declared`", |e, _| _ = e.name(&RETYPED)),
+        ("key `declared`", |e, _| _ = e.name(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.names(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.words(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.vector(&DECLARED)),
+        ("key `declared`", |e, _| _ = e.group::<2>(&GROUP)),
+        ("word `third`", |e, _| _ = e.says(&CHOICE, "third")),
+        ("value of the key `choice`", |e, _| {
+            _ = e.needed_name(&CHOICE)
+        }),
+        ("value of the keys `joint, between`", |e, sums| {
+            let _ = sums.port(e);
+        }),
+        ("value of the key `joint`", |e, sums| {
+            sums.gear_of_drive(e, &DECLARED);
+        }),
+    ];
+    for (what, law) in lookups {
+        let said = panic_of(law).unwrap_or_default();
+        let expected =
+            format!("the effect `probe` (element `needle`) uses the {what}, which is not declared");
+        assert_eq!(said, expected);
+    }
+    let sound: Law = |e, _| {
+        assert!(!e.has(&CHOICE) && !e.says(&CHOICE, "one") && e.name(&CHOICE).is_none());
+        assert!(e.quantity(&DECLARED).is_none() && e.joint().is_none() && e.ends().is_none());
+    };
+    assert_eq!(panic_of(sound), None);
+}
+
+#[test]
+#[should_panic(expected = "the effect `probe` has no key `undeclared`")]
+fn a_key_by_name_is_one_of_the_effect() {
+    let probe: &dyn EffectKind = &Probe(|_, _| ());
+    assert_eq!(*probe.key("choice"), CHOICE);
+    let _ = probe.key("undeclared");
 }
 
 #[test]

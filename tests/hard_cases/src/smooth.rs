@@ -11,7 +11,7 @@ use crate::{Extent, scenes};
 /// Samples with a larger permitted deviation due to rounding are not compared.
 pub(crate) const LARGEST: f64 = 1e-3;
 
-/// Compares a motion with its reference, as far as rounding errors permit.
+/// Compares a motion with its reference, until rounding errors separate them.
 fn within<P>(
     case: &'static str,
     plant: &P,

@@ -1,4 +1,4 @@
-//! Checks that every topic of the quick run is within its bars, but for the rows that are known to miss
+//! Checks that every topic of the quick run is within its bars, except for the rows that are known to miss
 //! theirs. `--nocapture` prints the measured numbers and their limits.
 
 use hard_cases::{Extent, MISSED, TOPICS};

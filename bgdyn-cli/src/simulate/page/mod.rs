@@ -205,7 +205,7 @@ fn replayed(system: &SceneEquations, rows: &[&Row]) -> (Bodies, f64) {
 fn between(system: &SceneEquations, bodies: &Bodies, grain: f64, rows: usize) -> Vec<Between> {
     let mechanism = &system.scene.mechanism;
     let found = system.scene.elements.iter().filter_map(|element| {
-        let [from, to] = element.names("between")?;
+        let [from, to] = element.ends()?;
         let ends = [bodies.end(mechanism, from)?, bodies.end(mechanism, to)?];
         let distance = |row| {
             let [a, b] = ends.map(|end| in_world(&bodies.all[end.body], end.at, grain, row));

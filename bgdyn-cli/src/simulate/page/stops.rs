@@ -16,7 +16,7 @@ pub(super) fn stops(
 ) -> Vec<Stop> {
     let axis = body.axis();
     let radius = outwards(body, axis);
-    let own = |e: &&Element| e.effect.keyword() == "stop" && e.name("joint") == Some(joint);
+    let own = |e: &&Element| e.effect.keyword() == "stop" && e.joint() == Some(joint);
     let elements = scene.elements.iter().filter(own);
     let ends = elements.flat_map(|e| [(e, "lower", -1.0), (e, "upper", 1.0)]);
     let stop = |(element, key, side): (&Element, &'static str, f64)| {
@@ -37,7 +37,7 @@ pub(super) fn stops(
 
 /// Returns a number of an element, or the default of its run-time parameter.
 fn value(scene: &Scene, element: &Element, key: &str) -> Option<f64> {
-    let quantity = element.quantity(key)?;
+    let quantity = element.quantity(element.effect.key(key))?;
     let named = |name: &String| scene.parameters.iter().find(|p| p.name == *name);
     let parameter = quantity.parameter.as_ref().and_then(named);
     let value = parameter.map_or(quantity.value, |p| p.default);

@@ -1,7 +1,8 @@
-//! A hydraulic cylinder at a joint or along the line between two sites: a transformer from the pressures
-//! of its two sides to its force, f = p_a A_a − p_b A_b, and two volumes that its motion changes, V_a =
-//! V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a rotating joint it is a vane actuator: areas
-//! are volumes per angle, the force is a torque.
+//! A hydraulic cylinder at a joint or along the line between two sites.
+//!
+//! It is a transformer from the pressures of its two sides to its force, f = p_a A_a − p_b A_b, and two volumes
+//! that its motion changes, V_a = V_a0 + A_a (s − s₀), V_b = V_b0 + A_b (H − (s − s₀)). At a rotating joint it is
+//! a vane actuator: areas are volumes per angle, the force is a torque.
 
 use super::keys::{FAMILY, FLUID, number};
 use super::volume::{add_volume, declare_volume, fill, filled, has_fluid};
@@ -11,7 +12,7 @@ use crate::effect::spring::{BETWEEN, MAYBE_JOINT};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::{Dimension, Key};
 use crate::layout::StateLayout;
 
@@ -92,8 +93,8 @@ impl EffectKind for Cylinder {
         &KEYS
     }
 
-    fn nodes(&self, given: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
-        if given("area_b") { &["a", "b"] } else { &["a"] }
+    fn nodes(&self, given: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
+        if given(&AREA_B) { &["a", "b"] } else { &["a"] }
     }
 
     fn order(&self) -> u8 {
@@ -101,19 +102,13 @@ impl EffectKind for Cylinder {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        check.one_of(&["joint", "between"]);
-        check.positive(
-            &["area_a", "area_b"],
-            "a side that does not act is left out",
-        );
-        check.positive(
-            &["stroke"],
-            "leave it out where `dead_b` is the volume at `offset`",
-        );
-        check.not_negative(&["dead_a", "dead_b"], "there is no such volume");
-        for key in ["dead_b", "stroke"] {
-            if check.number(key).is_some() && check.number("area_b").is_none() {
-                check.report(wording::side_without_area(&check.location(key), key));
+        check.one_of(&[MAYBE_JOINT, BETWEEN]);
+        check.positive(&[AREA_A, AREA_B], Help::SideIsOptional);
+        check.positive(&[STROKE], Help::StrokeIsOptional);
+        check.not_negative(&[DEAD_A, DEAD_B], Help::VolumeIsPositive);
+        for key in [DEAD_B, STROKE] {
+            if check.number(&key).is_some() && check.number(&AREA_B).is_none() {
+                check.report(wording::side_without_area(&check.location(&key), key.name));
             }
         }
     }
@@ -148,11 +143,11 @@ impl Effect for Cylinder {
         let port = nodes::port(element, network);
         let sides = [("", AREA_A, DEAD_A), ("−", AREA_B, DEAD_B)];
         for (node, (sign, area, dead)) in element.nodes().into_iter().zip(sides) {
-            let area = element.written(area.name).unwrap_or_default();
+            let area = element.written(&area).unwrap_or_default();
             let text = format!("{}, A = {sign}{area}", element.name);
             let side = network.add(NodeKind::Transformer, text);
             network.bond(side, port);
-            let dead = element.written(dead.name).map(|v| format!("V₀ = {v}"));
+            let dead = element.written(&dead).map(|v| format!("V₀ = {v}"));
             let pressure = add_volume(element, &node, dead, scene, network);
             network.bond(pressure, side);
         }
@@ -173,8 +168,7 @@ impl Effect for Cylinder {
         let sides = element.nodes().into_iter().zip(volumes);
         for ((node, volume), area) in sides.zip([area_a, -area_b]) {
             let what = format!("the volume of `{node}`, m^3,");
-            let way_out =
-                "see to `offset`, `stroke` and the dead volumes, or to the joint's limits";
+            let way_out = Help::CylinderIsLongEnough.text();
             sums.stays_positive(volume, what, way_out);
             force = force + area * fill(element, &node, volume, sums);
         }

@@ -113,7 +113,7 @@ pub(super) fn resist<'g>(
     sums: &mut EffortSums<'g, '_>,
     own: impl FnOnce(&EffortSums<'g, '_>, Expr<'g>) -> Expr<'g>,
 ) {
-    let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+    let ends = [FROM, TO].map(|key| element.needed_name(&key));
     let [before, after] = ends.map(|node| pressure(node, sums));
     let q = sums
         .shared(&element.name, FLOW)

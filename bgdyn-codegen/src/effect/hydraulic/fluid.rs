@@ -4,6 +4,7 @@ use super::keys::{BULK_MODULUS, FAMILY, FLUID_KEYWORD};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effect::Effect;
+use crate::fault::Help;
 use crate::format::Key;
 
 pub(in crate::effect) struct Fluid;
@@ -30,8 +31,8 @@ impl EffectKind for Fluid {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "oil has about 1.4 GPa, less with air in it";
-        check.positive(&[BULK_MODULUS.name], why);
+        let why = Help::ModulusOfOil;
+        check.positive(&[BULK_MODULUS], why);
     }
 }
 

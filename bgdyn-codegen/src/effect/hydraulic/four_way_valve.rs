@@ -1,5 +1,7 @@
-//! A four-way valve, critically centred (Merritt 1967, chapter 5): a spool shifted by x connects the
-//! supply to one side and the other side to the tank, through orifices that open with |x|.
+//! A four-way valve, critically centred (Merritt 1967, chapter 5).
+//!
+//! A spool shifted by x connects the supply to one side and the other side to the tank, through orifices that
+//! open with |x|.
 
 use super::flow::{Drop, run};
 use super::keys::{FAMILY, LAMINAR, ORIFICE, joins_two, node};
@@ -8,7 +10,7 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -27,7 +29,7 @@ const SPOOL: Key = Key {
 
 /// The input that shifts the spool.
 fn spool(element: &Element) -> &str {
-    element.name(SPOOL.name).unwrap_or(&element.name)
+    element.name(&SPOOL).unwrap_or(&element.name)
 }
 
 impl EffectKind for FourWayValve {
@@ -56,10 +58,10 @@ impl EffectKind for FourWayValve {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what lets nothing through is left out";
-        check.positive(&[ORIFICE.name], why);
-        check.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
-        let ports = [SUPPLY.name, TANK.name, A.name, B.name];
+        let why = Help::ClosedIsOptional;
+        check.positive(&[ORIFICE], why);
+        check.positive(&[LAMINAR], Help::LaminarIsOptional);
+        let ports = [SUPPLY, TANK, A, B];
         for (i, one) in ports.iter().enumerate() {
             for other in &ports[i + 1..] {
                 joins_two(check, one, other);
@@ -84,8 +86,7 @@ impl EffectKind for FourWayValve {
 
 impl Effect for FourWayValve {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let [supply, tank, a, b] =
-            [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());
+        let [supply, tank, a, b] = [SUPPLY, TANK, A, B].map(|key| element.needed_name(&key));
         let ways = [
             (supply, a, '>'),
             (a, tank, '<'),
@@ -99,8 +100,7 @@ impl Effect for FourWayValve {
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        let [supply, tank, a, b] =
-            [SUPPLY, TANK, A, B].map(|key| element.name(key.name).unwrap_or_default());
+        let [supply, tank, a, b] = [SUPPLY, TANK, A, B].map(|key| element.needed_name(&key));
         let [p_supply, p_tank, p_a, p_b] = [supply, tank, a, b].map(|n| pressure(n, sums));
         let (zero, one) = (sums.b.zero(), sums.b.number(1.0));
         let shift = sums.input(spool(element));

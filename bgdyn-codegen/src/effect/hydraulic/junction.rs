@@ -1,5 +1,4 @@
-//! A node without a volume between two resistors: its pressure is solved for symbolically at generation
-//! time.
+//! A node without a volume between two resistors: its pressure is solved for symbolically at generation time.
 
 use super::flow::solve;
 use super::keys::{FAMILY, FLUID};
@@ -34,7 +33,7 @@ impl EffectKind for JunctionEffect {
         &[FLUID]
     }
 
-    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+    fn nodes(&self, _: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
         &[""]
     }
 

@@ -61,24 +61,24 @@ pub(super) const LAMINAR: Key = number(
 pub(super) const VACUUM: f64 = -101_325.0;
 
 /// Refuses a pressure below vacuum.
-pub(super) fn no_less_than_vacuum(check: &mut ValueCheck<'_>, key: &str) {
+pub(super) fn no_less_than_vacuum(check: &mut ValueCheck<'_>, key: &Key) {
     let too_small = check
         .number(key)
         .filter(|q| q.value < Dd::from_f64(VACUUM))
         .map(|q| (q.location.clone(), q.text.clone()));
     if let Some((location, text)) = too_small {
-        check.report(wording::below_vacuum(&location, key, &text, VACUUM));
+        check.report(wording::below_vacuum(&location, key.name, &text, VACUUM));
     }
 }
 
 /// Refuses an element that joins a node to itself.
-pub(super) fn joins_two(check: &mut ValueCheck<'_>, one: &str, other: &str) {
+pub(super) fn joins_two(check: &mut ValueCheck<'_>, one: &Key, other: &Key) {
     let (a, b) = (check.element.name(one), check.element.name(other));
     if let Some(node) = a.filter(|_| a == b) {
         let location = &check.element.location;
         check.report(wording::joins_a_node_to_itself(
             location,
-            [one, other],
+            [one.name, other.name],
             node,
         ));
     }

@@ -7,7 +7,7 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::Key;
 
 pub(in crate::effect) struct Leakage;
@@ -42,9 +42,9 @@ impl EffectKind for Leakage {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what lets nothing through is left out";
-        check.positive(&[CONDUCTANCE.name], why);
-        joins_two(check, FROM.name, TO.name);
+        let why = Help::ClosedIsOptional;
+        check.positive(&[CONDUCTANCE], why);
+        joins_two(check, &FROM, &TO);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -54,7 +54,7 @@ impl EffectKind for Leakage {
 
 impl Effect for Leakage {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        let ends = [FROM, TO].map(|key| element.needed_name(&key));
         nodes::add_pipe(nodes::label(element), ends, network);
     }
 

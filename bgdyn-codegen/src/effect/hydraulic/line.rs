@@ -7,7 +7,7 @@ use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::Effect;
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key};
 use crate::layout::StateLayout;
 
@@ -37,7 +37,7 @@ impl EffectKind for Line {
         &KEYS
     }
 
-    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+    fn nodes(&self, _: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
         &[""]
     }
 
@@ -46,8 +46,8 @@ impl EffectKind for Line {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what has no volume is a junction: `{ type: junction }`";
-        check.positive(&[VOLUME], why);
+        let why = Help::LineIsJunction;
+        check.positive(&[OWN_VOLUME], why);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -72,7 +72,7 @@ impl Effect for Line {
 
     fn elements(&self, element: &Element, scene: &[Element], network: &mut BondNetwork) {
         let node = &element.name;
-        let volume = element.written(VOLUME).map(|v| format!("V = {v}"));
+        let volume = element.written(&OWN_VOLUME).map(|v| format!("V = {v}"));
         add_volume(element, node, volume, scene, network);
     }
 

@@ -1,5 +1,6 @@
-//! Hydraulics: nodes with a pressure (supplies, tanks, line volumes, sides of cylinders, junctions)
-//! and resistors that let fluid run between them, joined by name.
+//! Hydraulics: nodes with a pressure, and resistors that let fluid run between them, joined by name.
+//!
+//! Nodes are supplies, tanks, volumes of lines, sides of cylinders, and junctions.
 //!
 //! The fluid has a constant bulk modulus β: its density is ρ = ρ₀ e^{p/β} (Merritt, Hydraulic
 //! Control Systems, 1967, chapter 2), pressures measured against the surroundings. The state of a

@@ -1,6 +1,8 @@
-//! An orifice, fixed or opened by an input: turbulent flow q = k √Δp (Merritt 1967, chapter 3), with an
-//! optional laminar part, Δp = R q + q|q|/k². This law is smooth at Δp = 0; its solution for the flow is q
-//! = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u scales the flow.
+//! An orifice, fixed or opened by an input.
+//!
+//! The flow is turbulent, q = k √Δp (Merritt 1967, chapter 3), with an optional laminar part, Δp = R q + q|q|/k².
+//! This law is smooth at Δp = 0; its solution for the flow is q = 2 Δp / (R + √(R² + 4|Δp|/k²)). An opening u
+//! scales the flow.
 
 use super::flow::{Drop, resist};
 use super::keys::{FAMILY, FROM, LAMINAR, ORIFICE, TO, joins_two};
@@ -9,7 +11,7 @@ use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effect::{Effect, nodes};
 use crate::effort_sums::EffortSums;
-use crate::fault::Faults;
+use crate::fault::{Faults, Help};
 use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
@@ -48,14 +50,14 @@ impl EffectKind for Orifice {
     }
 
     fn in_series(&self, element: &Element) -> bool {
-        element.name(OPENING.name).is_none()
+        element.name(&OPENING).is_none()
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        let why = "what lets nothing through is left out";
-        check.positive(&[ORIFICE.name], why);
-        check.positive(&[LAMINAR.name], "leave it out for turbulent flow alone");
-        joins_two(check, FROM.name, TO.name);
+        let why = Help::ClosedIsOptional;
+        check.positive(&[ORIFICE], why);
+        check.positive(&[LAMINAR], Help::LaminarIsOptional);
+        joins_two(check, &FROM, &TO);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -63,7 +65,7 @@ impl EffectKind for Orifice {
     }
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
-        if let Some(opening) = element.name(OPENING.name) {
+        if let Some(opening) = element.name(&OPENING) {
             let about = format!("opening of `{opening}`, 0 … 1");
             layout.shared_input(opening, Dimension::One, about);
             let about = format!(
@@ -77,18 +79,18 @@ impl EffectKind for Orifice {
 
 impl Effect for Orifice {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let ends = [FROM, TO].map(|key| element.name(key.name).unwrap_or_default());
+        let ends = [FROM, TO].map(|key| element.needed_name(&key));
         nodes::add_pipe(nodes::label(element), ends, network);
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        if let Some(opening) = element.name(OPENING.name) {
+        if let Some(opening) = element.name(&OPENING) {
             let x = sums.input(opening);
             sums.event(&limit(element), x.min(sums.b.number(1.0) - x));
         }
         resist(element, sums, |sums, drop| {
             let open = Drop::of(element, sums).flow(drop, sums.b);
-            match element.name(OPENING.name) {
+            match element.name(&OPENING) {
                 Some(opening) => {
                     let (zero, one) = (sums.b.zero(), sums.b.number(1.0));
                     sums.input(opening).max(zero).min(one) * open

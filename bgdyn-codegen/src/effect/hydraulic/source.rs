@@ -56,7 +56,7 @@ impl EffectKind for Supply {
         &SUPPLY
     }
 
-    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+    fn nodes(&self, _: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
         &[""]
     }
 
@@ -65,7 +65,7 @@ impl EffectKind for Supply {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        no_less_than_vacuum(check, PRESSURE);
+        no_less_than_vacuum(check, &SUPPLY_PRESSURE);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -75,7 +75,7 @@ impl EffectKind for Supply {
 
 impl Effect for Supply {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let pressure = element.written(PRESSURE).unwrap_or("0".into());
+        let pressure = element.written(&SUPPLY_PRESSURE).unwrap_or("0".into());
         network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
     }
 
@@ -105,7 +105,7 @@ impl EffectKind for Tank {
         &TANK
     }
 
-    fn nodes(&self, _: &dyn Fn(&str) -> bool) -> &'static [&'static str] {
+    fn nodes(&self, _: &dyn Fn(&Key) -> bool) -> &'static [&'static str] {
         &[""]
     }
 
@@ -114,7 +114,7 @@ impl EffectKind for Tank {
     }
 
     fn check_values(&self, check: &mut ValueCheck<'_>) {
-        no_less_than_vacuum(check, PRESSURE);
+        no_less_than_vacuum(check, &TANK_PRESSURE);
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
@@ -124,7 +124,7 @@ impl EffectKind for Tank {
 
 impl Effect for Tank {
     fn elements(&self, element: &Element, _: &[Element], network: &mut BondNetwork) {
-        let pressure = element.written(PRESSURE).unwrap_or("0".into());
+        let pressure = element.written(&TANK_PRESSURE).unwrap_or("0".into());
         network.hold_pressure(&element.name, format!("{}, p = {pressure}", element.name));
     }
 

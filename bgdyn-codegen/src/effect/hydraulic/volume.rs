@@ -7,7 +7,7 @@ use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind};
 use crate::declaration::{Element, SceneContext};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
-use crate::fault::{Faults, wording};
+use crate::fault::{Faults, Help, wording};
 use crate::format::Dimension;
 use crate::layout::{InitialValueAs, StateLayout};
 
@@ -33,7 +33,7 @@ pub(super) fn fluid_of<'a>(node: &Element, elements: &'a [Element]) -> Option<&'
     let mut fluids = elements
         .iter()
         .filter(|e| e.effect.keyword() == FLUID_KEYWORD);
-    match node.name(FLUID.name) {
+    match node.name(&FLUID) {
         Some(name) => fluids.find(|f| f.name == name),
         None => fluids.next().filter(|_| fluids.next().is_none()),
     }
@@ -47,7 +47,7 @@ pub(super) fn has_fluid(node: &Element, beside: &SceneContext<'_>, faults: &mut 
     let all = beside.elements.iter();
     let fluids = all.filter(|e| e.effect.keyword() == FLUID_KEYWORD);
     let known: Vec<&str> = fluids.map(|fluid| fluid.name.as_str()).collect();
-    let asked = node.name(FLUID.name);
+    let asked = node.name(&FLUID);
     faults.push(wording::no_fluid(&node.location, &node.name, asked, &known));
 }
 
@@ -101,7 +101,7 @@ pub(super) fn declare_volume(node: &str, layout: &mut StateLayout) {
     let entered = InitialValueAs {
         dimension: Dimension::Pressure,
         least: Dd::from_f64(VACUUM),
-        way_out: "write its pressure, against the surroundings; less than a vacuum there is none",
+        way_out: Help::PressureAboveVacuum.text(),
     };
     layout.state_entered(node.to_owned(), Dimension::Volume, about, entered);
 }

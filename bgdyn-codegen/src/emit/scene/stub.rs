@@ -1,5 +1,6 @@
-//! Emits the module that replaces a refused scene: its types with the parts known from the file, and
-//! methods that never run.
+//! Emits the module that replaces a refused scene.
+//!
+//! It has the scene's types with the parts known from the file, and methods that never run.
 
 use proc_macro2::TokenStream;
 use quote::quote;

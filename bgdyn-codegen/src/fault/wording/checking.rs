@@ -325,10 +325,17 @@ pub(crate) fn constant_distance(
 }
 
 /// Returns a warning about an effect at a site where it has no influence.
-pub(crate) fn no_motion_there(location: &Location, effect: &str, at: &str) -> Fault {
-    let (effect, at) = (quote(effect), quote(at));
+/// `sites` are the place at which the effect acts, or two between which it acts.
+pub(crate) fn no_motion_there(location: &Location, effect: &str, sites: &[&str]) -> Fault {
+    let effect = quote(effect);
+    let mut moved = sites.iter().rev().map(|site| quote(site));
+    let moved = moved
+        .next()
+        .into_iter()
+        .chain(moved.map(|site| format!("against {site}")));
+    let moved = moved.collect::<Vec<_>>().join(" ");
     let message =
-        format!("{effect} does nothing: no joint moves {at} in a direction in which it acts");
+        format!("{effect} does nothing: no joint moves {moved} in a direction in which it acts");
     let help = "name a link or a frame that a joint moves, or another direction";
     let fault = Fault::new(location, "no-motion", message).with_help(help);
     fault.into_warning()

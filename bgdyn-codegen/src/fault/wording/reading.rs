@@ -128,10 +128,44 @@ pub(crate) fn missing_key(location: &Location, key: &str, what: &str) -> Fault {
 /// The description of an expected value, and its syntax.
 pub(crate) type Wanted<'a> = (&'a str, &'a str);
 
-pub(crate) fn wrong_type(location: &Location, (what, example): Wanted<'_>, found: &str) -> Fault {
-    let message = format!("{what} belongs here, not {found}");
+/// A value of a file that is of the wrong type.
+#[derive(Clone, Copy)]
+pub(crate) enum Found<'a> {
+    /// A list of this length.
+    List(usize),
+    /// A mapping.
+    Mapping,
+    /// No value.
+    Nothing,
+    /// A truth value with this text.
+    Truth(&'a str),
+    /// A number with this text.
+    Number(&'a str),
+    /// A text.
+    Text(&'a str),
+}
+
+impl Found<'_> {
+    fn in_words(self) -> String {
+        match self {
+            Found::List(length) => format!("a list of {length}"),
+            Found::Mapping => "a mapping".to_owned(),
+            Found::Nothing => "nothing".to_owned(),
+            Found::Truth(text) => format!("the truth value {}", quote(text)),
+            Found::Number(text) => format!("the number {}", quote(text)),
+            Found::Text(text) => format!("the text {}", quote(text)),
+        }
+    }
+}
+
+pub(crate) fn wrong_type(
+    location: &Location,
+    (what, example): Wanted<'_>,
+    found: Found<'_>,
+) -> Fault {
+    let message = format!("{what} belongs here, not {}", found.in_words());
     let help = match found {
-        "nothing" => "leave the key out if there is no value".to_owned(),
+        Found::Nothing => "leave the key out if there is no value".to_owned(),
         _ => format!("write {example}"),
     };
     Fault::new(location, "wrong-type", message).with_help(help)

@@ -1,6 +1,6 @@
 //! Messages about a scene: its mechanism, its locked joints, its state, its outputs, its integration.
 
-use super::{quoted_list, six_digits, unknown_name};
+use super::{quote, quoted_list, six_digits, unknown_name};
 use crate::fault::{Fault, Location};
 
 pub(crate) fn unknown_scene_version(location: &Location, text: &str) -> Fault {
@@ -314,4 +314,16 @@ pub(crate) fn integration_not_positive(
 pub(crate) fn unknown_integrator(location: &Location, word: &str, known: &[&str]) -> Fault {
     let message = unknown_name("integration method", word, known, &known.join(", "));
     Fault::new(location, "unknown-name", message).with_help("leave `method` out for `rk4`")
+}
+
+// Overrides
+
+/// `what` is the kind of value that is looked for; the scene has none.
+pub(crate) fn no_such_override(what: &str, name: &str) -> String {
+    format!("no {what} is called {}: the scene has none", quote(name))
+}
+
+pub(crate) fn ambiguous_override(name: &str) -> String {
+    let name = quote(name);
+    format!("{name} is a part of the state and a parameter: rename the parameter")
 }

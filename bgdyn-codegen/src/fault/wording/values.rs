@@ -1,21 +1,22 @@
 //! Messages about the numbers of an effect: their signs, their order, valid combinations.
 
+use super::Help;
 use crate::fault::{Fault, Location};
 
 /// `why` is the physical rule that a negative number violates; also in the functions below.
-pub(crate) fn negative_value(location: &Location, key: &str, text: &str, why: &str) -> Fault {
+pub(crate) fn negative_value(location: &Location, key: &str, text: &str, why: Help) -> Fault {
     let message = format!("`{key}` is {text}: it must not be negative");
-    Fault::new(location, "effect-sign", message).with_help(why)
+    Fault::new(location, "effect-sign", message).with_help(why.text())
 }
 
-pub(crate) fn value_not_positive(location: &Location, key: &str, text: &str, why: &str) -> Fault {
+pub(crate) fn value_not_positive(location: &Location, key: &str, text: &str, why: Help) -> Fault {
     let message = format!("`{key}` is {text}: it must be greater than 0");
-    Fault::new(location, "effect-sign", message).with_help(why)
+    Fault::new(location, "effect-sign", message).with_help(why.text())
 }
 
-pub(crate) fn value_above_one(location: &Location, key: &str, text: &str, why: &str) -> Fault {
+pub(crate) fn value_above_one(location: &Location, key: &str, text: &str, why: Help) -> Fault {
     let message = format!("`{key}` is {text}: it must be at most 1");
-    Fault::new(location, "effect-sign", message).with_help(why)
+    Fault::new(location, "effect-sign", message).with_help(why.text())
 }
 
 pub(crate) fn value_cannot_be_parameter(location: &Location, key: &str, keyword: &str) -> Fault {
@@ -28,10 +29,10 @@ pub(crate) fn values_out_of_order(
     location: &Location,
     (small, small_text): (&str, &str),
     (large, large_text): (&str, &str),
-    why: &str,
+    why: Help,
 ) -> Fault {
     let message = format!("`{large}` is {large_text}, which is less than `{small}`, {small_text}");
-    Fault::new(location, "effect-order", message).with_help(why)
+    Fault::new(location, "effect-order", message).with_help(why.text())
 }
 
 /// `given` are the keys in the file; exactly one of `keys` is required.

@@ -1,7 +1,7 @@
 //! Parses entries by their keys: numbers, words, names, lists.
 
 use super::{Fields, Key, ParsedValue, Raw, Reads};
-use crate::fault::wording::Wanted;
+use crate::fault::wording::{Wanted, expected};
 use crate::format::walk::{At, Reader};
 use crate::format::yaml::Data;
 use crate::format::{Located, Number};
@@ -39,17 +39,17 @@ impl Reader {
             Reads::Joints if !matches!(at.tree.data, Data::List(_)) => {
                 self.text(at).map(ParsedValue::Text)
             }
-            Reads::Words(_) | Reads::Joints => self
-                .names_list(at, ("a list of words", "`[fx, fz]`"))
-                .map(ParsedValue::Words),
+            Reads::Words(_) | Reads::Joints => {
+                self.names_list(at, expected::WORDS).map(ParsedValue::Words)
+            }
             Reads::Group(names, fit) => self.group(at, names, fit).map(ParsedValue::Group),
             Reads::Coefficients(fit) => {
-                let what = ("coefficients by joint", "`{ left: 1, right: -1 }`");
+                let what = expected::COEFFICIENTS;
                 self.coefficients(at, fit, what)
                     .map(ParsedValue::Coefficients)
             }
             Reads::Sites => {
-                let items = self.list(at, ("two names", "`[one, other]`"))?;
+                let items = self.list(at, expected::SITES)?;
                 let mut names = items.iter().map(|at| {
                     Some(Located {
                         value: self.text(at)?,

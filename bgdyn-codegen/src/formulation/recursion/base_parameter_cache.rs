@@ -1,5 +1,7 @@
-//! A cache of regrouped inertia. Without run-time parameters it is numerical, and the same for every
-//! method and for all plans with the same origins.
+//! A cache of regrouped inertia.
+//!
+//! Without run-time parameters it is numerical, and the same for every method and for all plans with the same
+//! origins.
 
 use std::cell::RefCell;
 use std::rc::Rc;

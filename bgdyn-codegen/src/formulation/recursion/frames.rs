@@ -1,5 +1,6 @@
-//! The bodies of [`super::geometry`] as expressions, for one plan: positions, angles, signed
-//! coordinates, and inertia regrouped into base parameters.
+//! The bodies of [`super::geometry`] as expressions, for one plan.
+//!
+//! They have positions, angles, signed coordinates, and inertia regrouped into base parameters.
 
 use bgdyn_runtime::Dd;
 

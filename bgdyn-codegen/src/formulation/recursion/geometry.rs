@@ -1,5 +1,7 @@
-//! Body frames for the recursion: z along the joint's axis, x along the common normal with the next
-//! joint's axis, origins that can slide along z.
+//! Body frames for the recursion.
+//!
+//! The axis z is along the joint's axis, x along the common normal with the next joint's axis, and origins can
+//! slide along z.
 //!
 //! Welded links are one body; body j is moved by coordinate j. Between a body and its parent are the
 //! *twisted axes* T: the parent's axes rotated by a constant rotation whose third column is the joint's

@@ -1,5 +1,6 @@
-//! Poses, velocities and Jacobians of sites in the frames of the recursion: groups of parallel axes have a
-//! common basis that does not rotate with them.
+//! Poses, velocities and Jacobians of sites in the frames of the recursion.
+//!
+//! Groups of parallel axes have a common basis that does not rotate with them.
 
 use bgdyn_runtime::Dd;
 

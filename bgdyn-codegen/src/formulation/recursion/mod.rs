@@ -1,5 +1,6 @@
-//! The recursion in link axes with base parameters, the common-axis method, sliding origins and groups of
-//! parallel axes: equation (6) summed over the bodies outboard of each joint.
+//! The recursion in link axes: equation (6) summed over the bodies outboard of each joint.
+//!
+//! It uses base parameters, the common-axis method, sliding origins and groups of parallel axes.
 //!
 //! | file | computes |
 //! |---|---|

@@ -1,5 +1,7 @@
-//! Searches for the cheapest plan, by weighted cost: tries one choice at a time, accepts it if it costs
-//! less, and ends after a round without a change. The search is bounded and deterministic.
+//! Searches for the cheapest plan, by weighted cost.
+//!
+//! It tries one choice at a time, accepts it if it costs less, and ends after a round without a change. The
+//! search is bounded and deterministic.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,6 @@
-//! Rotors behind gears: N² J on a joint's junction, and for a full rotor the momentum N J q̇_j e on its
-//! carrier.
+//! Rotors behind gears.
+//!
+//! A rotor is N² J on a joint's junction, a full rotor also the momentum N J q̇_j e on its carrier.
 //!
 //! A rotor rotates N times as fast as its joint about an axis e of its carrier, so the carrier has the
 //! momentum h = N J q̇_j e besides its own. It requires the moment ḣ = N J (q̈_j e + q̇_j ω × e) on the

@@ -23,7 +23,7 @@ const NOISE: f64 = 1e-28;
 const TURNS: f64 = 1e4;
 
 /// Larger changes by snapping are reported; smaller ones are rounding errors of the file's `f64`.
-const TOLD: f64 = 1e-15;
+const LEAST_REPORTED: f64 = 1e-15;
 
 /// The settings for directions of this spec.
 #[derive(Debug)]
@@ -64,7 +64,7 @@ impl Directions {
 
     /// Records by how much snapping moved the direction at this location.
     fn note(&self, location: &Location, moved: f64) {
-        if moved <= TOLD {
+        if moved <= LEAST_REPORTED {
             return;
         }
         let mut snapped = self.snapped.borrow_mut();

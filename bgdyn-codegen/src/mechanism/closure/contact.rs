@@ -1,5 +1,7 @@
-//! Contacts: a wheel or a ball that rolls on a plane without slipping, and a knife edge. Their rows are conditions on
-//! velocities (Neimark and Fufaev 1972); only the height of a wheel or a ball above its plane has a position.
+//! Contacts: a wheel or a ball that rolls on a plane without slipping, and a knife edge.
+//!
+//! Their rows are conditions on velocities (Neimark and Fufaev 1972); only the height of a wheel or a ball above
+//! its plane has a position.
 //!
 //! A wheel is a thin disc of radius r with the unit vector n along its axle; z is the normal of its plane, c its
 //! centre. With s = |z − (z·n) n|, e = (z − (z·n) n) / s and t = n × e, the lowest point of its rim is c − r e, and its

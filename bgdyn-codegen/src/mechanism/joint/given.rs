@@ -1,5 +1,6 @@
-//! A joint whose motion is given: no coordinates, and not at rest. It is that between the world and a base whose
-//! motion is given, and in graphs that of a prescribed joint.
+//! A joint whose motion is given: no coordinates, and not at rest.
+//!
+//! It is that between the world and a base whose motion is given, and in graphs that of a prescribed joint.
 
 use super::compound::CompoundMotion;
 use super::{JointType, Motion};

@@ -2,7 +2,7 @@
 
 use super::super::causality::chains;
 use crate::declaration::{
-    Chain, Declaration, EffectKinds, Element, NameScope, RejectedEffects, SceneContext,
+    Chain, Declaration, EffectKinds, Element, NameScope, RejectedEffects, SceneContext, TYPE,
     check_unique_names, once_per_joint, resolve_call,
 };
 use crate::fault::{Faults, wording};
@@ -95,7 +95,7 @@ fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faul
         .followers()
         .filter(|(_, coupling, _)| coupling.velocities.len() > 1);
     for (joint, coupling, _) in several {
-        let on = |e: &&Element| e.name("joint") == Some(joint.name.as_str());
+        let on = |e: &&Element| e.joint() == Some(joint.name.as_str());
         for element in elements.iter().filter(on) {
             if can_hold(element, mechanism) {
                 let (keyword, leaders) = (element.effect.keyword(), mechanism.leaders(coupling));
@@ -111,7 +111,7 @@ fn held_followers(elements: &[Element], mechanism: &Mechanism, faults: &mut Faul
     let dependents = mechanism.dependent_velocities();
     let dependent = |name: &str| dependents.iter().any(|own| own.name == name);
     for element in elements {
-        let joint = element.name("joint").filter(|joint| dependent(joint));
+        let joint = element.joint().filter(|joint| dependent(joint));
         if let Some(joint) = joint.filter(|_| can_hold(element, mechanism)) {
             let keyword = element.effect.keyword();
             faults.push(wording::hold_of_dependent(
@@ -132,7 +132,7 @@ fn can_hold(element: &Element, mechanism: &Mechanism) -> bool {
 
 /// Checks the effects that a scene declares with their types, without its mechanism.
 pub(super) fn alone(spec: &SceneSpec, kinds: &EffectKinds, faults: &mut Faults) {
-    let typed = |raw: &&Raw| raw.is_mapping() && raw.peek("type").is_some();
+    let typed = |raw: &&Raw| raw.is_mapping() && raw.peek(TYPE.name).is_some();
     for raw in given(&spec.effects).iter().filter(typed) {
         crate::declaration::parse_declaration(raw, kinds, faults);
     }

@@ -1,5 +1,6 @@
-//! Reads the controllers that hold the pose of a joint with quasi-velocities: `free: { hold: { position: …,
-//! attitude: … } }`.
+//! Reads the controllers that hold the pose of a joint with quasi-velocities.
+//!
+//! Their keys are `free: { hold: { position: …, attitude: … } }`.
 
 use std::ops::Range;
 
@@ -7,6 +8,7 @@ use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use super::super::quaternion_of_rpy;
 use super::super::signal::{self, HOLD, InputSource, PoseHold, PoseTarget, Waveform};
+use crate::fault::wording::expected;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::{QuasiJoint, StateLayout};
@@ -58,8 +60,8 @@ fn parts(joint: &QuasiJoint) -> Vec<Part> {
 /// Returns an example of what a joint holds.
 fn example(joint: &QuasiJoint) -> &'static str {
     match joint.kind {
-        QuasiJointKind::Planar => "`{ angle: { target: 90 deg, stiffness: 8, damping: 2 } }`",
-        _ => "`{ attitude: { target: { rpy: [0, 0, 0] }, stiffness: 8, damping: 2 } }`",
+        QuasiJointKind::Planar => expected::HOLD_OF_ANGLE,
+        _ => expected::HOLD_OF_ATTITUDE,
     }
 }
 
@@ -149,7 +151,7 @@ fn held(
     (joint, layout): (&QuasiJoint, &StateLayout),
     faults: &mut Faults,
 ) -> Vec<Driven> {
-    let shown = "`{ target: …, stiffness: 8, damping: 2 }`";
+    let shown = expected::HOLD;
     let count = part.coordinates.len();
     let (mut target, mut broken) = (None, false);
     let mut gains = [None, Some(vec![Dd::ZERO; count])];
@@ -231,7 +233,7 @@ fn orientation(
     layout: &StateLayout,
     faults: &mut Faults,
 ) -> Option<PoseTarget> {
-    let entries = raw.entries(("an orientation", "`{ rpy: [0, 0, 90 deg] }`"), faults);
+    let entries = raw.entries(expected::ORIENTATION, faults);
     let [only] = entries.as_slice() else {
         faults.push(wording::not_one_orientation(&raw.location));
         return None;
@@ -298,8 +300,8 @@ fn courses(
     faults: &mut Faults,
 ) -> Option<Vec<Waveform>> {
     let example = match count {
-        2 => "`[0, 1]`",
-        _ => "`[0, 0, 1]`",
+        2 => expected::TWO_NUMBERS,
+        _ => expected::THREE_NUMBERS,
     };
     let items = items(raw, count, example, faults)?;
     let read = items

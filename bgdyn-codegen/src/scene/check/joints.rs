@@ -1,5 +1,4 @@
-//! The part of a scene's state that belongs to the joints: positions, velocities, joints with
-//! quasi-velocities.
+//! The part of a scene's state that belongs to the joints: positions, velocities, joints with quasi-velocities.
 
 use bgdyn_runtime::{Dd, QuasiJointKind};
 

@@ -1,9 +1,11 @@
-//! Parses the initial pose of a spherical or floating joint: `free: { xyz: […], rpy: […] }`, with `quaternion`
-//! in place of `rpy`.
+//! Parses the initial pose of a spherical or floating joint.
+//!
+//! It is `free: { xyz: […], rpy: […] }`, with `quaternion` in place of `rpy`.
 
 use bgdyn_runtime::Dd;
 
 use super::super::quaternion_of_rpy;
+use crate::fault::wording::expected;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::QuasiJoint;
@@ -16,8 +18,8 @@ pub(super) fn read(raw: &Raw, joint: &QuasiJoint, q: &mut [Dd], faults: &mut Fau
     };
     let moves = quaternion > joint.positions.start;
     let example = match moves {
-        true => "`{ xyz: [0, 0, 1], rpy: [0, 0, 90 deg] }`",
-        false => "`{ rpy: [0, 0, 90 deg] }`",
+        true => expected::POSE,
+        false => expected::ROTATION,
     };
     let known: &[&str] = match moves {
         true => &["xyz", "rpy", "quaternion"],
@@ -67,8 +69,8 @@ fn numbers<const N: usize>(
     faults: &mut Faults,
 ) -> Option<[Dd; N]> {
     let example = match N {
-        3 => "`[0, 0, 1]`",
-        _ => "x, y, z, w: `[0, 0, 0, 1]`",
+        3 => expected::THREE_NUMBERS,
+        _ => expected::QUATERNION,
     };
     let items = entry.items(("a list of numbers", example), faults)?;
     if items.len() != N {

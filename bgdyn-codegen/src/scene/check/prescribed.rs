@@ -3,7 +3,7 @@
 use super::super::Scene;
 use crate::declaration::Element;
 use crate::fault::{Faults, wording};
-use crate::format::{Reads, SceneSpec};
+use crate::format::SceneSpec;
 use crate::mechanism::{LinkId, Mechanism};
 
 /// Refuses effects whose efforts act at a place that a prescribed joint moves: its drive would supply a part of
@@ -11,7 +11,7 @@ use crate::mechanism::{LinkId, Mechanism};
 pub(super) fn places(scene: &Scene, faults: &mut Faults) -> bool {
     let before = faults.count();
     for element in &scene.elements {
-        let found = sites(element).find_map(|site| {
+        let found = sites(element).into_iter().find_map(|site| {
             let joint = moved_by(&scene.mechanism, site)?;
             Some((site, joint))
         });
@@ -25,17 +25,11 @@ pub(super) fn places(scene: &Scene, faults: &mut Faults) -> bool {
 }
 
 /// Returns the places at which the efforts of an effect act. A payload becomes part of a link, a rotor of a joint.
-fn sites(element: &Element) -> impl Iterator<Item = &str> {
-    let bodies = ["payload", "rotor"].contains(&element.effect.keyword());
-    let keys = element.effect.keys().iter().filter(move |_| !bodies);
-    keys.flat_map(|key| match key.reads {
-        Reads::Site => element.name(key.name).into_iter().collect(),
-        Reads::Sites => {
-            let names = element.names(key.name).into_iter().flatten();
-            names.map(String::as_str).collect()
-        }
-        _ => vec![],
-    })
+fn sites(element: &Element) -> Vec<&str> {
+    match element.effect.keyword() {
+        "payload" | "rotor" => vec![],
+        _ => element.sites(),
+    }
 }
 
 /// Returns a prescribed joint between a place and the world.

@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::super::{Integration, IntegratorName, StepControl};
+use crate::fault::wording::expected;
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Dimension, Field, Fields, Key, Located, ParsedValue, Raw, Reads};
 
@@ -13,25 +14,25 @@ const END: f64 = 1.0;
 /// Tolerance of an integrator with step control, if the scene gives neither step nor tolerance.
 const TOLERANCE: f64 = 1e-8;
 
+const METHOD: Key = key("method", Reads::Word(&[]), "integration method");
+const STEP_LENGTH: Key = key(
+    "step",
+    Reads::Number(&[Dimension::Time]),
+    "length of a step",
+);
+const STEP_ERROR: Key = key(
+    "tolerance",
+    Reads::Number(&[Dimension::One]),
+    "error of a step",
+);
+const END_TIME: Key = key(
+    "end",
+    Reads::Number(&[Dimension::Time]),
+    "when the run ends",
+);
+
 /// The keys of `integration`.
-const KEYS: [Key; 4] = [
-    key("method", Reads::Word(&[]), "integration method"),
-    key(
-        "step",
-        Reads::Number(&[Dimension::Time]),
-        "length of a step",
-    ),
-    key(
-        "tolerance",
-        Reads::Number(&[Dimension::One]),
-        "error of a step",
-    ),
-    key(
-        "end",
-        Reads::Number(&[Dimension::Time]),
-        "when the run ends",
-    ),
-];
+const KEYS: [Key; 4] = [METHOD, STEP_LENGTH, STEP_ERROR, END_TIME];
 
 const fn key(name: &'static str, reads: Reads, about: &'static str) -> Key {
     Key {
@@ -53,15 +54,12 @@ pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integratio
 }
 
 fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
-    let what = (
-        "how the scene is run",
-        "`{ method: rk4, step: 1 ms, end: 5 s }`",
-    );
+    let what = expected::INTEGRATION;
     let fields = raw.fields(what, &KEYS, faults)?;
     let method = method(&fields, faults);
-    let end = positive(&fields, "end", "a time such as `5 s`", faults);
-    let step = positive(&fields, "step", "a time such as `1 ms`", faults);
-    let tolerance = positive(&fields, "tolerance", "a number such as `1e-8`", faults);
+    let end = positive(&fields, &END_TIME, "a time such as `5 s`", faults);
+    let step = positive(&fields, &STEP_LENGTH, "a time such as `1 ms`", faults);
+    let tolerance = positive(&fields, &STEP_ERROR, "a number such as `1e-8`", faults);
     let method = method?;
     let step_control = match (step, tolerance) {
         (None, None) if method.controls_its_error() => StepControl::Tolerance(TOLERANCE),
@@ -96,7 +94,7 @@ fn misplaced(method: IntegratorName, stepped: bool, location: &Location) -> Opti
 /// Returns the number of a key and its location; reports a number that is not positive.
 fn positive<'a>(
     fields: &'a Fields,
-    key: &str,
+    key: &Key,
     example: &str,
     faults: &mut Faults,
 ) -> Option<(f64, &'a Location)> {
@@ -110,7 +108,7 @@ fn positive<'a>(
     if number.value <= Dd::ZERO {
         let text = &number.text;
         faults.push(wording::integration_not_positive(
-            location, key, text, example,
+            location, key.name, text, example,
         ));
     }
     Some((number.value.to_f64(), location))
@@ -121,7 +119,7 @@ fn method(fields: &Fields, faults: &mut Faults) -> Option<IntegratorName> {
     let Some(Located {
         value: ParsedValue::Text(word),
         location,
-    }) = fields.get("method")
+    }) = fields.get(&METHOD)
     else {
         return Some(IntegratorName::Rk4);
     };

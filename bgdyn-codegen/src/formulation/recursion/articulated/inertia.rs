@@ -1,5 +1,7 @@
-//! Articulated-body inertia: the symmetric 6 × 6 matrix that maps the acceleration of a body to the
-//! required wrench, with the joints outboard of it free to move.
+//! The inertia of an articulated body.
+//!
+//! It is the symmetric 6 × 6 matrix that maps the acceleration of a body to the required wrench, with the joints
+//! outboard of it free to move.
 //!
 //! About the body's origin: moment n = J α + H a, force F = Hᵀ α + M a for the angular acceleration α and
 //! the acceleration a of the origin.

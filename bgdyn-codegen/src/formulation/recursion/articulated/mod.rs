@@ -1,5 +1,6 @@
-//! Forward dynamics by articulated bodies (Featherstone 2008, *Rigid Body Dynamics Algorithms*,
-//! ch. 7), over the frames and the bias of the recursion.
+//! Forward dynamics by articulated bodies, over the frames and the bias of the recursion.
+//!
+//! The algorithm is that of Featherstone 2008, *Rigid Body Dynamics Algorithms*, ch. 7.
 //!
 //! The work is proportional to the number of bodies, not to its cube. Small pivots are accurate: the
 //! projection along a joint is subtracted before the inertia of its parent is added, so that large terms

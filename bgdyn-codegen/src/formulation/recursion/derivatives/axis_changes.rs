@@ -1,5 +1,6 @@
-//! Changes of the forces and momenta of a composite body with the position and rate of a joint, for a
-//! rotation about z and a translation along z.
+//! Changes of the forces and momenta of a composite body with the position and rate of a joint.
+//!
+//! The joint rotates about z or slides along z.
 
 use bgdyn_runtime::Dd;
 

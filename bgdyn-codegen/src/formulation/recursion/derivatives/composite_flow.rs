@@ -1,5 +1,7 @@
-//! All bodies outboard of a joint as one body: its inertia, the flow of its mass relative to an inboard
-//! body, and the force and moment of that relative motion.
+//! All bodies outboard of a joint as one body.
+//!
+//! It has an inertia, the flow of its mass relative to an inboard body, and the force and moment of that relative
+//! motion.
 
 use bgdyn_runtime::Dd;
 

@@ -1,5 +1,4 @@
-//! Quantities of a joint from which inboard joints compute the derivatives of their efforts by its
-//! coordinate.
+//! Quantities of a joint from which inboard joints compute the derivatives of their efforts by its coordinate.
 //!
 //! Accelerations due to velocities have a factor of 2. The Coriolis matrix is half of ∂τ/∂v: for it the
 //! factor is 1 in all equations, and ∂τ/∂q is not valid.

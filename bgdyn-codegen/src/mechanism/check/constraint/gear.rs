@@ -33,8 +33,8 @@ impl ConstraintType for Gear {
     }
 
     fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
-        let (terms, dimension) = reader.terms(fields, JOINTS.name)?;
-        let offset = match fields.get(OFFSET.name) {
+        let (terms, dimension) = reader.terms(fields, &JOINTS)?;
+        let offset = match fields.get(&OFFSET) {
             None => Dd::ZERO,
             Some(entry) => reader.number(entry, dimension)?,
         };

@@ -33,12 +33,12 @@ impl ConstraintType for KnifeEdge {
 
     fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
         let kind = ContactKind::Edge {
-            direction: reader.axis(fields, DIRECTION.name)?,
+            direction: reader.axis(fields, &DIRECTION)?,
         };
         Some(ReadConstraint::Contact(Box::new(ContactEntry {
             name: reader.name.value.clone(),
             location: reader.location.clone(),
-            at: reader.text(fields, AT.name)?,
+            at: reader.text(fields, &AT)?,
             kind,
         })))
     }

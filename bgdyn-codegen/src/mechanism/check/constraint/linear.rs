@@ -24,7 +24,7 @@ impl ConstraintType for Linear {
     }
 
     fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
-        let (terms, _) = reader.terms(fields, ROW.name)?;
+        let (terms, _) = reader.terms(fields, &ROW)?;
         Some(ReadConstraint::Row(reader.row(terms, None)))
     }
 }

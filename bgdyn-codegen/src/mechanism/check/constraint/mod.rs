@@ -1,5 +1,6 @@
-//! Constraints with constant coefficients: which joints follow which, and whose motion is given, before any
-//! formulation sees them.
+//! Constraints with constant coefficients.
+//!
+//! They decide which joints follow which, and whose motion is given, before any formulation sees them.
 //!
 //! Wheels and knife edges are read here as well; their rows are those of `closure`.
 //!
@@ -136,7 +137,7 @@ fn read(raw: &Raw, (spec, links): (&Spec, &[Link]), faults: &mut Faults) -> Opti
     let missing = kind
         .keys()
         .iter()
-        .find(|key| key.needed && fields.get(key.name).is_none());
+        .find(|key| key.needed && fields.get(key).is_none());
     if let Some(key) = missing {
         let location = &raw.location;
         let key = (key.name, key.about);

@@ -27,7 +27,7 @@ impl ConstraintType for Prescribed {
     }
 
     fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
-        let (link, location) = reader.joint(fields, JOINT.name)?;
+        let (link, location) = reader.joint(fields, &JOINT)?;
         Some(ReadConstraint::Prescribed(PrescribedEntry {
             name: reader.name.value.clone(),
             location,

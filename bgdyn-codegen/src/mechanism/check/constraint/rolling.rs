@@ -73,18 +73,18 @@ impl ConstraintType for Rolling {
     }
 
     fn read(&self, fields: &Fields, reader: &mut RowReader<'_>) -> Option<ReadConstraint> {
-        let at = reader.text(fields, LINK.name)?;
+        let at = reader.text(fields, &LINK)?;
         let size = size(fields, reader)?;
-        let axle = match fields.get(AXIS.name) {
+        let axle = match fields.get(&AXIS) {
             None => None,
-            Some(_) => Some(reader.axis(fields, AXIS.name)?),
+            Some(_) => Some(reader.axis(fields, &AXIS)?),
         };
         let slip = slip(fields, reader, axle.is_some())?;
         let kind = ContactKind::Rolling {
             axle,
             size,
             slip,
-            on: reader.text(fields, ON.name),
+            on: reader.text(fields, &ON),
         };
         Some(ReadConstraint::Contact(Box::new(ContactEntry {
             name: reader.name.value.clone(),
@@ -97,10 +97,10 @@ impl ConstraintType for Rolling {
 
 /// Returns the size, from one of `radius` and `radii`.
 fn size(fields: &Fields, reader: &mut RowReader<'_>) -> Option<RollingSize> {
-    let given = |key: Key| fields.get(key.name);
-    if let Some(radii) = given(RADII) {
-        let others = [RADIUS, CROWN_RADIUS, AXIS];
-        if let Some((key, other)) = others.iter().find_map(|key| Some((key.name, given(*key)?))) {
+    let given = |key: &Key| fields.get(key);
+    if let Some(radii) = given(&RADII) {
+        let others = [&RADIUS, &CROWN_RADIUS, &AXIS];
+        if let Some((key, other)) = others.iter().find_map(|key| Some((key.name, given(key)?))) {
             let fault = wording::key_beside_radii(&other.location, key);
             reader.faults.push(fault);
             return None;
@@ -119,16 +119,16 @@ fn size(fields: &Fields, reader: &mut RowReader<'_>) -> Option<RollingSize> {
         let [a, b, c] = numbers.each_ref().map(each);
         return Some(RollingSize::HalfAxes([a?, b?, c?]));
     }
-    let Some(radius) = given(RADIUS) else {
+    let Some(radius) = given(&RADIUS) else {
         let key = (RADIUS.name, RADIUS.about);
         let fault = wording::constraint_without_key(reader.location, &reader.name.value, key);
         reader.faults.push(fault);
         return None;
     };
     let radius = length(radius, "radius", reader);
-    let crown = match given(CROWN_RADIUS) {
+    let crown = match given(&CROWN_RADIUS) {
         None => Some(Dd::ZERO),
-        Some(crown) if given(AXIS).is_none() => {
+        Some(crown) if given(&AXIS).is_none() => {
             let fault = wording::crown_of_ball(&crown.location);
             reader.faults.push(fault);
             None
@@ -162,7 +162,7 @@ fn slip(fields: &Fields, reader: &mut RowReader<'_>, wheel: bool) -> Option<Slip
     let Some(Located {
         value: ParsedValue::Words(words),
         location,
-    }) = fields.get(ROWS.name)
+    }) = fields.get(&ROWS)
     else {
         return Some(Slip::NONE);
     };

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Fault, Faults, Location, wording};
-use crate::format::{Dimension, Fields, Located, Number, ParsedValue, Vector, check_unit};
+use crate::format::{Dimension, Fields, Key, Located, Number, ParsedValue, Vector, check_unit};
 use crate::mechanism::{Leader, Link, LinkId, Motion};
 
 /// The dimensions of coefficients.
@@ -54,7 +54,7 @@ impl RowReader<'_> {
     }
 
     /// Returns the joints of a key with their coefficients, and the dimension of the sum: an angle or a length.
-    pub(super) fn terms(&mut self, fields: &Fields, key: &str) -> Option<(Vec<Leader>, Dimension)> {
+    pub(super) fn terms(&mut self, fields: &Fields, key: &Key) -> Option<(Vec<Leader>, Dimension)> {
         let entry = fields.get(key)?;
         let ParsedValue::Coefficients(entries) = &entry.value else {
             return None;
@@ -85,7 +85,7 @@ impl RowReader<'_> {
     }
 
     /// Returns the link of the joint that a key names, and the location of the name.
-    pub(super) fn joint(&mut self, fields: &Fields, key: &str) -> Option<(LinkId, Location)> {
+    pub(super) fn joint(&mut self, fields: &Fields, key: &Key) -> Option<(LinkId, Location)> {
         let entry = fields.get(key)?;
         let ParsedValue::Text(name) = &entry.value else {
             return None;
@@ -104,7 +104,7 @@ impl RowReader<'_> {
     }
 
     /// Returns the direction of a key.
-    pub(super) fn axis(&self, fields: &Fields, key: &str) -> Option<Located<Vector>> {
+    pub(super) fn axis(&self, fields: &Fields, key: &Key) -> Option<Located<Vector>> {
         let entry = fields.get(key)?;
         let ParsedValue::Vector(vector) = &entry.value else {
             return None;
@@ -116,7 +116,7 @@ impl RowReader<'_> {
     }
 
     /// Returns the name of a key.
-    pub(super) fn text(&self, fields: &Fields, key: &str) -> Option<Located<String>> {
+    pub(super) fn text(&self, fields: &Fields, key: &Key) -> Option<Located<String>> {
         let entry = fields.get(key)?;
         let ParsedValue::Text(name) = &entry.value else {
             return None;

@@ -1,5 +1,6 @@
-//! Chooses the axes of a loop's rows, and the point of a hinge on its axis, so that rows that hold at every position
-//! are rows of their own and fall by structure.
+//! Chooses the axes of a loop's rows, and the point of a hinge on its axis.
+//!
+//! Rows that hold at every position are then rows of their own and fall by structure.
 //!
 //! - All motion in one plane: axis z of the rows is the plane's normal. For a slider, whose axis z is given, it is x.
 //! - All motion along one line: axis z of the rows is the line.

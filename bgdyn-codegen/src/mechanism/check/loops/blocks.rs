@@ -1,5 +1,6 @@
-//! Arranges rows and dependent velocities in blocks that are solved one after the other: the strongly connected
-//! parts of the graph of matched rows (Dulmage and Mendelsohn 1958).
+//! Arranges rows and dependent velocities in blocks that are solved one after the other.
+//!
+//! The blocks are the strongly connected parts of the graph of matched rows (Dulmage and Mendelsohn 1958).
 
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::{Closure, ClosureBlock};

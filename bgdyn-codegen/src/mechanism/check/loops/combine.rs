@@ -1,5 +1,6 @@
-//! Combines rows of contacts with constant factors, so that fewer velocities appear in each: the sum of two knife edges
-//! that are steered by opposite angles moves a board sideways only.
+//! Combines rows of contacts with constant factors, so that fewer velocities appear in each.
+//!
+//! The sum of two knife edges that are steered by opposite angles moves a board sideways only.
 
 use bgdyn_runtime::Dd;
 

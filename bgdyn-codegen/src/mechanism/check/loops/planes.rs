@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::read::{Context, find_link, turn_to_axis};
+use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Key, Located, ParsedValue, Raw, Reads, check_unit};
 use crate::math::Vec3;
@@ -10,26 +11,26 @@ use crate::mechanism::check::direction::Directions;
 use crate::mechanism::{LinkId, Pose};
 
 /// The keys of a plane in the file.
-pub const PLANE_KEYS: [Key; 3] = [
-    Key {
-        name: "normal",
-        reads: Reads::Axis,
-        needed: false,
-        about: "its normal in the link's axes, towards what touches it; z without it",
-    },
-    Key {
-        name: "offset",
-        reads: Reads::Number(&[Dimension::Length]),
-        needed: false,
-        about: "its distance from the link's origin along the normal; 0 without it",
-    },
-    Key {
-        name: "link",
-        reads: Reads::Site,
-        needed: false,
-        about: "the link that it is fixed to; the world without it",
-    },
-];
+pub const PLANE_KEYS: [Key; 3] = [NORMAL, OFFSET, LINK];
+
+const NORMAL: Key = Key {
+    name: "normal",
+    reads: Reads::Axis,
+    needed: false,
+    about: "its normal in the link's axes, towards what touches it; z without it",
+};
+const OFFSET: Key = Key {
+    name: "offset",
+    reads: Reads::Number(&[Dimension::Length]),
+    needed: false,
+    about: "its distance from the link's origin along the normal; 0 without it",
+};
+const LINK: Key = Key {
+    name: "link",
+    reads: Reads::Site,
+    needed: false,
+    about: "the link that it is fixed to; the world without it",
+};
 
 /// A plane: its link, and a place on it with z along its normal.
 pub(super) type Plane = (Option<LinkId>, Pose);
@@ -64,9 +65,9 @@ pub(super) fn plane(
 }
 
 fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
-    let what = ("a plane's keys", "`{ normal: z, offset: 0 m }`");
+    let what = expected::PLANE;
     let fields = raw.fields(what, &PLANE_KEYS, faults)?;
-    let link = match fields.get("link") {
+    let link = match fields.get(&LINK) {
         Some(Located {
             value: ParsedValue::Text(name),
             location,
@@ -74,7 +75,7 @@ fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
         _ => Some(None),
     };
     let up = Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]);
-    let normal = match fields.get("normal") {
+    let normal = match fields.get(&NORMAL) {
         Some(Located {
             value: ParsedValue::Vector(vector),
             location,
@@ -87,7 +88,7 @@ fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
         }
         _ => Some(up),
     };
-    let offset = match fields.get("offset") {
+    let offset = match fields.get(&OFFSET) {
         Some(entry) => offset(&entry.value, &entry.location, faults),
         None => Some(Dd::ZERO),
     };
