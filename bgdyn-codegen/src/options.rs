@@ -267,6 +267,11 @@ fn dynamics(graph: &BondGraph) -> Vec<Method> {
         .closed
         .iter()
         .flat_map(|closed| Method::of_closed(closed));
+    let actuated = graph
+        .closed
+        .iter()
+        .flat_map(|closed| Method::of_actuated(closed));
+    let of_loops = of_loops.chain(actuated);
     Method::OF_TRAIT.into_iter().chain(of_loops).collect()
 }
 

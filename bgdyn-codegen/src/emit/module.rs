@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::actuated::inverse_docs;
 use super::base_access::base_access;
 use super::joint_access::joint_access;
 use super::legend::legend;
@@ -203,6 +204,10 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
     ];
     let closed = model.bond_graph.closed.as_deref();
     docs.splice(1..1, reaction_docs(method, closed));
+    let inverse = matches!(method, Method::ActuatedInverse(_));
+    if inverse {
+        docs.splice(1..1, inverse_docs(closed));
+    }
     let unread = body::unread(function, model);
     if !unread.is_empty() {
         docs.extend([
@@ -210,13 +215,22 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             format!(" Does not read: {}.", unread.join(", ")),
         ]);
     }
-    if function.shape().checked() {
+    if inverse {
+        docs.extend([
+            String::new(),
+            " # Errors".into(),
+            " Names the independent joint that does not follow the actuated joints, where their matrix A is singular,".into(),
+            " with the cause `Actuators`; or the argument that is NaN or infinite.".into(),
+        ]);
+    } else if function.shape().checked() {
         docs.extend([
             String::new(),
             " # Errors".into(),
             " Names the joint whose pivot vanishes where the mass matrix is singular, or the argument".into(),
             " that is NaN or infinite.".into(),
         ]);
+    }
+    if function.shape().checked() {
         let slips = closed.is_some_and(|closed| closed.closure.nonholonomic());
         if slips {
             docs.push(" Names the constraint at a singular position, and beyond one.".into());

@@ -3,6 +3,7 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::actuated::reduced_summary;
 use crate::mechanism::{Mechanism, prescribed_parameter_names};
 use crate::method::Method;
 use crate::model::Model;
@@ -48,6 +49,7 @@ pub(super) fn prescribed_docs(mechanism: &Mechanism) -> Vec<String> {
 pub(super) fn joint_list(method: Method) -> &'static str {
     match method {
         Method::DriveEfforts(_) => "PRESCRIBED_NAMES",
+        Method::ActuatedInverse(_) => "ACTUATED",
         method if method.of_tree() => "TREE_JOINT_NAMES",
         _ => "JOINT_NAMES",
     }
@@ -78,6 +80,10 @@ fn summary_with_contacts(method: Method, usual: String) -> String {
 pub(super) fn summary_of(method: Method, model: &Model) -> String {
     let usual = method.summary(&model.bond_graph.sites);
     let closed = model.bond_graph.closed.as_deref();
+    let drives = closed.and_then(|closed| closed.closure.drives());
+    if let Some(reduced) = drives.and_then(|_| reduced_summary(method)) {
+        return reduced;
+    }
     if closed.is_some_and(|closed| closed.closure.nonholonomic()) {
         return summary_with_contacts(method, usual);
     }

@@ -36,6 +36,7 @@ impl Reader {
             "planes",
             "loops",
             "independent",
+            "actuated",
             "effects",
         ];
         let map = self.mapping(at, ("a mapping", "`format: 1`, `links: …`"), &keys)?;
@@ -93,6 +94,9 @@ impl Reader {
                 Some(all.iter().filter_map(|at| r.closing(at)).collect())
             }),
             independent: self.field(&map, "independent", |r, at| {
+                r.names_list(at, ("a list of joints", "`[crank, wrist]`"))
+            }),
+            actuated: self.field(&map, "actuated", |r, at| {
                 r.names_list(at, ("a list of joints", "`[crank, wrist]`"))
             }),
             effects: self.field(&map, "effects", |r, at| {

@@ -11,6 +11,7 @@
 //!
 //! | file | has |
 //! |---|---|
+//! | `actuated.rs` | the joints with drives |
 //! | `chain.rs` | the joints of a loop in series, and the motion from place to place |
 //! | `row.rs` | rows of loops: value, rate, second derivative |
 //! | `contact.rs`, `contact_types.rs` | rows of wheels, balls and knife edges; their words |
@@ -21,6 +22,7 @@
 //! | `reach.rs` | closed positions and velocities with given ones |
 //! | `solve.rs` | linear equations |
 
+mod actuated;
 mod chain;
 mod closing;
 mod contact;
@@ -37,6 +39,7 @@ use bgdyn_runtime::Dd;
 use super::{CoordinateId, LinkId, PositionId};
 use crate::fault::Location;
 use crate::math::Vec3;
+pub use actuated::Actuated;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates, TwistPoint};
 pub use closing::{CLOSING_TYPES, ClosingType};
 pub use contact::{
@@ -159,6 +162,8 @@ pub struct Closure {
     pub start: Vec<Dd>,
     /// Closed positions at random, on the branch of the start.
     pub samples: Vec<Vec<Dd>>,
+    /// The joints with drives, if the file names them; otherwise the independent ones have drives.
+    pub actuated: Option<Actuated>,
     /// For each block, whether the determinant of its columns is positive at the start: it changes its sign at
     /// singular positions only, so that it tells the branch.
     pub signs: Vec<bool>,
