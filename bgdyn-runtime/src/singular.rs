@@ -35,6 +35,8 @@ pub enum Cause {
     /// The dependent joints of a kinematic loop, a wheel or a knife edge do not follow from the independent ones: the
     /// position is singular, on the other side of a singular one, or does not close.
     Loop,
+    /// A kinematic loop closes, but on another branch than that of the mechanism.
+    Branch,
     /// The actuated joints of a mechanism with loops cannot produce every acceleration here: the matrix from their
     /// efforts to those along the independent velocities is singular. The loops are regular, and forward dynamics
     /// answers; [`Singular::name`] is the independent joint whose equation follows from others.
@@ -55,11 +57,15 @@ pub enum Cause {
 /// exact in lanes of `f32`.
 pub const ACTUATORS: usize = 1 << 16;
 
+/// The same for loops on another branch.
+pub(crate) const BRANCHES: usize = 2 * ACTUATORS;
+
 /// A [`Cause`] without its index: four bytes, so that `Option` and `Result` can use its unused values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Pivot,
     Loop,
+    Branch,
     Actuators,
     NotFinite,
     Argument(Argument),
@@ -70,6 +76,7 @@ impl Kind {
         match self {
             Kind::Pivot => Cause::Pivot,
             Kind::Loop => Cause::Loop,
+            Kind::Branch => Cause::Branch,
             Kind::Actuators => Cause::Actuators,
             Kind::NotFinite => Cause::NotFinite,
             Kind::Argument(argument) => Cause::Argument { argument, index },
@@ -84,9 +91,12 @@ impl Singular {
         Singular::of_kind(Kind::Pivot, joint, names)
     }
 
-    /// Returns the error of a refused pivot: that of one of `joints` joints, of a loop after them, or of the matrix of
-    /// the actuators from [`ACTUATORS`] on.
+    /// Returns the error of a refused pivot: that of one of `joints` joints, of a loop after them, of the matrix of
+    /// the actuators from [`ACTUATORS`] on, of a loop on another branch from [`BRANCHES`] on.
     pub(crate) fn refused(pivot: usize, joints: usize, names: &'static [&'static str]) -> Self {
+        if let Some(place) = pivot.checked_sub(BRANCHES) {
+            return Singular::of_kind(Kind::Branch, place, names);
+        }
         match pivot.checked_sub(ACTUATORS) {
             Some(place) => Singular::of_kind(Kind::Actuators, place, names),
             None if pivot < joints => Singular::of_kind(Kind::Pivot, pivot, names),
@@ -130,8 +140,10 @@ impl Singular {
         components: &'static [&'static str],
         index: Option<usize>,
     ) {
-        if let (Some(index), Kind::Pivot | Kind::Loop | Kind::Actuators | Kind::NotFinite) =
-            (index, self.kind)
+        if let (
+            Some(index),
+            Kind::Pivot | Kind::Loop | Kind::Branch | Kind::Actuators | Kind::NotFinite,
+        ) = (index, self.kind)
         {
             *self = Singular::of_kind(Kind::Argument(argument), index, components);
         }
@@ -146,7 +158,7 @@ impl fmt::Display for Singular {
                 f,
                 "singular mass matrix: joint `{name}` (number {joint}) has {cause}"
             ),
-            Cause::Loop => write!(f, "loop or constraint `{name}` {cause}"),
+            Cause::Loop | Cause::Branch => write!(f, "loop or constraint `{name}` {cause}"),
             Cause::Actuators => write!(f, "no efforts of the actuated joints: `{name}` {cause}"),
             Cause::Argument {
                 argument: Argument::Time,
@@ -172,6 +184,7 @@ impl fmt::Display for Cause {
         match *self {
             Cause::Pivot => f.write_str("no inertia left to accelerate"),
             Cause::Loop => f.write_str("is singular or does not close here"),
+            Cause::Branch => f.write_str("closes here on another branch only"),
             Cause::Actuators => f.write_str("does not follow the actuated joints here"),
             Cause::Argument { argument, index } => write!(
                 f,

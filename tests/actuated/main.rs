@@ -1,6 +1,8 @@
 //! Actuated joints of mechanisms with loops in compiled code: constants, efforts and accelerations in every scalar,
 //! errors.
 
+mod assembled;
+
 use bgdyn::nalgebra::{DMatrix, DVector, SVector, vector};
 use bgdyn::runtime::wide::f64x4;
 use bgdyn::runtime::{Argument, Cause, Dd};

@@ -11,7 +11,7 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs, summary_of};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{body, closure, code, constants, entries, explain, joint_segments, traits};
+use super::{assembly, body, closure, code, constants, entries, explain, joint_segments, traits};
 use crate::bond_graph::{LinkFrame, PositionVariable};
 use crate::function::Function;
 use crate::mechanism::Motion;
@@ -47,6 +47,9 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let loops = model.bond_graph.closed.as_deref();
     let loops = loops.map(|closed| closure::closure_access(closed, &model.bond_graph, &present));
     let (loop_constants, loop_functions) = loops.unzip();
+    let assembly = model.bond_graph.closed.as_deref();
+    let assembly = assembly.filter(|_| model.assembles).map(assembly::assembly);
+    let (conditions, assemble) = assembly.unzip();
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*
@@ -66,12 +69,14 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             #constants
             #ranges
             #loop_constants
+            #conditions
             #structure
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
                 #poses
                 #base
                 #loop_functions
+                #assemble
                 #explainers
             }
             #traits

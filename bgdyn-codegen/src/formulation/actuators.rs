@@ -5,7 +5,7 @@
 //! e_j are the largest efforts.
 //!
 //! A may be singular where the loops are regular ("type II" of parallel robots; Gosselin and Angeles 1990), and P exists
-//! on both sides of such a position. No pivot here vanishes elsewhere: of one and two equations the pivot is the
+//! on both sides of such a position. No pivot here vanishes elsewhere: of up to three equations the pivot is the
 //! determinant, of more it is the part of a row that is perpendicular to the rows before it (Gram and Schmidt).
 
 use bgdyn_runtime::{ACTUATORS, Dd};
@@ -13,6 +13,7 @@ use bgdyn_runtime::{ACTUATORS, Dd};
 use super::elimination::largest_at;
 use crate::bond_graph::ClosedTree;
 use crate::expr::{Builder, Expr};
+use crate::math::Vec3;
 
 /// Returns the efforts on all joints of the tree for these of the actuated ones.
 pub(super) fn on_tree<'g>(
@@ -107,6 +108,21 @@ fn square<'g>(b: &'g Builder, equations: Vec<Equation<'g>>, samples: &[Vec<Dd>])
                 (y.row[1] * x.side - x.row[1] * y.side) * inverse,
                 (x.row[0] * y.side - y.row[0] * x.side) * inverse,
             ]
+        }
+        [x, y, z] => {
+            // Cramer's rule: x · v = f with v = (f₁ y×z + f₂ z×x + f₃ x×y) / (x · y×z).
+            let [first, second, third] =
+                [x, y, z].map(|equation| Vec3(std::array::from_fn(|k| equation.row[k])));
+            let crosses = [second.cross(third), third.cross(first), first.cross(second)];
+            let inverse = inverted(b, first.dot(crosses[0]), samples, z.pivot);
+            let entry = |k: usize| {
+                let terms = [x, y, z].into_iter().zip(crosses);
+                let sum = terms.fold(b.zero(), |sum, (equation, cross)| {
+                    sum + cross.0[k] * equation.side
+                });
+                sum * inverse
+            };
+            (0..3).map(entry).collect()
         }
         all => {
             let scales = vec![b.number(1.0); all.len()];

@@ -61,6 +61,7 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     let functions = chosen.map(|f| named(f, &bond_graph)).collect();
     drop(choice);
     Ok(Model {
+        assembles: options.assembles(&bond_graph),
         mechanism,
         bond_graph,
         functions,

@@ -531,3 +531,48 @@ fn scenes_of_such_mechanisms_are_those_without_the_key() {
     let driven = actuated("five_bar", &own, &["distal1_angle", "distal2_angle"]);
     assert_eq!(counts(driven), counts(spec("five_bar")));
 }
+
+/// Drives of scenes are where the scene names them; a computed torque is that of an independent joint.
+#[test]
+fn a_computed_torque_at_a_dependent_actuated_joint_is_refused_by_name() {
+    let own = ["proximal1_angle", "proximal2_angle"];
+    let driven = actuated("five_bar", &own, &["distal1_angle", "distal2_angle"]);
+    let scene = |joint: &str| {
+        let law = "{ target: 0.5, stiffness: 100, damping: 20 }";
+        let text = format!(
+            "scene: 1\nmechanism: five_bar.yaml\neffects: [gravity, inertia, velocity_products]\ninputs: {{ {joint}: {{ computed_torque: {law} }} }}\n"
+        );
+        let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(driven.clone()));
+        read.err().map(|refusal| format!("{refusal:?}"))
+    };
+    assert_eq!(scene("proximal1_angle"), None);
+    let refused = scene("distal1_angle").expect("a dependent joint");
+    assert!(refused.contains("independent joint"), "{refused}");
+}
+
+/// A scene locks an actuated joint, or another one; the machine without drives at it is what moves.
+#[test]
+fn scenes_lock_actuated_joints() {
+    let own = ["proximal1_angle", "proximal2_angle"];
+    let driven = actuated("five_bar", &own, &["proximal1_angle", "distal2_angle"]);
+    for (joint, at) in [
+        ("proximal1_angle", 2.0),
+        ("distal2_angle", 1.29),
+        ("proximal2_angle", 1.1),
+    ] {
+        let text = format!(
+            "scene: 1\nmechanism: five_bar.yaml\neffects: [gravity, inertia, velocity_products]\nlock: {{ {joint}: {at} }}\n"
+        );
+        let system = |mechanism: String| {
+            let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(mechanism));
+            read.unwrap_or_else(|refusal| panic!("{joint}: {refusal:?}"))
+                .0
+        };
+        let counts = |mechanism| {
+            let system = system(mechanism);
+            assert_eq!(system.scene.layout.nv(), 1, "{joint}");
+            system.function(SceneFunction::Derivative).operations()
+        };
+        assert_eq!(counts(driven.clone()), counts(spec("five_bar")), "{joint}");
+    }
+}
