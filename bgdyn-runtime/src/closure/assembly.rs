@@ -71,7 +71,12 @@ where
 {
     let [guess, closed] = ends;
     let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
-    let mut best = descend(guess, ATTEMPTS[0].1, (conditions, free), of);
+    // Joints of several degrees of freedom have no straight way to another position: one attempt with all steps.
+    let first = match conditions.joints.is_empty() {
+        true => ATTEMPTS.iter().map(|(_, steps)| steps).sum(),
+        false => ATTEMPTS[0].1,
+    };
+    let mut best = descend(guess, first, (conditions, free), of);
     let mut found = fits(&best, conditions, of);
     for (share, steps) in ATTEMPTS.into_iter().skip(1) {
         if conditions.joints.is_empty() || all_positive(found) {
