@@ -18,6 +18,7 @@ mod turned_signs;
 mod findings;
 
 mod actuated;
+mod actuated_positions;
 mod counts;
 mod drawn;
 mod faults;
