@@ -62,30 +62,6 @@ pub(super) fn actuated_docs(closed: &ClosedTree) -> Option<String> {
     })
 }
 
-/// Describes the result of a method whose efforts are along the independent velocities, while other joints are
-/// actuated: one line of documentation.
-pub(super) fn reduced_summary(method: Method) -> Option<String> {
-    let text = match method {
-        Method::InverseDynamics => {
-            "Efforts Sᵀ P along the independent velocities that produce the accelerations `a` (Kuzmin 2007, eq. 6)."
-        }
-        Method::ForwardDynamics => {
-            "Accelerations under the efforts `tau` along the independent velocities: M⁻¹(tau − bias)."
-        }
-        Method::Gravity => {
-            "Efforts along the independent velocities that hold the mechanism at rest."
-        }
-        Method::Bias => {
-            "Bias force: everything in the efforts along the independent velocities but M(q)·a."
-        }
-        Method::InverseDynamicsDerivatives => {
-            "Derivatives of the efforts along the independent velocities: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix."
-        }
-        _ => return None,
-    };
-    Some(text.into())
-}
-
 /// Describes how the efforts of the actuated joints are determined, and the errors of the function: lines of
 /// documentation.
 pub(super) fn inverse_docs(closed: Option<&ClosedTree>) -> Vec<String> {

@@ -3,7 +3,6 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::actuated::reduced_summary;
 use crate::mechanism::{Mechanism, prescribed_parameter_names};
 use crate::method::Method;
 use crate::model::Model;
@@ -74,6 +73,30 @@ fn summary_with_contacts(method: Method, usual: String) -> String {
         }
         _ => usual,
     }
+}
+
+/// Describes the result of a method whose efforts are along the independent velocities, while other joints are
+/// actuated: one line of documentation.
+fn reduced_summary(method: Method) -> Option<String> {
+    let text = match method {
+        Method::InverseDynamics => {
+            "Efforts Sᵀ P along the independent velocities that produce the accelerations `a` (Kuzmin 2007, eq. 6)."
+        }
+        Method::ForwardDynamics => {
+            "Accelerations under the efforts `tau` along the independent velocities: M⁻¹(tau − bias)."
+        }
+        Method::Gravity => {
+            "Efforts along the independent velocities that hold the mechanism at rest."
+        }
+        Method::Bias => {
+            "Bias force: everything in the efforts along the independent velocities but M(q)·a."
+        }
+        Method::InverseDynamicsDerivatives => {
+            "Derivatives of the efforts along the independent velocities: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix."
+        }
+        _ => return None,
+    };
+    Some(text.into())
 }
 
 /// Describes a method's result: one line of documentation.

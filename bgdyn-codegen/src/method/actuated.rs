@@ -4,7 +4,7 @@ use super::Method;
 use crate::bond_graph::{ClosedTree, Site};
 
 /// The names of methods whose efforts are along the independent velocities, where other joints are actuated.
-pub(super) const REDUCED: [(Method, &str); 4] = [
+const REDUCED: [(Method, &str); 4] = [
     (Method::InverseDynamics, "reduced_inverse_dynamics"),
     (Method::ForwardDynamics, "reduced_forward_dynamics"),
     (
@@ -47,20 +47,25 @@ impl Method {
         let reduced = REDUCED.iter().find(|(method, _)| driven && *method == self);
         reduced.map_or_else(|| self.name(sites), |(_, name)| (*name).to_owned())
     }
-}
 
-/// Returns why a mechanism whose actuated joints are not the independent ones lacks the method with this name.
-pub(super) fn lacking(closed: &ClosedTree, name: &str) -> Option<String> {
-    let actuated = closed.closure.drives()?;
-    let (drives, mobility) = (actuated.joints.len(), closed.closure.independents.len());
-    match name {
-        "inverse_dynamics" => Some(format!(
-            "no `inverse_dynamics`: {drives} joints are actuated, and {mobility} velocities are independent, so that no efforts produce every acceleration; `reduced_inverse_dynamics` returns the efforts along the independent velocities"
-        )),
-        "joint_reactions" => Some(
-            "no `joint_reactions` with `actuated`: it returns the loads with drives at the independent joints; `reactions` returns those of the loops under the efforts of the actuated joints"
-                .into(),
-        ),
-        _ => None,
+    /// Returns the names of the methods whose efforts are along the independent velocities.
+    pub(super) fn reduced_names() -> impl Iterator<Item = String> {
+        REDUCED.iter().map(|(_, name)| (*name).to_owned())
+    }
+
+    /// Returns why a mechanism whose actuated joints are not the independent ones lacks the method with this name.
+    pub(super) fn lacking(closed: &ClosedTree, name: &str) -> Option<String> {
+        let actuated = closed.closure.drives()?;
+        let (drives, mobility) = (actuated.joints.len(), closed.closure.independents.len());
+        match name {
+            "inverse_dynamics" => Some(format!(
+                "no `inverse_dynamics`: {drives} joints are actuated, and {mobility} velocities are independent, so that no efforts produce every acceleration; `reduced_inverse_dynamics` returns the efforts along the independent velocities"
+            )),
+            "joint_reactions" => Some(
+                "no `joint_reactions` with `actuated`: it returns the loads with drives at the independent joints; `reactions` returns those of the loops under the efforts of the actuated joints"
+                    .into(),
+            ),
+            _ => None,
+        }
     }
 }

@@ -10,7 +10,6 @@ mod words;
 
 use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
-use actuated::{REDUCED, lacking};
 pub use argument::Argument;
 pub use scene_function::SceneFunction;
 pub use shape::Shape;
@@ -90,7 +89,7 @@ pub fn names() -> Vec<String> {
         .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
         .map(|method| method.name(&[]))
-        .chain(REDUCED.map(|(_, name)| name.to_owned()))
+        .chain(Method::reduced_names())
         .collect()
 }
 
@@ -206,7 +205,7 @@ impl Method {
         let own_name = |m: &Method| m.name_in(closed, sites);
         let found = possible.iter().find(|m| own_name(m) == name);
         found.copied().ok_or_else(|| {
-            if let Some(why) = closed.and_then(|closed| lacking(closed, name)) {
+            if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
                 return why;
             }
             let known: Vec<String> = possible.iter().map(own_name).collect();

@@ -2,7 +2,6 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Closure;
 use crate::mechanism::CoordinateId;
 
 /// The joints with drives of a mechanism with loops, in the order of the velocities of the open tree.
@@ -19,13 +18,5 @@ impl Actuated {
     /// the independent velocities A P.
     pub fn rows<T: Clone>(&self, map: &[Vec<T>]) -> Vec<Vec<T>> {
         self.joints.iter().map(|j| map[j.0].clone()).collect()
-    }
-}
-
-impl Closure {
-    /// Returns the joints with drives, if they are not the independent ones.
-    pub fn drives(&self) -> Option<&Actuated> {
-        let others = |of: &&Actuated| of.joints != self.independents;
-        self.actuated.as_ref().filter(others)
     }
 }

@@ -184,6 +184,12 @@ impl Closure {
         }
     }
 
+    /// Returns the joints with drives, if they are not the independent ones.
+    pub fn drives(&self) -> Option<&Actuated> {
+        let others = |of: &&Actuated| of.joints != self.independents;
+        self.actuated.as_ref().filter(others)
+    }
+
     /// Returns the name of a row: "rocker_pin x".
     pub fn row_name(&self, row: &LoopRow) -> String {
         format!("{} {}", self.loops[row.closes].name, row.name)
