@@ -11,6 +11,8 @@ pub struct Model {
     pub mechanism: Mechanism,
     /// Its bond graph.
     pub bond_graph: BondGraph,
+    /// Whether the module has `assemble`.
+    pub assembles: bool,
     /// One function per generated method.
     pub functions: Vec<Function>,
 }

@@ -16,6 +16,10 @@ const COMPACT: usize = 16;
 /// A name in [`Options::methods`] for all methods of the trait `Dynamics`.
 pub const DYNAMICS: &str = "dynamics";
 
+/// A name in [`Options::methods`] for the function that assembles positions of loops and wheels from anywhere, with
+/// the methods that it calls.
+pub const ASSEMBLE: &str = "assemble";
+
 /// Options of the generator. The defaults are every method of the trait `Dynamics`, the Coriolis matrix of
 /// mechanisms with up to 16 velocities, and the four methods of each named frame and tip.
 #[derive(Clone, Debug)]
@@ -31,7 +35,7 @@ pub struct Options {
     /// Whether to generate the canonical form of a scene, with the same condition.
     pub canonical: bool,
     /// The methods to generate, by name: `inverse_dynamics`, `pose_tool`; `dynamics` for all methods of
-    /// the trait `Dynamics`.
+    /// the trait `Dynamics`, `assemble` for positions of loops from anywhere.
     pub methods: Option<Vec<String>>,
     /// The links and frames with generated pose, velocity, Jacobian and J̇ v. `None`: no frame if methods
     /// are selected by name, else the named frames and the tips.
@@ -123,6 +127,12 @@ impl Options {
 }
 
 impl Options {
+    /// Returns whether the module has `assemble`: it is asked for by name, and some rows are conditions on positions.
+    pub fn assembles(&self, graph: &BondGraph) -> bool {
+        let mut names = self.methods.iter().flatten();
+        closes(graph) && names.any(|name| name == ASSEMBLE)
+    }
+
     /// Checks that the selected formulation serves the mechanism.
     ///
     /// # Errors
@@ -267,7 +277,21 @@ fn dynamics(graph: &BondGraph) -> Vec<Method> {
         .closed
         .iter()
         .flat_map(|closed| Method::of_closed(closed));
+    let actuated = graph
+        .closed
+        .iter()
+        .flat_map(|closed| Method::of_actuated(closed));
+    let of_loops = of_loops.chain(actuated);
     Method::OF_TRAIT.into_iter().chain(of_loops).collect()
+}
+
+/// The methods that assembly calls.
+const ASSEMBLING: [Method; 2] = [Method::ConstraintResidual, Method::ConstraintJacobian];
+
+/// Returns whether some rows of a mechanism are conditions on positions.
+fn closes(graph: &BondGraph) -> bool {
+    let closed = graph.closed.as_deref();
+    closed.is_some_and(|closed| !closed.closure.position_rows().is_empty())
 }
 
 fn methods(names: &[String], graph: &BondGraph, unknown: &mut Vec<UnknownName>) -> Vec<Method> {
@@ -275,6 +299,10 @@ fn methods(names: &[String], graph: &BondGraph, unknown: &mut Vec<UnknownName>) 
     for (index, name) in names.iter().enumerate() {
         if name == DYNAMICS {
             wanted.extend(dynamics(graph));
+            continue;
+        }
+        if name == ASSEMBLE && closes(graph) {
+            wanted.extend(ASSEMBLING);
             continue;
         }
         match Method::named(graph, name) {

@@ -15,6 +15,8 @@ pub enum Argument {
     V,
     /// Velocities `qd` of the open tree of a mechanism with loops.
     Qd,
+    /// Accelerations `a`.
+    A,
     /// Joint efforts `tau`.
     Tau,
     /// The `state` of a scene.
@@ -38,6 +40,7 @@ impl Argument {
             Argument::Q => "q",
             Argument::V => "v",
             Argument::Qd => "qd",
+            Argument::A => "a",
             Argument::Tau => "tau",
             Argument::State => "state",
             Argument::Input => "input",

@@ -1,6 +1,10 @@
 //! Newton's method for the dependent positions of kinematic loops, and ways along velocities that constraints allow.
 
+mod assembly;
+
 use nalgebra::SVector;
+
+pub use assembly::{BranchBlock, Conditions, Mechanism, assemble};
 
 use crate::{Scalar, StateVector};
 

@@ -35,6 +35,12 @@ pub enum Cause {
     /// The dependent joints of a kinematic loop, a wheel or a knife edge do not follow from the independent ones: the
     /// position is singular, on the other side of a singular one, or does not close.
     Loop,
+    /// A kinematic loop closes, but on another branch than that of the mechanism.
+    Branch,
+    /// The actuated joints of a mechanism with loops cannot produce every acceleration here: the matrix from their
+    /// efforts to those along the independent velocities is singular. The loops are regular, and forward dynamics
+    /// answers; [`Singular::name`] is the independent joint whose equation follows from others.
+    Actuators,
     /// An argument of the function is NaN or infinite.
     Argument {
         /// The argument.
@@ -47,11 +53,20 @@ pub enum Cause {
     NotFinite,
 }
 
+/// The indices of pivots of the matrix of the actuators begin here: a place among the names, plus this number, which is
+/// exact in lanes of `f32`.
+pub const ACTUATORS: usize = 1 << 16;
+
+/// The same for loops on another branch.
+pub(crate) const BRANCHES: usize = 2 * ACTUATORS;
+
 /// A [`Cause`] without its index: four bytes, so that `Option` and `Result` can use its unused values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Pivot,
     Loop,
+    Branch,
+    Actuators,
     NotFinite,
     Argument(Argument),
 }
@@ -61,6 +76,8 @@ impl Kind {
         match self {
             Kind::Pivot => Cause::Pivot,
             Kind::Loop => Cause::Loop,
+            Kind::Branch => Cause::Branch,
+            Kind::Actuators => Cause::Actuators,
             Kind::NotFinite => Cause::NotFinite,
             Kind::Argument(argument) => Cause::Argument { argument, index },
         }
@@ -74,11 +91,16 @@ impl Singular {
         Singular::of_kind(Kind::Pivot, joint, names)
     }
 
-    /// Returns the error of a refused pivot: that of one of `joints` joints, or of a loop after them.
+    /// Returns the error of a refused pivot: that of one of `joints` joints, of a loop after them, of the matrix of
+    /// the actuators from [`ACTUATORS`] on, of a loop on another branch from [`BRANCHES`] on.
     pub(crate) fn refused(pivot: usize, joints: usize, names: &'static [&'static str]) -> Self {
-        match pivot < joints {
-            true => Singular::of_kind(Kind::Pivot, pivot, names),
-            false => Singular::of_kind(Kind::Loop, pivot, names),
+        if let Some(place) = pivot.checked_sub(BRANCHES) {
+            return Singular::of_kind(Kind::Branch, place, names);
+        }
+        match pivot.checked_sub(ACTUATORS) {
+            Some(place) => Singular::of_kind(Kind::Actuators, place, names),
+            None if pivot < joints => Singular::of_kind(Kind::Pivot, pivot, names),
+            None => Singular::of_kind(Kind::Loop, pivot, names),
         }
     }
 
@@ -94,7 +116,7 @@ impl Singular {
     }
 
     /// Returns the index of the joint that failed, in the order of `JOINT_NAMES`; of a loop, in the order of
-    /// `PIVOT_NAMES`; if an argument is the cause, the index of its component.
+    /// `PIVOT_NAMES`; of the inverse dynamics of actuated joints, in the order of `ACTUATED_PIVOT_NAMES`; if an argument is the cause, the index of its component.
     pub const fn joint(&self) -> usize {
         self.index as usize
     }
@@ -118,7 +140,11 @@ impl Singular {
         components: &'static [&'static str],
         index: Option<usize>,
     ) {
-        if let (Some(index), Kind::Pivot | Kind::Loop | Kind::NotFinite) = (index, self.kind) {
+        if let (
+            Some(index),
+            Kind::Pivot | Kind::Loop | Kind::Branch | Kind::Actuators | Kind::NotFinite,
+        ) = (index, self.kind)
+        {
             *self = Singular::of_kind(Kind::Argument(argument), index, components);
         }
     }
@@ -132,7 +158,8 @@ impl fmt::Display for Singular {
                 f,
                 "singular mass matrix: joint `{name}` (number {joint}) has {cause}"
             ),
-            Cause::Loop => write!(f, "loop or constraint `{name}` {cause}"),
+            Cause::Loop | Cause::Branch => write!(f, "loop or constraint `{name}` {cause}"),
+            Cause::Actuators => write!(f, "no efforts of the actuated joints: `{name}` {cause}"),
             Cause::Argument {
                 argument: Argument::Time,
                 ..
@@ -157,6 +184,8 @@ impl fmt::Display for Cause {
         match *self {
             Cause::Pivot => f.write_str("no inertia left to accelerate"),
             Cause::Loop => f.write_str("is singular or does not close here"),
+            Cause::Branch => f.write_str("closes here on another branch only"),
+            Cause::Actuators => f.write_str("does not follow the actuated joints here"),
             Cause::Argument { argument, index } => write!(
                 f,
                 "component {index} of argument `{}` is NaN or infinite",

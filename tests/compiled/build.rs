@@ -82,7 +82,8 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::CheckedVector => "checked",
             Shape::CheckedSquares => "checked_matrices",
             Shape::Pose => "pose",
-            Shape::CheckedTree
+            Shape::CheckedActuated(_)
+            | Shape::CheckedTree
             | Shape::CheckedTreeAndRows
             | Shape::CheckedWrenches
             | Shape::LinkWrenches => unreachable!("these methods are generated on request only"),

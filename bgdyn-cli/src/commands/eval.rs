@@ -11,11 +11,12 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion};
 use bgdyn_codegen::method::{Argument, Method, Shape};
+use bgdyn_runtime::ACTUATORS;
 use serde_json::{Value, json};
 
 pub(crate) use self::arguments::Eval;
 
-use self::closed::{closed, singular_loop};
+use self::closed::{closed, not_actuated, singular_loop};
 use self::states::{Failure, finite, parameters, plain, singular, states};
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
@@ -44,7 +45,7 @@ impl Eval {
 
 fn field(argument: Argument) -> &'static str {
     match argument {
-        Argument::Tau | Argument::TreeTau => "tau_in",
+        Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => "tau_in",
         other => other.name(),
     }
 }
@@ -64,6 +65,7 @@ fn evaluate(
         true => &of_tree,
         false => &own,
     };
+    let drives = mechanism.actuated_names();
     let mut inputs = Inputs {
         parameters: parameters.to_vec(),
         ..Inputs::default()
@@ -71,25 +73,36 @@ fn evaluate(
     for &argument in function.method.arguments() {
         let values = match argument {
             // `tau` may be the effort of the state's own motion: `tau_in` has priority.
+            Argument::Q => positions(mechanism, state)?,
+            Argument::ActuatedTau => {
+                let given = state.get("tau_in").map_or("tau", |_| "tau_in");
+                vector(&drives, state, given)?
+            }
             Argument::Tau | Argument::TreeTau if state.get("tau_in").is_none() => {
                 vector(rates, state, "tau")?
             }
-            Argument::Q => positions(mechanism, state)?,
             _ => vector(rates, state, field(argument))?,
         };
         match argument {
             Argument::Q => inputs.q = values,
             Argument::V | Argument::TreeV => inputs.v = values,
             Argument::A => inputs.a = values,
-            Argument::Tau | Argument::TreeTau => inputs.u = values,
+            Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => inputs.u = values,
             _ => return Err(plain("only a scene's function has this argument".into())),
         }
     }
     let (values, refused) = function.evaluate::<f64>(inputs);
     if let Some(joint) = refused {
-        return Err(match joint.checked_sub(rates.len()) {
-            None => singular(&rates[joint]),
-            Some(closes) => singular_loop(mechanism.closure(), closes),
+        let results = match function.method {
+            Method::ActuatedInverse(number) => number,
+            _ => rates.len(),
+        };
+        let loops = mechanism.closure().map_or(0, |closure| closure.loops.len());
+        let of_actuators = joint.checked_sub(ACTUATORS + results + loops);
+        return Err(match (of_actuators, joint.checked_sub(results)) {
+            (Some(k), _) => not_actuated(&own[k]),
+            (None, None) => singular(&rates[joint]),
+            (None, Some(closes)) => singular_loop(mechanism.closure(), closes),
         });
     }
     if values.iter().any(|x| !x.is_finite()) {
@@ -193,6 +206,7 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
     match shape {
         Shape::Scalar => json!(values[0]),
         Shape::Vector | Shape::CheckedVector | Shape::Spatial | Shape::Drives(_) => json!(values),
+        Shape::CheckedActuated(_) => json!(values),
         Shape::Parts | Shape::CheckedParts => json!(values),
         Shape::Symmetric => {
             let entry = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];

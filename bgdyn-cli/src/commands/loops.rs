@@ -49,6 +49,9 @@ pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
         independent.join(", "),
         dependent.join(", ")
     ));
+    let actuated = mechanism.actuated_names().join(", ");
+    let line = format!("actuated: {actuated}");
+    lines.extend((!actuated.is_empty()).then_some(line));
     lines
 }
 
@@ -74,6 +77,7 @@ pub(super) fn model(mechanism: &Mechanism) -> Value {
         "loops": (0..closure.loops.len()).map(of_loop).collect::<Vec<_>>(),
         "independent": independent,
         "dependent": dependent,
+        "actuated": mechanism.actuated_names(),
     })
 }
 

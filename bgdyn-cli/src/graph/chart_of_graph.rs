@@ -20,7 +20,11 @@ impl Chart {
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
         let title = mechanism.label().unwrap_or(mechanism.name());
         let built = bond_graph::build(mechanism);
-        let driven = built.coordinates.iter().map(|c| c.name.clone()).collect();
+        let actuated = mechanism.actuated_names();
+        let driven = match actuated.as_slice() {
+            [] => built.coordinates.iter().map(|c| c.name.clone()).collect(),
+            _ => actuated.into_iter().collect(),
+        };
         let (graph, prescribed) = (built.of_all_joints(), mechanism.prescribed_names());
         let mut network = BondNetwork::of_mechanism(graph, driven);
         prescribed.iter().for_each(|joint| network.prescribe(joint));

@@ -84,6 +84,16 @@ pub fn mechanism() -> Value {
                 }),
             ),
             (
+                "actuated",
+                json!({
+                    "type": "array",
+                    "description": "joints with drives, of a mechanism with loops, wheels or knife edges; without it the independent joints",
+                    "items": identifier(),
+                    "minItems": 1,
+                    "uniqueItems": true,
+                }),
+            ),
+            (
                 "effects",
                 json!({
                     "type": "object",

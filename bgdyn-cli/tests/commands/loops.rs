@@ -191,3 +191,48 @@ fn eval_takes_velocities_of_the_tree_and_returns_loads() {
         "{said}"
     );
 }
+
+/// A five-bar with drives at its cranks, in the positions of a crank and its rod.
+#[test]
+fn actuated_joints_are_printed_drawn_and_evaluated() {
+    let spec = "tests/actuated/crank_and_rod.yaml";
+    let checked = bgdyn(&["check", spec]).good();
+    let line = "actuated: proximal1_angle, proximal2_angle";
+    assert!(checked.lines().any(|own| own == line), "{checked}");
+    let report: Value =
+        serde_json::from_str(&bgdyn(&["check", spec, "--json"]).good()).expect("JSON");
+    assert_eq!(
+        report["model"]["closure"]["actuated"],
+        json!(["proximal1_angle", "proximal2_angle"])
+    );
+    let drawn = bgdyn(&["graph", spec, "--format", "dot"]).good();
+    assert!(drawn.contains("Se: P₁") && drawn.contains("Se: P₃"));
+    assert!(!drawn.contains("Se: P₂"), "{drawn}");
+    // The rods in line with each other: the ends of the cranks are 0.7 m apart.
+    let angle = 0.8_f64.acos();
+    let pi = std::f64::consts::PI;
+    let q = [pi - angle, angle - pi, angle, pi - angle];
+    let states = |q: [f64; 4]| {
+        let state = json!({ "q": q, "v": [0.5, 0], "a": [1, 0], "tau_in": [2, -1] });
+        json!({ "states": [state] }).to_string()
+    };
+    let file = scratch("loops_actuated", "aligned.json", states(q));
+    let run = bgdyn(&["eval", spec, "inverse_dynamics", "--states", &file]);
+    let said = format!("{}{}", run.stdout, run.stderr);
+    assert!(
+        said.contains("`distal1_angle` does not follow the actuated joints"),
+        "{said}"
+    );
+    let value = |method: &str, file: &str| -> Value {
+        let run = bgdyn(&["eval", spec, method, "--states", file]).good();
+        serde_json::from_str(&run).expect("JSON")
+    };
+    let moved = value("forward_dynamics", &file);
+    assert_eq!(moved["results"][0].as_array().map(Vec::len), Some(2));
+    let closed = [2.0, -1.269858316944471, 1.1, 1.293970919622041];
+    let file = scratch("loops_actuated", "regular.json", states(closed));
+    for method in ["inverse_dynamics", "reduced_inverse_dynamics"] {
+        let efforts = value(method, &file);
+        assert_eq!(efforts["results"][0].as_array().map(Vec::len), Some(2));
+    }
+}

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::sample_states::{near_singular, random};
-use super::tree_states::{of_method, rounded};
+use super::tree_states::{of_method, rounded, takes_others};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -46,7 +46,7 @@ pub(crate) fn exact_results(ways: &[Function], graph: &BondGraph) -> Vec<ExactRe
     if ways.iter().any(|way| way.shape().checked()) {
         states.extend(near_singular(graph));
     }
-    let of_tree = ways.iter().find(|way| way.method.of_tree());
+    let of_tree = ways.iter().find(|way| takes_others(way.method));
     if let Some(way) = of_tree {
         let with_tree = |state| rounded(&of_method(graph, way.method, &in_double_double(&state)));
         states = states.into_iter().map(with_tree).collect();

@@ -6,13 +6,29 @@ use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::method::Method;
 
+/// Returns whether a method takes velocities of the open tree, or efforts of actuated joints.
+pub(crate) fn takes_others(method: Method) -> bool {
+    method.of_tree() || method.of_actuated_joints()
+}
+
 /// Returns the state with the velocities and efforts of all joints of the open tree, if the method takes these: the
-/// velocities S v, and for [`Method::ProjectVelocity`] others, at which the rows do not hold.
+/// velocities S v, and for [`Method::ProjectVelocity`] others, at which the rows do not hold; with
+/// efforts of the actuated joints, if the method takes these.
 pub(crate) fn of_method(graph: &BondGraph, method: Method, state: &Inputs<Dd>) -> Inputs<Dd> {
     let mut state = state.clone();
-    let Some(closed) = graph.closed.as_deref().filter(|_| method.of_tree()) else {
+    let Some(closed) = graph.closed.as_deref().filter(|_| takes_others(method)) else {
         return state;
     };
+    // Numbers of both signs, different from joint to joint.
+    let others = |of: &[Dd], j: usize| match of {
+        [] => Dd::ZERO,
+        _ => of[j % of.len()] * Dd::from_f64(0.7 - 0.3 * j as f64),
+    };
+    if !method.of_tree() {
+        let drives = closed.closure.drives().map_or(0, |own| own.joints.len());
+        state.u = (0..drives).map(|j| others(&state.u, j)).collect();
+        return state;
+    }
     let nt = closed.tree.coordinates.len();
     let row = |row: &Vec<Dd>| {
         let terms = row.iter().zip(&state.v);
@@ -20,11 +36,6 @@ pub(crate) fn of_method(graph: &BondGraph, method: Method, state: &Inputs<Dd>) -
     };
     let map = closed.closure.velocity_map(&state.q);
     let moved = map.map_or_else(|| vec![Dd::ZERO; nt], |map| map.iter().map(row).collect());
-    // Numbers of both signs, different from joint to joint.
-    let others = |of: &[Dd], j: usize| match of {
-        [] => Dd::ZERO,
-        _ => of[j % of.len()] * Dd::from_f64(0.7 - 0.3 * j as f64),
-    };
     let all = 0..nt;
     state.v = match method {
         Method::ProjectVelocity => all

@@ -167,6 +167,7 @@ pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
         let joints = match argument {
             Argument::Q => &naming.positions,
             Argument::TreeV | Argument::TreeTau => &naming.tree_joints,
+            Argument::ActuatedTau => &naming.actuated,
             _ => &naming.joints,
         };
         let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
@@ -210,6 +211,9 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
         Shape::CheckedVector => {
             let accelerations = vector(values);
             checked(method, &accelerations, &pivots)
+        }
+        Shape::CheckedActuated(_) => {
+            checked(method, &vector(values), &quote! { &ACTUATED_PIVOT_NAMES })
         }
         Shape::Symmetric => {
             let entry = |k: usize| {

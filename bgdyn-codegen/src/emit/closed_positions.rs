@@ -6,6 +6,7 @@ use bgdyn_runtime::Dd;
 use proc_macro2::TokenStream;
 use quote::quote;
 
+use super::actuated::{actuated_constants, actuated_docs};
 use super::constants::size;
 use super::reactions::reaction_constants;
 use super::tokens::number;
@@ -74,6 +75,7 @@ pub(super) fn tree_constants(
     });
     let [nt, nc, np] = [of_tree.len(), rows.len(), pivots.len()].map(size);
     let reactions = reaction_constants(closed, present);
+    let actuated = actuated_constants(closed, graph, present);
     let docs = [
         format!(" Number of rows of the {what}."),
         format!(" Names of the rows of the {what}: {row}."),
@@ -94,6 +96,7 @@ pub(super) fn tree_constants(
         #[doc = #of_pivots]
         pub const PIVOT_NAMES: [&str; #np] = [#(#pivots),*];
         #tree_pivots
+        #actuated
         #reactions
     }
 }
@@ -119,6 +122,7 @@ pub(super) fn row_docs(closed: &ClosedTree, what: &str) -> Vec<String> {
         ),
         format!(" Rows: {}.", rows(&closure.rows)),
     ];
+    docs.extend(actuated_docs(closed));
     if !closure.dropped.is_empty() {
         let dropped = rows(&closure.dropped);
         docs.push(format!(

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::actuated::actuated_names;
 use super::tokens::ident;
 use crate::expr::{Graph, Leaf, Node, NodeId, Signed, reachable};
 use crate::interface::SceneInterface;
@@ -55,7 +56,7 @@ pub(super) fn is_part(argument: Argument, leaf: Leaf) -> bool {
         Argument::Accelerations => matches!(leaf, Leaf::Acceleration(_)),
         Argument::Time => leaf == Leaf::Time,
         Argument::Q | Argument::V | Argument::A | Argument::Tau => false,
-        Argument::TreeV | Argument::TreeTau => false,
+        Argument::TreeV | Argument::TreeTau | Argument::ActuatedTau => false,
         Argument::Canonical | Argument::Modes => false,
     }
 }
@@ -68,6 +69,8 @@ pub(super) struct Naming<'a> {
     pub(super) joints: Vec<&'a str>,
     /// Coordinates of the open tree of a mechanism with loops.
     pub(super) tree_joints: Vec<&'a str>,
+    /// The actuated joints of a mechanism with loops, where they are not the independent ones.
+    pub(super) actuated: Vec<&'a str>,
     /// Run-time parameters.
     pub(super) parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
@@ -86,6 +89,7 @@ impl<'a> Naming<'a> {
         let of_tree = closed.flat_map(|closed| &closed.tree.coordinates);
         Naming {
             tree_joints: of_tree.map(|c| c.name.as_str()).collect(),
+            actuated: (model.bond_graph.closed.as_deref()).map_or_else(Vec::new, actuated_names),
             positions: positions.map(|p| p.name.as_str()).collect(),
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: parameters.map(|p| p.name.as_str()).collect(),
@@ -107,6 +111,7 @@ impl<'a> Naming<'a> {
                 .collect(),
             joints,
             tree_joints: Vec::new(),
+            actuated: Vec::new(),
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(&scene.layout),
             plain,
@@ -130,6 +135,7 @@ impl<'a> Naming<'a> {
             (Argument::Tau, _) => of_joints(Leaf::Input),
             (Argument::TreeV, _) => named(&self.tree_joints, Leaf::Velocity),
             (Argument::TreeTau, _) => named(&self.tree_joints, Leaf::Input),
+            (Argument::ActuatedTau, _) => named(&self.actuated, Leaf::Input),
             (Argument::Canonical, Some(layout)) => {
                 let names = layout.coordinates.iter().map(|c| &c.name).enumerate();
                 let places = layout.positions.iter().map(|p| &p.name).enumerate();

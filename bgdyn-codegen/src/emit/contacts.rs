@@ -73,7 +73,7 @@ fn closing_constants(closed: &ClosedTree, graph: &Multibody, constraints: &[&str
 }
 
 /// Returns the types of positions, and of velocities of the open tree.
-fn argument_types() -> [TokenStream; 2] {
+pub(super) fn argument_types() -> [TokenStream; 2] {
     [
         quote! { &__na::SVector<T, NQ> },
         quote! { &__na::SVector<T, NT> },
@@ -81,7 +81,7 @@ fn argument_types() -> [TokenStream; 2] {
 }
 
 /// Returns the position after constant velocities `moved` of the open tree.
-fn tree_integration(closed: &ClosedTree) -> TokenStream {
+pub(super) fn tree_integration(closed: &ClosedTree) -> TokenStream {
     let [q, moved] = argument_types();
     let arguments = [("q", &q, true), ("moved", &moved, false)];
     joint_by_joint(&segments(&closed.tree), "integrate", &arguments, true)

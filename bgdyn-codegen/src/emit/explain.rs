@@ -58,6 +58,8 @@ fn name(method: Method) -> &'static str {
         Method::Scene(SceneFunction::CanonicalRates) => "explain_canonical_rates",
         Method::ConstrainedDynamics => "explain_tree",
         Method::ProjectVelocity => "explain_velocities",
+        Method::ActuatedInverse(_) => "explain_inverse",
+        Method::ActuatedForward(_) | Method::ActuatedReactions(_) => "explain_actuated",
         _ => "explain",
     }
 }
@@ -91,6 +93,12 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
                 quote! { #name.as_slice() },
             )
         }
+        Argument::ActuatedTau => look(
+            quote! { Tau },
+            quote! { &ACTUATED },
+            quote! { #name.as_slice() },
+        ),
+        Argument::A => look(quote! { A }, joints, quote! { #name.as_slice() }),
         Argument::State => {
             let state = look(
                 quote! { State },
@@ -112,8 +120,8 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
         Argument::Input | Argument::Modes => quote! {},
         Argument::Canonical => look(quote! { Canonical }, states, quote! { #name.as_slice() }),
         Argument::Time => look(quote! { Time }, quote! { &["t"] }, quote! { &[t] }),
-        Argument::A | Argument::Accelerations => {
-            unreachable!("nothing that takes accelerations is checked")
+        Argument::Accelerations => {
+            unreachable!("nothing of a scene that takes accelerations is checked")
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The emitter: converts a model to the tokens of a Rust module, without knowledge of physics.
 
+mod actuated;
+mod assembly;
 mod base_access;
 mod body;
 mod closed_positions;

@@ -3,6 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
+use super::actuated::inverse_docs;
 use super::base_access::base_access;
 use super::joint_access::joint_access;
 use super::legend::legend;
@@ -10,7 +11,7 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs, summary_of};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{body, closure, code, constants, entries, explain, joint_segments, traits};
+use super::{assembly, body, closure, code, constants, entries, explain, joint_segments, traits};
 use crate::bond_graph::{LinkFrame, PositionVariable};
 use crate::function::Function;
 use crate::mechanism::Motion;
@@ -46,6 +47,9 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let loops = model.bond_graph.closed.as_deref();
     let loops = loops.map(|closed| closure::closure_access(closed, &model.bond_graph, &present));
     let (loop_constants, loop_functions) = loops.unzip();
+    let assembly = model.bond_graph.closed.as_deref();
+    let assembly = assembly.filter(|_| model.assembles).map(assembly::assembly);
+    let (conditions, assemble) = assembly.unzip();
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*
@@ -65,12 +69,14 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             #constants
             #ranges
             #loop_constants
+            #conditions
             #structure
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
                 #poses
                 #base
                 #loop_functions
+                #assemble
                 #explainers
             }
             #traits
@@ -203,6 +209,10 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
     ];
     let closed = model.bond_graph.closed.as_deref();
     docs.splice(1..1, reaction_docs(method, closed));
+    let inverse = matches!(method, Method::ActuatedInverse(_));
+    if inverse {
+        docs.splice(1..1, inverse_docs(closed));
+    }
     let unread = body::unread(function, model);
     if !unread.is_empty() {
         docs.extend([
@@ -210,13 +220,22 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
             format!(" Does not read: {}.", unread.join(", ")),
         ]);
     }
-    if function.shape().checked() {
+    if inverse {
+        docs.extend([
+            String::new(),
+            " # Errors".into(),
+            " Names the independent joint that does not follow the actuated joints, where their matrix A is singular,".into(),
+            " with the cause `Actuators`; or the argument that is NaN or infinite.".into(),
+        ]);
+    } else if function.shape().checked() {
         docs.extend([
             String::new(),
             " # Errors".into(),
             " Names the joint whose pivot vanishes where the mass matrix is singular, or the argument".into(),
             " that is NaN or infinite.".into(),
         ]);
+    }
+    if function.shape().checked() {
         let slips = closed.is_some_and(|closed| closed.closure.nonholonomic());
         if slips {
             docs.push(" Names the constraint at a singular position, and beyond one.".into());

@@ -48,6 +48,7 @@ pub(super) fn prescribed_docs(mechanism: &Mechanism) -> Vec<String> {
 pub(super) fn joint_list(method: Method) -> &'static str {
     match method {
         Method::DriveEfforts(_) => "PRESCRIBED_NAMES",
+        Method::ActuatedInverse(_) => "ACTUATED",
         method if method.of_tree() => "TREE_JOINT_NAMES",
         _ => "JOINT_NAMES",
     }
@@ -74,10 +75,38 @@ fn summary_with_contacts(method: Method, usual: String) -> String {
     }
 }
 
+/// Describes the result of a method whose efforts are along the independent velocities, while other joints are
+/// actuated: one line of documentation.
+fn reduced_summary(method: Method) -> Option<String> {
+    let text = match method {
+        Method::InverseDynamics => {
+            "Efforts Sᵀ P along the independent velocities that produce the accelerations `a` (Kuzmin 2007, eq. 6)."
+        }
+        Method::ForwardDynamics => {
+            "Accelerations under the efforts `tau` along the independent velocities: M⁻¹(tau − bias)."
+        }
+        Method::Gravity => {
+            "Efforts along the independent velocities that hold the mechanism at rest."
+        }
+        Method::Bias => {
+            "Bias force: everything in the efforts along the independent velocities but M(q)·a."
+        }
+        Method::InverseDynamicsDerivatives => {
+            "Derivatives of the efforts along the independent velocities: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix."
+        }
+        _ => return None,
+    };
+    Some(text.into())
+}
+
 /// Describes a method's result: one line of documentation.
 pub(super) fn summary_of(method: Method, model: &Model) -> String {
     let usual = method.summary(&model.bond_graph.sites);
     let closed = model.bond_graph.closed.as_deref();
+    let drives = closed.and_then(|closed| closed.closure.drives());
+    if let Some(reduced) = drives.and_then(|_| reduced_summary(method)) {
+        return reduced;
+    }
     if closed.is_some_and(|closed| closed.closure.nonholonomic()) {
         return summary_with_contacts(method, usual);
     }

@@ -16,7 +16,10 @@ use crate::method::Method;
 
 /// Whether a method returns loads of loops or contacts.
 fn has_loads(method: &Method) -> bool {
-    matches!(method, Method::Reactions | Method::JointReactions)
+    matches!(
+        method,
+        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
+    )
 }
 
 /// Returns the constants of the reactions, if a method returns some.
@@ -103,7 +106,7 @@ fn components(of: Vec3<Dd>) -> TokenStream {
 pub(super) fn reaction_docs(method: Method, closed: Option<&ClosedTree>) -> Vec<String> {
     let mut docs: Vec<&str> = Vec::new();
     match method {
-        Method::Reactions => docs.extend([
+        Method::Reactions | Method::ActuatedReactions(_) => docs.extend([
             "",
             " Of a loop: what the link of place a exerts on that of place b, the moment about the origin of place b, in the",
             " axes of the link of place a; the world's if that is the world. The opposite acts on the link of place a. Of a",

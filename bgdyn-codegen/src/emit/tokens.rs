@@ -86,6 +86,7 @@ pub(super) fn argument_type(argument: Argument) -> TokenStream {
         Argument::Q => quote! { &__na::SVector<T, NQ> },
         Argument::V | Argument::A | Argument::Tau => quote! { &__na::SVector<T, NV> },
         Argument::TreeV | Argument::TreeTau => quote! { &__na::SVector<T, NT> },
+        Argument::ActuatedTau => quote! { &__na::SVector<T, NA> },
         Argument::State => quote! { &State<T> },
         Argument::Input => quote! { &Input<T> },
         Argument::Accelerations => quote! { &Coordinates<T> },
@@ -102,6 +103,9 @@ pub(super) fn return_type(shape: Shape) -> TokenStream {
         Shape::Vector => quote! { __na::SVector<T, NV> },
         Shape::CheckedVector => {
             quote! { ::core::result::Result<__na::SVector<T, NV>, T::Singular<NV>> }
+        }
+        Shape::CheckedActuated(_) => {
+            quote! { ::core::result::Result<__na::SVector<T, NA>, T::Singular<NA>> }
         }
         Shape::Symmetric | Shape::Square => quote! { __na::SMatrix<T, NV, NV> },
         Shape::SquarePair => quote! { [__na::SMatrix<T, NV, NV>; 2] },

@@ -81,13 +81,13 @@ impl Traits<'_> {
     }
 
     fn delegate(&self, method: Method) -> TokenStream {
-        let own = ident(&method.name(self.sites));
+        let own = ident(&method.name_in(self.closed, self.sites));
         let name = match method {
             Method::Pose(_) => ident("pose"),
             Method::Velocity(_) => ident("velocity"),
             Method::Jacobian(_) => ident("jacobian_world"),
             Method::JacobianDotV(_) => ident("jacobian_dot_v_world"),
-            _ => own.clone(),
+            _ => ident(&method.name(self.sites)),
         };
         let arguments = method.arguments();
         let names: Vec<_> = arguments.iter().map(|a| ident(a.name())).collect();

@@ -1,5 +1,6 @@
 //! All messages about specs and scenes, one function for each fault.
 
+mod actuated;
 mod checking;
 mod constraints;
 mod contacts;
@@ -19,6 +20,7 @@ use bgdyn_runtime::Digits;
 
 pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
+pub(crate) use actuated::*;
 pub(crate) use checking::*;
 pub(crate) use constraints::*;
 pub(crate) use contacts::*;

@@ -36,6 +36,8 @@ pub struct Spec {
     pub loops: Field<Vec<LoopSpec>>,
     /// Joints that follow no others, although constraints or loops contain them.
     pub independent: Field<Vec<Located<String>>>,
+    /// Joints with drives, of a mechanism with loops; absent: the independent ones.
+    pub actuated: Field<Vec<Located<String>>>,
     /// The effects besides the links, by name, not parsed.
     pub effects: Field<Vec<Raw>>,
 }

@@ -37,6 +37,7 @@ impl Reader {
             "planes",
             "loops",
             "independent",
+            "actuated",
             "effects",
         ];
         let map = self.mapping(at, expected::SPEC, &keys)?;
@@ -79,7 +80,10 @@ impl Reader {
                 Some(all.iter().filter_map(|at| r.closing(at)).collect())
             }),
             independent: self.field(&map, "independent", |r, at| {
-                r.names_list(at, expected::INDEPENDENT)
+                r.names_list(at, expected::LISTED_JOINTS)
+            }),
+            actuated: self.field(&map, "actuated", |r, at| {
+                r.names_list(at, expected::LISTED_JOINTS)
             }),
             effects: self.field(&map, "effects", |r, at| r.table(at, expected::EFFECTS)),
             location: map.location,

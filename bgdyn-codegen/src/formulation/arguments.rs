@@ -48,6 +48,15 @@ impl<'g> Arguments<'g> {
         let kinematic = method.site().is_some()
             || matches!(method, Method::KineticEnergy | Method::ProjectVelocity);
         let turning = graph.velocity_products || kinematic;
+        let efforts = match method {
+            Method::ActuatedForward(number) | Method::ActuatedReactions(number) => {
+                read_all(number, true, Leaf::Input)
+            }
+            _ => read(
+                takes(Argument::Tau) || takes(Argument::TreeTau),
+                Leaf::Input,
+            ),
+        };
         Arguments {
             q: read_all(graph.positions.len(), true, Leaf::Position),
             v: read(
@@ -55,10 +64,7 @@ impl<'g> Arguments<'g> {
                 Leaf::Velocity,
             ),
             a: read(takes(Argument::A), Leaf::Acceleration),
-            tau: read(
-                takes(Argument::Tau) || takes(Argument::TreeTau),
-                Leaf::Input,
-            ),
+            tau: efforts,
             active: true,
             base: graph
                 .base

@@ -198,6 +198,12 @@ fn pivot(
     }
 }
 
+/// Returns the largest size of an expression at positions of the tree.
+pub(super) fn largest_at(b: &Builder, value: Expr<'_>, samples: &[Vec<Dd>]) -> f64 {
+    let sizes = samples.iter().map(|q| at(b, &[value.signed()], q)[0].abs());
+    sizes.fold(0.0, f64::max)
+}
+
 /// Returns the values of expressions at a position of the tree.
 fn at(b: &Builder, outputs: &[Signed], q: &[Dd]) -> Vec<f64> {
     let inputs = Inputs {

@@ -2,6 +2,7 @@
 
 use std::rc::Rc;
 
+use super::actuators::{actuator_efforts, on_tree};
 use crate::bond_graph::ClosedTree;
 use crate::expr::{Builder, Expr, Leaf, Signed, Tangent, copy_into};
 use crate::formulation::arguments::Arguments;
@@ -28,11 +29,14 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
     match method {
         Method::InverseDynamics | Method::Bias => vec![Method::InverseDynamics],
         Method::MassMatrix | Method::Gravity => vec![method],
-        Method::ForwardDynamics => vec![Method::InverseDynamics, Method::MassMatrix],
+        Method::ActuatedInverse(_) => vec![Method::InverseDynamics],
+        Method::ForwardDynamics | Method::ActuatedForward(_) => {
+            vec![Method::InverseDynamics, Method::MassMatrix]
+        }
         Method::KineticEnergy | Method::PotentialEnergy => vec![method],
         Method::CoriolisMatrix => vec![method, Method::MassMatrix],
         Method::Multipliers => vec![Method::InverseDynamics],
-        Method::ConstrainedDynamics | Method::Reactions => {
+        Method::ConstrainedDynamics | Method::Reactions | Method::ActuatedReactions(_) => {
             vec![Method::InverseDynamics, Method::MassMatrix]
         }
         Method::ProjectVelocity => vec![Method::MassMatrix],
@@ -101,7 +105,12 @@ pub(super) fn compose<'g>(
             map.efforts(&tree.efforts(method, x)?)
         }
         Method::MassMatrix => entries(&tree.mass_matrix(b)?.reduced),
-        Method::ForwardDynamics => tree.accelerated(x, None)?.independent,
+        Method::ForwardDynamics => tree.accelerated(x, Efforts::Independent)?.independent,
+        Method::ActuatedForward(_) => tree.accelerated(x, Efforts::Actuated(closed))?.independent,
+        Method::ActuatedInverse(_) => {
+            let efforts = map.efforts(&tree.efforts(Method::InverseDynamics, x)?);
+            actuator_efforts(b, closed, &map.map, efforts)?
+        }
         Method::KineticEnergy | Method::PotentialEnergy => tree.read(method, None)?,
         Method::CoriolisMatrix => tree.coriolis_matrix(closed)?,
         Method::Pose(_) | Method::Velocity(_) => tree.read(method, None)?,
@@ -124,18 +133,24 @@ pub(super) fn compose<'g>(
         Method::ConstraintBias => motion.bias.clone(),
         Method::ConstrainedDynamics => {
             let joints: Vec<usize> = closed.closure.independents.iter().map(|j| j.0).collect();
-            let moved = tree.accelerated(x, Some(&joints))?;
-            let lacking = moved.lacking.iter().zip(&x.tau);
-            let lacking: Vec<Expr<'g>> = lacking.map(|(&f, &tau)| f - tau).collect();
+            let moved = tree.accelerated(x, Efforts::OfTree(&joints))?;
+            let lacking = minus(&moved.lacking, &x.tau);
             let mut all = motion.accelerations(&moved.independent);
             all.extend(map.multipliers(&lacking));
             all
         }
         Method::ProjectVelocity => map.velocities(&tree.nearest(closed)?),
         Method::Reactions => {
-            let moved = tree.accelerated(x, None)?;
+            let moved = tree.accelerated(x, Efforts::Independent)?;
             let mut all = moved.independent;
             all.extend(map.multipliers(&moved.lacking));
+            all
+        }
+        Method::ActuatedReactions(_) => {
+            let moved = tree.accelerated(x, Efforts::Actuated(closed))?;
+            let driven = on_tree(b, closed, &x.tau)?;
+            let mut all = moved.independent;
+            all.extend(map.multipliers(&minus(&moved.lacking, &driven)));
             all
         }
         Method::JointReactions => {
@@ -154,6 +169,16 @@ struct ReducedMass<'g> {
     moved: Vec<Vec<Expr<'g>>>,
     /// The lower triangle of Sᵀ M S.
     reduced: Vec<Vec<Expr<'g>>>,
+}
+
+/// The joints on which the efforts `tau` act.
+enum Efforts<'x> {
+    /// The independent ones.
+    Independent,
+    /// All joints of the open tree, of which the independent ones have these numbers.
+    OfTree(&'x [usize]),
+    /// The actuated ones.
+    Actuated(&'x ClosedTree),
 }
 
 /// The motion under efforts.
@@ -226,22 +251,19 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
         })
     }
 
-    /// Returns the motion under the efforts `x.tau`: those of the independent velocities, or those on all joints of
-    /// the tree if the independent ones have the numbers `joints` among them.
-    fn accelerated(&self, x: &Arguments<'g>, joints: Option<&[usize]>) -> Option<Accelerated<'g>> {
+    /// Returns the motion under the efforts `x.tau` on these joints.
+    fn accelerated(&self, x: &Arguments<'g>, of: Efforts<'_>) -> Option<Accelerated<'g>> {
         let (b, map) = (self.b, &self.motion.map);
         let bias = self.efforts(Method::Bias, x)?;
-        let minus = |x: &[Expr<'g>], y: &[Expr<'g>]| -> Vec<Expr<'g>> {
-            x.iter().zip(y).map(|(&x, &y)| x - y).collect()
-        };
-        let drive = match joints {
-            None => minus(&x.tau, &map.efforts(&bias)),
-            Some(_) => map.efforts(&minus(&x.tau, &bias)),
+        let drive = match &of {
+            Efforts::Independent => minus(&x.tau, &map.efforts(&bias)),
+            Efforts::OfTree(_) => map.efforts(&minus(&x.tau, &bias)),
+            Efforts::Actuated(closed) => map.efforts(&minus(&on_tree(b, closed, &x.tau)?, &bias)),
         };
         let mass = self.mass_matrix(b)?;
-        let independent = match joints {
-            None => solve::ltdl(b, mass.reduced, drive),
-            Some(joints) => solve::ltdl_of(b, mass.reduced, drive, joints),
+        let independent = match of {
+            Efforts::OfTree(joints) => solve::ltdl_of(b, mass.reduced, drive, joints),
+            _ => solve::ltdl(b, mass.reduced, drive),
         };
         let lacking = bias.iter().zip(&mass.moved).map(|(&h, row)| {
             let terms = row.iter().zip(&independent);
@@ -292,6 +314,11 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
         };
         Some((0..n * n).map(|at| entry(at / n, at % n)).collect())
     }
+}
+
+/// Returns x − y.
+fn minus<'g>(x: &[Expr<'g>], y: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    x.iter().zip(y).map(|(&x, &y)| x - y).collect()
 }
 
 /// Returns the product of a matrix, row by row, with one that has `n` columns, row by row.

@@ -5,6 +5,7 @@
 //! method, and creates the function. `choice/` chooses among the functions, by cost and by the errors that
 //! `conditioning/` measures; formulations depend on neither.
 
+mod actuators;
 mod arguments;
 mod closing_loads;
 mod definition;

@@ -20,6 +20,17 @@ pub struct DependentVelocity {
 }
 
 impl Mechanism {
+    /// Returns the names of the actuated joints of a mechanism with loops, in the order of the open tree; none if its
+    /// file names none.
+    pub fn actuated_names(&self) -> Vec<String> {
+        let Some(actuated) = self.closure().and_then(|closure| closure.actuated.as_ref()) else {
+            return Vec::new();
+        };
+        let of_tree = self.open().joint_names();
+        let joints = actuated.joints.iter();
+        joints.map(|j| of_tree[j.0].clone()).collect()
+    }
+
     /// Returns the velocities that follow from others, in the order of the open tree.
     pub fn dependent_velocities(&self) -> Vec<DependentVelocity> {
         let Some(closure) = self.closure() else {

@@ -107,6 +107,8 @@ impl<'a> LockedTree<'a> {
             }
             independent => *independent = Field::Absent,
         }
+        // Scenes act through the joints that they name, and a locked joint has no drive.
+        spec.actuated = Field::Absent;
         let loops = self.of.closure().map_or(&[][..], |closure| &closure.loops);
         let moves = |step: &ChainStep| {
             step.motion != Motion::None && self.still.iter().all(|(link, _)| *link != step.link)

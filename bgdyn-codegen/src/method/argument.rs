@@ -15,6 +15,8 @@ pub enum Argument {
     TreeV,
     /// Efforts on the joints of the open tree: N·m, N.
     TreeTau,
+    /// Efforts of the actuated joints, where these are not the independent ones: N·m, N.
+    ActuatedTau,
     /// State of a scene.
     State,
     /// Inputs of a scene.
@@ -36,7 +38,7 @@ impl Argument {
             Argument::Q => "q",
             Argument::V => "v",
             Argument::A => "a",
-            Argument::Tau | Argument::TreeTau => "tau",
+            Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => "tau",
             Argument::TreeV => "qd",
             Argument::State => "state",
             Argument::Input => "input",

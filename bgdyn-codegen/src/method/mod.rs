@@ -2,6 +2,7 @@
 //!
 //! The formulations, the emitter and the command line use them.
 
+mod actuated;
 mod argument;
 mod scene_function;
 mod shape;
@@ -70,6 +71,13 @@ pub enum Method {
     Reactions,
     /// Forces and moments at the joints of the tree of links.
     JointReactions,
+    /// The efforts of the actuated joints that produce accelerations, where these are not the independent joints;
+    /// their number.
+    ActuatedInverse(usize),
+    /// Accelerations under efforts of the actuated joints.
+    ActuatedForward(usize),
+    /// Forces and moments at the closing places and contacts under efforts of the actuated joints.
+    ActuatedReactions(usize),
     /// A function of a scene.
     Scene(SceneFunction),
 }
@@ -81,6 +89,7 @@ pub fn names() -> Vec<String> {
         .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
         .map(|method| method.name(&[]))
+        .chain(Method::reduced_names())
         .collect()
 }
 
@@ -160,6 +169,12 @@ impl Method {
         if let Some(closed) = &graph.closed {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
+            if let Some(actuated) = closed.closure.drives() {
+                // Its loads are those with drives at the independent joints.
+                all.retain(|m| !matches!(m, Method::Reactions | Method::JointReactions));
+                all.extend(Method::of_actuated(closed));
+                all.push(Method::ActuatedReactions(actuated.joints.len()));
+            }
         }
         all
     }
@@ -186,9 +201,14 @@ impl Method {
     /// A sentence with the nearest name, or with all names.
     pub fn named(graph: &BondGraph, name: &str) -> Result<Method, String> {
         let (possible, sites) = (Method::possible_of(graph), &graph.sites);
-        let found = possible.iter().find(|m| m.name(sites) == name);
+        let closed = graph.closed.as_deref();
+        let own_name = |m: &Method| m.name_in(closed, sites);
+        let found = possible.iter().find(|m| own_name(m) == name);
         found.copied().ok_or_else(|| {
-            let known: Vec<String> = possible.iter().map(|m| m.name(sites)).collect();
+            if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
+                return why;
+            }
+            let known: Vec<String> = possible.iter().map(own_name).collect();
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
             let own = &known[..possible.iter().filter(|m| m.site().is_none()).count()];
             let places: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
@@ -221,11 +241,11 @@ impl Method {
     pub fn name(self, sites: &[Site]) -> String {
         let site = |prefix: &str, site: SiteId| format!("{prefix}_{}", sites[site.0].name);
         match self {
-            Method::InverseDynamics => "inverse_dynamics".into(),
+            Method::InverseDynamics | Method::ActuatedInverse(_) => "inverse_dynamics".into(),
             Method::MassMatrix => "mass_matrix".into(),
             Method::Bias => "bias".into(),
             Method::Gravity => "gravity".into(),
-            Method::ForwardDynamics => "forward_dynamics".into(),
+            Method::ForwardDynamics | Method::ActuatedForward(_) => "forward_dynamics".into(),
             Method::KineticEnergy => "kinetic_energy".into(),
             Method::PotentialEnergy => "potential_energy".into(),
             Method::CoriolisMatrix => "coriolis_matrix".into(),
@@ -246,7 +266,7 @@ impl Method {
             Method::ConstraintBias => "constraint_bias".into(),
             Method::ConstrainedDynamics => "constrained_dynamics".into(),
             Method::ProjectVelocity => "project_velocity".into(),
-            Method::Reactions => "reactions".into(),
+            Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
             Method::JointReactions => "joint_reactions".into(),
             Method::Scene(role) => role.name().into(),
         }
@@ -254,10 +274,11 @@ impl Method {
 
     /// Returns its arguments.
     pub fn arguments(self) -> &'static [Argument] {
-        use Argument::{A, Q, Tau, TreeTau, TreeV, V};
+        use Argument::{A, ActuatedTau, Q, Tau, TreeTau, TreeV, V};
         match self {
             Method::InverseDynamics
             | Method::InverseDynamicsDerivatives
+            | Method::ActuatedInverse(_)
             | Method::DriveEfforts(_) => &[Q, V, A],
             Method::MassMatrix | Method::Gravity | Method::PotentialEnergy => &[Q],
             Method::Pose(_) | Method::Jacobian(_) => &[Q],
@@ -269,6 +290,7 @@ impl Method {
             Method::TreeAcceleration | Method::Multipliers | Method::JointReactions => &[Q, V, A],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
             Method::Reactions => &[Q, V, Tau],
+            Method::ActuatedForward(_) | Method::ActuatedReactions(_) => &[Q, V, ActuatedTau],
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
             Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
             Method::Scene(SceneFunction::Inverse) => &[
@@ -302,7 +324,8 @@ impl Method {
     pub fn shape(self) -> Shape {
         match self {
             Method::InverseDynamics | Method::Bias | Method::Gravity => Shape::Vector,
-            Method::ForwardDynamics => Shape::CheckedVector,
+            Method::ForwardDynamics | Method::ActuatedForward(_) => Shape::CheckedVector,
+            Method::ActuatedInverse(number) => Shape::CheckedActuated(number),
             Method::MassMatrix => Shape::Symmetric,
             Method::KineticEnergy | Method::PotentialEnergy => Shape::Scalar,
             Method::CoriolisMatrix => Shape::Square,
@@ -320,7 +343,7 @@ impl Method {
             Method::ConstraintJacobian => Shape::RowMatrix,
             Method::ConstrainedDynamics => Shape::CheckedTreeAndRows,
             Method::ProjectVelocity => Shape::CheckedTree,
-            Method::Reactions => Shape::CheckedWrenches,
+            Method::Reactions | Method::ActuatedReactions(_) => Shape::CheckedWrenches,
             Method::JointReactions => Shape::LinkWrenches,
             Method::Scene(
                 SceneFunction::Energy

@@ -9,6 +9,8 @@ pub enum Shape {
     Vector,
     /// NV numbers, or an error with a joint.
     CheckedVector,
+    /// As many numbers as the mechanism has actuated joints, or an error with a joint or a loop.
+    CheckedActuated(usize),
     /// A symmetric NV × NV matrix; the expressions are its lower triangle, row by row.
     Symmetric,
     /// An NV × NV matrix, row by row.
@@ -66,6 +68,7 @@ impl Shape {
             Shape::CheckedTree | Shape::CheckedTreeAndRows => 0,
             Shape::CheckedWrenches | Shape::LinkWrenches => 0,
             Shape::Drives(np) => np,
+            Shape::CheckedActuated(na) => na,
             Shape::Parts | Shape::CheckedParts => 0,
         }
     }
@@ -75,6 +78,7 @@ impl Shape {
         matches!(
             self,
             Shape::CheckedVector
+                | Shape::CheckedActuated(_)
                 | Shape::CheckedSquares
                 | Shape::CheckedTree
                 | Shape::CheckedTreeAndRows

@@ -86,6 +86,18 @@ impl Method {
                 "Force and moment on each link from its parent through its joint, about the link's origin, in link axes, at the accelerations `a`; links as in [`LINK_NAMES`]."
                     .into()
             }
+            Method::ActuatedInverse(_) => {
+                "Efforts of the actuated joints that produce the accelerations `a`, as in [`ACTUATED`]: A P = Sᵀ (6)."
+                    .into()
+            }
+            Method::ActuatedForward(_) => {
+                "Accelerations under the efforts `tau` of the actuated joints, as in [`ACTUATED`]: (Sᵀ M S)⁻¹ (A tau − bias)."
+                    .into()
+            }
+            Method::ActuatedReactions(_) => {
+                "Forces and moments at the places where loops close and wheels touch, under the efforts `tau` of the actuated joints, as in [`REACTION_NAMES`]."
+                    .into()
+            }
             Method::Scene(role) => role.summary().into(),
         }
     }
@@ -93,11 +105,15 @@ impl Method {
     /// Returns the units of the result.
     pub fn units(self) -> &'static str {
         match self {
-            Method::InverseDynamics | Method::Bias | Method::Gravity | Method::DriveEfforts(_) => {
-                "N·m for a rotation, N for a translation"
-            }
+            Method::InverseDynamics
+            | Method::ActuatedInverse(_)
+            | Method::Bias
+            | Method::Gravity
+            | Method::DriveEfforts(_) => "N·m for a rotation, N for a translation",
             Method::MassMatrix => "kg·m² between rotations, kg·m mixed, kg between translations",
-            Method::ForwardDynamics => "rad/s² for a rotation, m/s² for a translation",
+            Method::ForwardDynamics | Method::ActuatedForward(_) => {
+                "rad/s² for a rotation, m/s² for a translation"
+            }
             Method::KineticEnergy | Method::PotentialEnergy => "J",
             Method::CoriolisMatrix => "efforts per rad/s or m/s",
             Method::InverseDynamicsDerivatives => "efforts per rad or m, and per rad/s or m/s",
@@ -118,7 +134,7 @@ impl Method {
             Method::ConstraintBias => "m/s², rad/s²",
             Method::ConstrainedDynamics => "rad/s², m/s²; N, N·m",
             Method::ProjectVelocity => "rad/s, m/s",
-            Method::Reactions | Method::JointReactions => "N, N·m",
+            Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions => "N, N·m",
             Method::Scene(_) => "as its parts say",
         }
     }

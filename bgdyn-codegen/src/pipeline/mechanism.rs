@@ -58,9 +58,10 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     let chosen = methods
         .into_iter()
         .filter_map(|method| prefer(&choice, method, options.prefer));
-    let functions = chosen.collect();
+    let functions = chosen.map(|f| named(f, &bond_graph)).collect();
     drop(choice);
     Ok(Model {
+        assembles: options.assembles(&bond_graph),
         mechanism,
         bond_graph,
         functions,
@@ -72,9 +73,14 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
 pub fn function(mechanism: &Mechanism, method: Method, options: &Options) -> Option<Function> {
     let graph = bond_graph::build(mechanism);
     options.check_formulation(&graph).ok()?;
-    prefer(
-        &Choice::new(&graph, options.formulation),
-        method,
-        options.prefer,
-    )
+    let choice = Choice::new(&graph, options.formulation);
+    prefer(&choice, method, options.prefer).map(|function| named(function, &graph))
+}
+
+/// Returns the function with its name in the module of this mechanism.
+fn named(function: Function, graph: &bond_graph::BondGraph) -> Function {
+    let name = function
+        .method
+        .name_in(graph.closed.as_deref(), &graph.sites);
+    Function { name, ..function }
 }

@@ -5,9 +5,10 @@ use std::cell::OnceCell;
 use bgdyn_runtime::Dd;
 
 use super::Difference;
+use super::actuated;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
 use super::dual::{Direction, along, rates, with_rates};
-use super::open_tree;
+use super::open_tree::{self, TreeLaw};
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::tree_states::of_method;
@@ -200,18 +201,23 @@ impl Subject<'_> {
             method if method.of_tree() => 0.0,
             _ => state.size,
         };
+        let sides = |laws: Vec<TreeLaw>, allowed: f64| -> Vec<Sides> {
+            let laws = laws.into_iter();
+            laws.map(|(text, found, expected, size)| {
+                Sides::new(text, allowed, found, expected).sized(size)
+            })
+            .collect()
+        };
+        let form = |method| self.literal.form(method);
         let laws = match (&graph.closed, self.function.method) {
             (Some(closed), method) if method.of_tree() => {
-                let form = |method| self.literal.form(method);
-                let laws = open_tree::laws(closed, method, form, (at, found)).into_iter();
-                let allowed = match method {
-                    Method::ConstraintBias => EXACT,
-                    _ => SOLVED,
-                };
-                laws.map(|(text, found, expected, size)| {
-                    Sides::new(text, allowed, found, expected).sized(size)
-                })
-                .collect()
+                let laws = open_tree::laws(closed, method, form, (at, found));
+                let exact = method == Method::ConstraintBias;
+                sides(laws, if exact { EXACT } else { SOLVED })
+            }
+            (Some(closed), method) if method.of_actuated_joints() => {
+                let laws = actuated::laws(closed, method, form, (at, found));
+                sides(laws.unwrap_or_default(), SOLVED)
             }
             _ => self.laws(state, found),
         };

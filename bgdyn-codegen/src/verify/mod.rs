@@ -6,6 +6,7 @@
 //! follow from it: M x = P(q, 0, x) − P(q, 0, 0), P(q, v, q̈) = τ for the accelerations of forward
 //! dynamics, derivatives from P in dual numbers. The states are the same in every run.
 
+mod actuated;
 mod compare;
 mod dual;
 mod mechanism;

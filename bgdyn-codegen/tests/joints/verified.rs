@@ -28,6 +28,7 @@ fn whole(text: &str, way: Way) -> Model {
         .into_iter()
         .map(|m| (*robot.function(way, m)).clone());
     Model {
+        assembles: false,
         functions: functions.collect(),
         bond_graph: (*robot.graph).clone(),
         mechanism: robot.mechanism,

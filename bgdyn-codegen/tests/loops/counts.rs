@@ -3,6 +3,7 @@
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::method::{Method, SceneFunction};
 
+use super::actuated::parallel_robots;
 use super::references::{file, spec};
 use super::robot::Robot;
 
@@ -78,4 +79,39 @@ fn rates_of_scenes_share_the_velocity_map_with_forward_dynamics() {
         let found = [derivative.mul, derivative.add, derivative.div];
         assert_eq!(found, counts, "{name}");
     }
+}
+
+/// Inverse and forward dynamics of the drives of parallel robots, in the positions of their platforms.
+#[test]
+fn the_page_has_the_counts_of_actuated_joints() {
+    let page = file(["docs", "loops.md"]);
+    let mut missing = Vec::new();
+    for (name, text, _) in parallel_robots() {
+        let robot = Robot::read(&text);
+        let closed = robot.graph.closed.as_deref().expect("loops");
+        let [inverse, forward] = Method::of_actuated(closed)[..] else {
+            panic!("{name}: enough joints");
+        };
+        let words = |method| {
+            let o = robot.function(None, method).operations();
+            match o.sqrt {
+                0 => format!("{} / {} + {}÷", o.mul, o.add, o.div),
+                roots => format!("{} / {} + {}÷ + {roots}√", o.mul, o.add, o.div),
+            }
+        };
+        let title = match name {
+            "delta_robot" => "Delta robot, platform independent, arms actuated",
+            _ => "Stewart platform, platform independent, legs actuated",
+        };
+        let counts = [Method::InverseDynamics, inverse, forward].map(words);
+        let row = format!("| {title} | {} |", counts.join(" | "));
+        if !page.contains(&row) {
+            missing.push(row);
+        }
+    }
+    assert!(
+        missing.is_empty(),
+        "docs/loops.md has no rows\n{}",
+        missing.join("\n")
+    );
 }

@@ -254,3 +254,57 @@ fn nothing_left_to_move() {
     assert_eq!(faults.0[0].rule, "nothing-left-to-move", "{shown}");
     assert!(shown.contains("3 rows for 3 velocities"), "{shown}");
 }
+
+#[test]
+fn actuated_joints() {
+    let listed = |list: &str, rule: &str, path: &str, words: &[&str]| {
+        refused(HINGE, &format!("actuated: {list}\n"), rule, path, words);
+    };
+    listed(
+        "[q1, q9]",
+        "unknown-name",
+        "actuated[1]",
+        &["`q9`", "did you mean"],
+    );
+    listed(
+        "[elbow_of_the_arm]",
+        "unknown-name",
+        "actuated[0]",
+        &["`q1`, `q2`, `q3`"],
+    );
+    listed("[q1, q1]", "actuated-twice", "actuated[1]", &["`q1`"]);
+    listed("[]", "actuated-empty", "actuated", &["leave the key out"]);
+    // The ball moves in three directions, and the linkage in one: the linkage has two drives.
+    listed(
+        "[q1, q3, ball_joint_rx, ball_joint_ry]",
+        "actuated-do-not-determine",
+        "actuated",
+        &["`q1`, `q3`", "3 of 4", "follow", "reduced_inverse_dynamics"],
+    );
+    let text = format!("{LINKS}actuated: [q1]\n");
+    refused_text(
+        &text,
+        "actuated-without-loops",
+        "actuated",
+        &["leave it out"],
+    );
+    let fixed = LINKS.replace(
+        "frames:",
+        "  - { name: cap, parent: rocker, joint: { name: cap_joint, type: fixed }, mass: 1 }
+  - { name: wheel, joint: { name: wheel_joint, type: continuous, axis: z, mimic: { joint: q1, ratio: 2 } }, mass: 1 }
+frames:",
+    );
+    let text = |list: &str| format!("{fixed}loops:\n  - {HINGE}\nactuated: {list}\n");
+    refused_text(
+        &text("[cap_joint]"),
+        "actuated-without-motion",
+        "actuated[0]",
+        &["`cap_joint`", "does not move"],
+    );
+    refused_text(
+        &text("[wheel_joint]"),
+        "actuated-follower",
+        "actuated[0]",
+        &["`wheel_joint`", "`q1`"],
+    );
+}

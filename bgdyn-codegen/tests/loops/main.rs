@@ -17,6 +17,8 @@ mod turned_signs;
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod findings;
 
+mod actuated;
+mod actuated_positions;
 mod counts;
 mod drawn;
 mod faults;

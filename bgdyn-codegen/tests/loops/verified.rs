@@ -7,6 +7,7 @@ use bgdyn_codegen::pipeline::{model, verify};
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::explain;
 
+use super::actuated::actuated;
 use super::references::spec;
 use super::robot::{Robot, Way};
 use super::turned_signs::assert_turned_signs_are_refused;
@@ -155,4 +156,73 @@ fn the_most_accurate_functions_are_accepted() {
     let model = model(mechanism, &most_accurate).expect("a model");
     assert_eq!(model.functions.len(), usual.functions.len());
     assert_eq!(verify(&model, &most_accurate), Ok(()));
+}
+
+/// Actuated joints other than the independent ones: as many, more with limits, fewer.
+#[test]
+fn methods_of_actuated_joints_are_accepted_and_turned_signs_refused() {
+    let cranks = ["proximal1_angle", "proximal2_angle"];
+    let rods = ["distal1_angle", "distal2_angle"];
+    let three = ["proximal1_angle", "distal1_angle", "distal2_angle"];
+    let names = |drives: &[&str]| {
+        let both = [
+            "inverse_dynamics",
+            "forward_dynamics",
+            "reduced_inverse_dynamics",
+            "reactions",
+        ];
+        let few = drives.len() < 2;
+        let all = both
+            .into_iter()
+            .filter(|name| !few || *name != "inverse_dynamics");
+        all.map(String::from).collect::<Vec<String>>()
+    };
+    for drives in [&rods[..], &three[..], &rods[..1]] {
+        let text = actuated("five_bar", &cranks, drives);
+        for way in [None, Some("recursion"), Some("subspaces"), Some("literal")] {
+            let model = whole(&text, way);
+            assert_eq!(verify(&model, &options(way)), Ok(()), "{drives:?}, {way:?}");
+            let named = |name: &str| model.functions.iter().any(|f| f.name == name);
+            assert_eq!(named("inverse_dynamics"), drives.len() > 1);
+            for name in [
+                "forward_dynamics",
+                "reduced_inverse_dynamics",
+                "reduced_forward_dynamics",
+                "reduced_inverse_dynamics_derivatives",
+            ] {
+                assert!(named(name), "{name}");
+            }
+        }
+        let asked = Options {
+            methods: Some(names(drives)),
+            ..Options::default()
+        };
+        let model = model(Robot::read(&text).mechanism, &asked).expect("a model");
+        assert_eq!(model.functions.len(), names(drives).len());
+        assert_eq!(verify(&model, &asked), Ok(()));
+        assert_turned_signs_are_refused("five_bar", &model);
+    }
+}
+
+#[test]
+fn methods_that_actuated_joints_exclude_are_named_with_a_way_out() {
+    let text = actuated(
+        "five_bar",
+        &["proximal1_angle", "proximal2_angle"],
+        &["distal1_angle"],
+    );
+    for (name, words) in [
+        ("inverse_dynamics", "reduced_inverse_dynamics"),
+        ("joint_reactions", "`reactions`"),
+    ] {
+        let asked = Options {
+            methods: Some(vec![name.into()]),
+            ..Options::default()
+        };
+        let refused = model(Robot::read(&text).mechanism, &asked)
+            .err()
+            .expect(name);
+        assert_eq!(refused.len(), 1);
+        assert!(refused[0].message.contains(words), "{}", refused[0]);
+    }
 }

@@ -17,6 +17,16 @@ pub(super) fn singular_loop(closure: Option<&Closure>, closes: usize) -> Failure
     ))
 }
 
+/// Returns the failure where the actuated joints do not determine this independent joint.
+pub(super) fn not_actuated(name: &str) -> Failure {
+    Failure {
+        joint: Some(name.to_owned()),
+        message: format!(
+            "no efforts of the actuated joints: `{name}` does not follow the actuated joints here"
+        ),
+    }
+}
+
 /// Returns positions with the dependent ones changed so that the loops close. Loops that are open by more than
 /// [`OPEN`] are refused.
 pub(super) fn closed(closure: &Closure, q: &[f64]) -> Result<Vec<f64>, Failure> {

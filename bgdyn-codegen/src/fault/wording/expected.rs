@@ -20,7 +20,7 @@ pub(crate) const LOOPS: Wanted<'static> = (
     "a list of loops",
     "each loop after a dash: `- { name: …, type: hinge, … }`",
 );
-pub(crate) const INDEPENDENT: Wanted<'static> = ("a list of joints", "`[crank, wrist]`");
+pub(crate) const LISTED_JOINTS: Wanted<'static> = ("a list of joints", "`[crank, wrist]`");
 pub(crate) const EFFECTS: Wanted<'static> = ("effects by name", "`name: { type: viscous, … }`");
 pub(crate) const LINK: Wanted<'static> = ("a link", "`- name: …` and its other keys below");
 pub(crate) const JOINT: Wanted<'static> = ("a joint", "`{ name: …, type: revolute, axis: z }`");

@@ -75,11 +75,14 @@ pub(super) fn outputs<'g>(
     let rows = closure.rows.iter();
     let conditions: Vec<Expr<'g>> = rows.map(|row| places.condition(row)).collect();
     let mut outputs = compose(b, closed, method, (&x, &motion), (&read, &conditions))?;
-    if !matches!(method, Method::Reactions | Method::JointReactions) {
+    if !matches!(
+        method,
+        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
+    ) {
         return Some(outputs);
     }
     let lambda = outputs.split_off(outputs.len() - closure.rows.len());
-    if method == Method::Reactions {
+    if method != Method::JointReactions {
         outputs.extend(places.reactions(&lambda));
         return Some(outputs);
     }

@@ -6,6 +6,8 @@
 
 use std::rc::Rc;
 
+use bgdyn_runtime::ACTUATORS;
+
 use super::arguments::Arguments;
 use super::closing_loads::{add_to_joints, reactions};
 use super::loop_methods::{LoopMotion, compose, reads};
@@ -75,6 +77,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::ConstraintBias
             | Method::ConstrainedDynamics
             | Method::Reactions
+            | Method::ActuatedReactions(_)
             | Method::JointReactions
     );
     let reversible = !in_axes_of_a && loops.clone().any(|one| one.reversible);
@@ -130,7 +133,7 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
         let of_tree = method.of_tree();
         let own: &Multibody = if of_tree { &closed.tree } else { graph };
         let x = Arguments::new(&b, own, method);
-        let first = method.shape().checked().then_some(own.coordinates.len());
+        let first = first_pivot(closed, own, method);
         let motion = loop_motion(&b, closed, (&x, method), (form, first));
         early = motion.early_pivots();
         let residuals = loop_residuals(&b, &closed.closure, &x.q);
@@ -150,6 +153,16 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
     Some((function, early))
 }
 
+/// Returns the index of the first pivot of the loops, after those of the results, if pivots are checked.
+fn first_pivot(closed: &ClosedTree, own: &Multibody, method: Method) -> FirstPivot {
+    let results = match method {
+        Method::ActuatedInverse(number) => number,
+        _ => own.coordinates.len(),
+    };
+    debug_assert!(results < ACTUATORS && closed.closure.loops.len() < ACTUATORS);
+    method.shape().checked().then_some(results)
+}
+
 /// Returns the results of [`compose`] with loads in place of the multipliers at their end, for reactions.
 fn with_loads<'g>(
     b: &'g Builder,
@@ -157,13 +170,18 @@ fn with_loads<'g>(
     (method, q): (Method, &[Expr<'g>]),
     mut outputs: Vec<Expr<'g>>,
 ) -> Vec<Expr<'g>> {
-    if !matches!(method, Method::Reactions | Method::JointReactions) {
+    if !matches!(
+        method,
+        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
+    ) {
         return outputs;
     }
     let closure = &closed.closure;
     let lambda = outputs.split_off(outputs.len() - closure.rows.len());
     match method {
-        Method::Reactions => outputs.extend(reactions(b, closure, (q, &lambda))),
+        Method::Reactions | Method::ActuatedReactions(_) => {
+            outputs.extend(reactions(b, closure, (q, &lambda)));
+        }
         _ => add_to_joints(b, closed, (q, &lambda), &mut outputs),
     }
     outputs

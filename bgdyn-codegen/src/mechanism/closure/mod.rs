@@ -11,6 +11,7 @@
 //!
 //! | file | has |
 //! |---|---|
+//! | `actuated.rs` | the joints with drives |
 //! | `chain.rs` | the joints of a loop in series, and the motion from place to place |
 //! | `row.rs` | rows of loops: value, rate, second derivative |
 //! | `contact_shape.rs`, `contact_types.rs` | what touches a plane, as data; its words in a file |
@@ -23,6 +24,7 @@
 //! | `reach.rs` | closed positions and velocities with given ones |
 //! | `solve.rs` | linear equations |
 
+mod actuated;
 mod chain;
 mod closing;
 mod contact;
@@ -42,6 +44,7 @@ use bgdyn_runtime::Dd;
 use super::{CoordinateId, LinkId, PositionId};
 use crate::fault::Location;
 use crate::math::Vec3;
+pub use actuated::Actuated;
 pub use chain::{ChainFrames, ChainStep, LoopChain, RelativePlace, RelativeRates, TwistPoint};
 pub use closing::{CLOSING_TYPES, ClosingType};
 pub use contact_shape::{
@@ -164,6 +167,8 @@ pub struct Closure {
     pub start: Vec<Dd>,
     /// Closed positions at random, on the branch of the start.
     pub samples: Vec<Vec<Dd>>,
+    /// The joints with drives, if the file names them; otherwise the independent ones have drives.
+    pub actuated: Option<Actuated>,
     /// For each block, whether the determinant of its columns is positive at the start: it changes its sign at
     /// singular positions only, so that it tells the branch.
     pub signs: Vec<bool>,
@@ -182,6 +187,12 @@ impl Closure {
             0.0 => 1.0,
             size => size,
         }
+    }
+
+    /// Returns the joints with drives, if they are not the independent ones.
+    pub fn drives(&self) -> Option<&Actuated> {
+        let others = |of: &&Actuated| of.joints != self.independents;
+        self.actuated.as_ref().filter(others)
     }
 
     /// Returns the name of a row: "rocker_pin x".

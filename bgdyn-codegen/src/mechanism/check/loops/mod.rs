@@ -11,7 +11,9 @@
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
 //! 6. `blocks.rs`: the order in which blocks of rows are solved.
+//! 7. `actuated.rs`: the joints with drives.
 
+mod actuated;
 mod allowed;
 mod assembly;
 mod axes;
@@ -58,6 +60,7 @@ pub(super) fn close(
         return None;
     }
     if read.is_empty() {
+        actuated::refuse_without_loops(spec, faults);
         return Some(());
     }
     let mut closure = unsolved(mechanism, &read);
@@ -84,6 +87,7 @@ pub(super) fn close(
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
     closure.samples = samples::sample(&closure);
+    closure.actuated = actuated::read(&closure, (spec, mechanism), faults);
     closure.along_planes = along_planes(&closure, (spec, mechanism)).map(Box::new);
     mechanism.close(closure);
     Some(())
@@ -139,6 +143,7 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
         constants: Vec::new(),
         of_plane: false,
         along_planes: None,
+        actuated: None,
         start: neutral(mechanism),
         samples: Vec::new(),
         signs: Vec::new(),
