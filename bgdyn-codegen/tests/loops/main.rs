@@ -17,6 +17,7 @@ mod turned_signs;
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod findings;
 
+mod closed_form;
 mod counts;
 mod drawn;
 mod faults;
