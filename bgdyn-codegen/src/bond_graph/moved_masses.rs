@@ -5,6 +5,8 @@
 //! μ is chosen such that the first moment of a link, about its other pin, has no component along the line of its pins:
 //! it is then μ = m c·p / p·p.
 
+use std::cmp::Reverse;
+
 use bgdyn_runtime::Dd;
 
 use super::build::add_fixed_body;
@@ -24,17 +26,20 @@ pub fn with_moved_masses(tree: &BondGraph, closure: &Closure) -> Option<BondGrap
             one.links[1].map(|link| (link, one.chain.end.translation)),
         ];
         let [Some(a), Some(b)] = places else { continue };
-        let from = |graph: &BondGraph| {
-            let dependent = |link: LinkId| {
-                let own = &graph.frames[link.0].degrees.velocities;
-                own.iter().any(|j| closure.dependents().any(|d| d == *j))
-            };
-            let mass = |(link, place)| movable(graph, link, place).filter(|_| dependent(link));
-            let of_a = mass(a).map(|mu| (mu, a, b));
-            of_a.or_else(|| mass(b).map(|mu| (mu, b, a)))
+        let dependent = |graph: &BondGraph, link: LinkId| {
+            let own = &graph.frames[link.0].degrees.velocities;
+            own.iter().any(|j| closure.dependents().any(|d| d == *j))
+        };
+        let best = |graph: &BondGraph| {
+            let ways = [(a, b), (b, a)].into_iter().filter_map(|(from, to)| {
+                let (mass, left) = movable(graph, from.0, from.1)?;
+                dependent(graph, from.0).then_some((mass, left, from, to))
+            });
+            // The link whose first moment vanishes; then the one that more joints carry.
+            ways.min_by_key(|(_, left, (from, _), _)| (*left, Reverse(depth(graph, *from))))
         };
         let graph = moved.as_ref().unwrap_or(tree);
-        if let Some((mass, from, to)) = from(graph) {
+        if let Some((mass, _, from, to)) = best(graph) {
             let graph = moved.get_or_insert_with(|| tree.clone());
             add_point(graph, from, -mass);
             add_point(graph, to, mass);
@@ -44,9 +49,9 @@ pub fn with_moved_masses(tree: &BondGraph, closure: &Closure) -> Option<BondGrap
 }
 
 /// Returns the mass at a place of a link with which the first moment about its origin has no component along the line
-/// from there to the place; `None` if the link turns about no pin, or its mass is a run-time parameter, or it carries
+/// from there to the place, and whether a component across it is left; `None` if the link turns about no pin, or its mass is a run-time parameter, or it carries
 /// other links.
-fn movable(graph: &BondGraph, link: LinkId, place: Vec3<Dd>) -> Option<Dd> {
+fn movable(graph: &BondGraph, link: LinkId, place: Vec3<Dd>) -> Option<(Dd, bool)> {
     let frame = &graph.frames[link.0];
     let carries = graph.frames.iter().any(|other| other.parent == Some(link));
     let inertial = graph.inertial(link);
@@ -66,7 +71,15 @@ fn movable(graph: &BondGraph, link: LinkId, place: Vec3<Dd>) -> Option<Dd> {
     let across = |v: Vec3<Dd>| v - frame.axis.scale(v.dot(frame.axis));
     let (line, com) = (across(place), across(Vec3(com)));
     let mu = mass * com.dot(line) / line.dot(line);
-    (line.dot(line).to_f64() > 1e-18 && mu != Dd::ZERO).then_some(mu)
+    let left = com.cross(line).dot(com.cross(line)).to_f64();
+    let left = left > 1e-40 * (com.dot(com) * line.dot(line)).to_f64();
+    (line.dot(line).to_f64() > 1e-18 && mu != Dd::ZERO).then_some((mu, left))
+}
+
+/// Returns the number of links that carry a link.
+fn depth(graph: &BondGraph, link: LinkId) -> usize {
+    let next = |link: &LinkId| graph.frames[link.0].parent;
+    std::iter::successors(Some(link), next).count()
 }
 
 /// Adds a point mass, which may be negative, as a link without joint.

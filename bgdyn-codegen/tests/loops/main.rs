@@ -25,6 +25,7 @@ mod frame_rows;
 mod locks;
 mod multipliers;
 mod open_tree;
+mod random_dyads;
 mod random_loops;
 mod rank;
 mod reactions;

@@ -33,6 +33,9 @@ use crate::mechanism::closure::{Closure, Polygon, polygons};
 use crate::method::Method;
 use crate::passes::factor;
 
+/// The largest number of angles of known arcs with whose axes polygons are tried.
+const MOST_AXES: usize = 2;
+
 /// Planar loops in closed form, on functions chosen for the open tree.
 pub(super) struct ClosedLoops;
 
@@ -40,10 +43,19 @@ pub(super) struct ClosedLoops;
 #[derive(Clone, Copy, Debug)]
 struct ClosedForm {
     by_cosine: bool,
-    /// Sᵀ f by the forces of the closing pins, without the matrix S.
-    by_vectors: bool,
-    /// With functions of the tree in which masses are moved.
-    moved: bool,
+    axes: usize,
+    style: MapStyle,
+}
+
+/// How velocities and efforts are mapped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum MapStyle {
+    /// S u and Sᵀ f by the derivatives of the known arcs and the forces on their ends, without the matrix S.
+    Vectors,
+    /// By the columns of S.
+    Columns,
+    /// By the column of S for a single independent velocity u: z is u² times that for u = 1.
+    Unit,
 }
 
 impl Formulation for ClosedLoops {
@@ -95,13 +107,20 @@ impl Formulation for ClosedLoops {
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let closed = prepared.graph.closed.as_deref()?;
         let polygons = polygons(&closed.closure)?;
-        let both = [false, true];
-        let forms = both.iter().flat_map(|&by_cosine| {
-            both.iter().flat_map(move |&by_vectors| {
-                both.map(|moved| ClosedForm {
+        let angles = polygons.iter().map(|one| one.known.len()).max();
+        let axes = 0..=angles.unwrap_or(0).min(MOST_AXES);
+        let single = prepared.graph.coordinates.len() == 1;
+        let styles = [MapStyle::Vectors, MapStyle::Columns, MapStyle::Unit];
+        let styles = styles
+            .iter()
+            .filter(|style| single || **style != MapStyle::Unit);
+        let forms = styles.flat_map(|&style| {
+            let axes = axes.clone();
+            axes.flat_map(move |axes| {
+                [false, true].map(|by_cosine| ClosedForm {
                     by_cosine,
-                    by_vectors,
-                    moved,
+                    axes,
+                    style,
                 })
             })
         });
@@ -121,9 +140,9 @@ fn function(
     form: ClosedForm,
 ) -> Option<Function> {
     let graph = prepared.graph;
-    let read = |method: Method| match form.moved {
-        true => prepared.moved_tree_function(method),
-        false => prepared.tree_function(method),
+    let read = |method: Method| {
+        let moved = prepared.moved_tree_function(method);
+        moved.or_else(|| prepared.tree_function(method))
     };
     let first = *ClosedLoops.reads_of_tree(method).first()?;
     let from: Vec<Rc<Function>> = (ClosedLoops.reads_of_tree(method).into_iter())
@@ -138,6 +157,7 @@ fn function(
         let first_pivot = method.shape().checked().then_some(graph.coordinates.len());
         let positions = PositionForm {
             by_cosine: form.by_cosine,
+            axes: form.axes,
             angles: &angles,
             first_pivot,
         };
@@ -145,7 +165,7 @@ fn function(
             at: ClosedPositions::new(&b, (closure, polygons), &x.q, positions),
             closure,
             read: &read,
-            by_vectors: form.by_vectors,
+            style: form.style,
         };
         let outputs = motion.outputs(method, &x)?;
         outputs.into_iter().map(Expr::signed).collect()
@@ -158,10 +178,9 @@ fn function(
             && matches!(built.node(NodeId::at(i)), Node::Leaf(Leaf::Position(p)) if sums.depends(*p))
     });
     let of_tree = read(first)?.formulation.clone();
-    let moved = if form.moved {
-        ", masses across pins"
-    } else {
-        ""
+    let moved = match prepared.moved_tree_function(first) {
+        Some(_) => ", masses across pins",
+        None => "",
     };
     let name = format!("{of_tree}; loops in closed form{moved}");
     (!reads_dependent).then(|| Function::flat(graph, method, name, built, outputs))
@@ -172,7 +191,7 @@ struct ClosedMotion<'a, 'g, R> {
     at: ClosedPositions<'a, 'g>,
     closure: &'a Closure,
     read: R,
-    by_vectors: bool,
+    style: MapStyle,
 }
 
 impl<'g, R: Fn(Method) -> Option<Rc<Function>>> ClosedMotion<'_, 'g, R> {
@@ -190,16 +209,16 @@ impl<'g, R: Fn(Method) -> Option<Rc<Function>>> ClosedMotion<'_, 'g, R> {
     }
 
     fn outputs(&self, method: Method, x: &Arguments<'g>) -> Option<Vec<Expr<'g>>> {
-        let rates = self.at.rates(self.own(&x.v));
+        let rates = self.rates(&x.v);
         Some(match method {
             Method::InverseDynamics | Method::Bias => {
-                let moved = self.at.accelerations(&rates, self.own(&x.a));
+                let moved = self.accelerations(&rates, x);
                 self.reduced(&self.tree(Method::InverseDynamics, &rates, Some(&moved))?)
             }
             Method::Gravity => self.reduced(&self.tree(method, &rates, None)?),
             Method::MassMatrix => self.mass_matrix(&rates)?.into_iter().flatten().collect(),
             Method::ForwardDynamics => {
-                let z = self.at.accelerations(&rates, self.own(&[]));
+                let z = self.accelerations(&rates, x);
                 let bias = self.tree(Method::InverseDynamics, &rates, Some(&z))?;
                 let bias = self.reduced(&bias);
                 let drive = x.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
@@ -208,6 +227,40 @@ impl<'g, R: Fn(Method) -> Option<Rc<Function>>> ClosedMotion<'_, 'g, R> {
             Method::KineticEnergy | Method::PotentialEnergy => self.tree(method, &rates, None)?,
             _ => return None,
         })
+    }
+
+    /// Returns the rates of all joints for those of the independent ones.
+    fn rates(&self, u: &[Expr<'g>]) -> JointRates<'g> {
+        match self.style {
+            MapStyle::Vectors => self.at.rates(self.own(u)),
+            _ => self.combined(u),
+        }
+    }
+
+    /// Returns S u̇ + z.
+    fn accelerations(&self, rates: &JointRates<'g>, x: &Arguments<'g>) -> JointRates<'g> {
+        if self.style != MapStyle::Unit {
+            return self.at.accelerations(rates, self.own(&x.a));
+        }
+        let mut sum = self.combined(&x.a);
+        let per = self.at.accelerations(&self.columns()[0], self.own(&[]));
+        let square = x.v[0] * x.v[0];
+        for (sum, per) in sum.unknown.iter_mut().zip(per.unknown) {
+            *sum = *sum + square * per;
+        }
+        sum
+    }
+
+    /// Returns the columns of S times these numbers.
+    fn combined(&self, u: &[Expr<'g>]) -> JointRates<'g> {
+        let mut sum = self.at.still(self.closure.positions.len());
+        sum.own = self.own(u);
+        for (column, &u) in self.columns().iter().zip(u) {
+            for (sum, s) in sum.unknown.iter_mut().zip(&column.unknown) {
+                *sum = *sum + *s * u;
+            }
+        }
+        sum
     }
 
     /// Returns the results of a method of the tree; without accelerations they are zero.
@@ -270,7 +323,7 @@ impl<'g, R: Fn(Method) -> Option<Rc<Function>>> ClosedMotion<'_, 'g, R> {
     fn reduced(&self, f: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let gathered = self.at.gathered(f);
         let independents = self.closure.independents.iter();
-        if self.by_vectors {
+        if self.style == MapStyle::Vectors {
             let own = self.at.transposed(gathered);
             return independents.map(|i| own[i.0]).collect();
         }

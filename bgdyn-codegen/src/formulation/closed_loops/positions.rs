@@ -26,6 +26,9 @@ use crate::mechanism::closure::{
 pub(super) struct PositionForm<'s> {
     /// L² of an arm on the link that carries the loop by the law of cosines.
     pub by_cosine: bool,
+    /// The axes in which the vectors of a polygon are written: 0 for the link that carries the loop, k for those that
+    /// turn with the k-th angle of its known arc, if there are so many.
+    pub axes: usize,
     /// Sums of angles of the open tree's functions: their constants are used for the angles of links as well.
     pub angles: &'s [AngleSum],
     /// With checks of pivots: the index of the first loop's.
@@ -68,7 +71,9 @@ pub(super) struct ClosedPositions<'a, 'g> {
     pub sums: JointSums,
     form: PositionForm<'a>,
     q: Vec<Expr<'g>>,
-    /// Cosine and sine of each unknown angle; the displacement of a slide as first component.
+    /// For each polygon the angle of its axes.
+    axes: Vec<JointSum>,
+    /// Cosine and sine of each unknown angle in these axes; the displacement of a slide as first component.
     unknown: Vec<Plane<'g>>,
     pub solved: Vec<Solved<'g>>,
 }
@@ -88,12 +93,15 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
             sums: JointSums::new(polygons),
             form,
             q: q.to_vec(),
+            axes: Vec::new(),
             unknown: Vec::new(),
             solved: Vec::new(),
         };
         for (p, polygon) in polygons.iter().enumerate() {
             debug_assert_eq!(positions.unknown.len(), unknown(p));
-            let (solved, unknown) = positions.solve(polygon);
+            let axes = positions.axes_of(polygon);
+            positions.axes.push(axes);
+            let (solved, unknown) = positions.solve(p);
             positions.solved.push(solved);
             positions.unknown.extend(unknown);
         }
@@ -121,16 +129,33 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
             .map(|k| self.unknown[k].0[0])
     }
 
+    /// Returns the angle of the axes of a polygon's vectors.
+    fn axes_of(&self, polygon: &Polygon) -> JointSum {
+        let sides = polygon.known.iter();
+        let mut angles: Vec<JointSum> = Vec::new();
+        for angle in sides.map(|side| self.sums.angle(&side.turned.angle)) {
+            if angle != JointSum::default() && !angles.contains(&angle) {
+                angles.push(angle);
+            }
+        }
+        let wanted = self.form.axes.checked_sub(1).and_then(|k| angles.get(k));
+        wanted.cloned().unwrap_or_default()
+    }
+
     /// Returns cosine and sine of a sum of angles and a constant.
     pub(super) fn direction(&self, sum: &JointSum, offset: Dd) -> Plane<'g> {
-        let unknown = sum.unknown.iter();
-        let powers = unknown.flat_map(|(&k, &n)| {
+        let mut left = sum.clone();
+        let mut whole: Option<Plane<'g>> = None;
+        // The axes of a polygon depend on earlier polygons alone.
+        while let Some((k, n)) = left.unknown.pop_last() {
             let one = self.unknown[k];
             let one = if n < 0 { one.mirrored() } else { one };
-            std::iter::repeat_n(one, n.unsigned_abs() as usize)
-        });
-        let whole = powers.reduce(Plane::along);
-        let own = (!sum.own.is_empty()).then(|| self.own_direction(sum));
+            for _ in 0..n.unsigned_abs() {
+                whole = Some(whole.map_or(one, |whole| whole.along(one)));
+            }
+            left.add(&self.axes[k / 2], n);
+        }
+        let own = (!left.own.is_empty()).then(|| self.own_direction(&left));
         let turned = match (whole, own) {
             (Some(whole), Some(own)) => whole.along(own),
             (Some(one), None) | (None, Some(one)) => one,
@@ -172,34 +197,37 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
         Plane([cos, sin]).along(Plane::constant(self.b, direction(-offset)))
     }
 
-    /// Returns the vector that a link carries.
-    pub(super) fn vector(&self, turned: &TurnedVector) -> Plane<'g> {
+    /// Returns the vector that a link carries, in the axes of polygon p.
+    pub(super) fn vector(&self, p: usize, turned: &TurnedVector) -> Plane<'g> {
         let vector = Plane::constant(self.b, snapped(turned.vector));
-        vector.along(self.direction(&self.sums.angle(&turned.angle), Dd::ZERO))
+        let mut angle = self.sums.angle(&turned.angle);
+        angle.add(&self.axes[p], -1);
+        vector.along(self.direction(&angle, Dd::ZERO))
     }
 
-    /// Returns a side of the known arc.
-    pub(super) fn side(&self, side: &PolygonSide) -> Plane<'g> {
-        let vector = self.vector(&side.turned);
+    /// Returns a side of the known arc of polygon p.
+    pub(super) fn side(&self, p: usize, side: &PolygonSide) -> Plane<'g> {
+        let vector = self.vector(p, &side.turned);
         let slide = side.slide.and_then(|joint| self.position(joint.position.0));
         slide.map_or(vector, |x| vector.scale(x))
     }
 
     /// Returns the vector D of the known arc.
-    fn known(&self, polygon: &Polygon) -> Plane<'g> {
-        let sides = polygon.known.iter().map(|side| self.side(side));
+    fn known(&self, p: usize) -> Plane<'g> {
+        let sides = self.polygons[p].known.iter();
+        let sides = sides.map(|side| self.side(p, side));
         sides.fold(Plane::zero(self.b), |sum, side| sum + side)
     }
 
     /// Returns D·D; by the law of cosines if D is a constant side and one that turns.
-    fn squared(&self, polygon: &Polygon, known: Plane<'g>) -> Expr<'g> {
-        let sides = &polygon.known[..];
+    fn squared(&self, p: usize, known: Plane<'g>) -> Expr<'g> {
+        let sides = &self.polygons[p].known[..];
         if let ([one, other], true) = (sides, self.form.by_cosine)
             && one.slide.is_none()
             && other.slide.is_none()
             && (one.turned.angle.is_empty() || other.turned.angle.is_empty())
         {
-            let [x, y] = [one, other].map(|side| self.side(side));
+            let [x, y] = [one, other].map(|side| self.side(p, side));
             let squares = [one, other].map(|side| square(side.turned.vector));
             return x.dot(y) * Dd::from_f64(2.0) + self.b.constant(squares[0] + squares[1]);
         }
@@ -231,15 +259,15 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
     }
 
     /// Returns the unknown joints of a polygon, and cosine and sine of its unknown angles or a displacement.
-    fn solve(&self, polygon: &Polygon) -> (Solved<'g>, [Plane<'g>; 2]) {
-        let b = self.b;
+    fn solve(&self, p: usize) -> (Solved<'g>, [Plane<'g>; 2]) {
+        let (b, polygon) = (self.b, &self.polygons[p]);
         let one = || b.constant(Dd::ONE);
-        let known = self.known(polygon);
+        let known = self.known(p);
         match &polygon.form {
             PolygonForm::Triangle { first, second, .. } => {
                 let [aa, bb] = [first, second].map(|v| square(v.vector));
                 let twice = aa.sqrt() * bb.sqrt() * Dd::from_f64(2.0);
-                let squared = self.squared(polygon, known);
+                let squared = self.squared(p, known);
                 let reach = b.constant(aa + bb + twice) - squared;
                 let root = self.root(polygon, reach * (squared - b.constant(aa + bb - twice)));
                 let half = b.number(0.5) / squared;
@@ -265,7 +293,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 )
             }
             PolygonForm::Slider { arm, along, .. } => {
-                let along = self.vector(along);
+                let along = self.vector(p, along);
                 let aa = square(arm.vector);
                 let e = along.cross(known);
                 let y = self.root(polygon, b.constant(aa) - e * e);

@@ -60,7 +60,7 @@ impl<'g> ClosedPositions<'_, 'g> {
         rates.own = own;
         for (p, polygon) in self.polygons.iter().enumerate() {
             let of = |sum: &JointSum| rates.of(self.b.zero(), sum);
-            let found = self.unknown_rates(polygon, self.solved[p], of);
+            let found = self.unknown_rates((p, polygon), self.solved[p], of);
             rates.unknown[unknown(p)..unknown(p) + 2].copy_from_slice(&found);
         }
         rates
@@ -68,18 +68,18 @@ impl<'g> ClosedPositions<'_, 'g> {
 
     fn unknown_rates(
         &self,
-        polygon: &Polygon,
+        (p, polygon): (usize, &Polygon),
         solved: Solved<'g>,
         of: impl Fn(&JointSum) -> Expr<'g>,
     ) -> [Expr<'g>; 2] {
         let side = |side: &PolygonSide| {
             let w = of(&self.sums.rate(&side.turned.angle));
-            let turned = self.side(side).turned().scale(w);
+            let turned = self.side(p, side).turned().scale(w);
             match side.slide {
                 None => turned,
                 Some(joint) => {
                     let rate = of(&self.sums.velocity(joint.velocity.0));
-                    turned + self.vector(&side.turned).scale(rate)
+                    turned + self.vector(p, &side.turned).scale(rate)
                 }
             }
         };
@@ -137,7 +137,7 @@ impl<'g> ClosedPositions<'_, 'g> {
         for (p, polygon) in self.polygons.iter().enumerate() {
             let of = |sum: &JointSum| found.of(self.b.zero(), sum);
             let own = [rates.unknown[unknown(p)], rates.unknown[unknown(p) + 1]];
-            let both = self.unknown_accelerations(polygon, self.solved[p], (rates, own), of);
+            let both = self.unknown_accelerations((p, polygon), self.solved[p], (rates, own), of);
             found.unknown[unknown(p)..unknown(p) + 2].copy_from_slice(&both);
         }
         found
@@ -145,7 +145,7 @@ impl<'g> ClosedPositions<'_, 'g> {
 
     fn unknown_accelerations(
         &self,
-        polygon: &Polygon,
+        (p, polygon): (usize, &Polygon),
         solved: Solved<'g>,
         (rates, [omega, other]): (&JointRates<'g>, [Expr<'g>; 2]),
         of: impl Fn(&JointSum) -> Expr<'g>,
@@ -155,12 +155,12 @@ impl<'g> ClosedPositions<'_, 'g> {
         let side = |side: &PolygonSide| {
             let sum = self.sums.rate(&side.turned.angle);
             let (w, alpha) = (rate(&sum), of(&sum));
-            let at = self.side(side);
+            let at = self.side(p, side);
             let turned = at.turned().scale(alpha) - at.scale(w * w);
             match side.slide {
                 None => turned,
                 Some(joint) => {
-                    let along = self.vector(&side.turned);
+                    let along = self.vector(p, &side.turned);
                     let sum = self.sums.velocity(joint.velocity.0);
                     let carried = along.turned().scale(w * rate(&sum) * two);
                     turned + along.scale(of(&sum)) + carried
@@ -252,10 +252,10 @@ impl<'g> ClosedPositions<'_, 'g> {
                 }
             };
             for side in &polygon.known {
-                let torque = self.side(side).cross(force);
+                let torque = self.side(p, side).cross(force);
                 efforts.push(&self.sums.rate(&side.turned.angle), torque);
                 if let Some(joint) = side.slide {
-                    let along = self.vector(&side.turned).dot(force);
+                    let along = self.vector(p, &side.turned).dot(force);
                     efforts.push(&self.sums.velocity(joint.velocity.0), along);
                 }
             }

@@ -17,7 +17,7 @@
 //! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
-//! | `polygon.rs` | planar loops in closed form |
+//! | `polygon/` | planar loops in closed form |
 //! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
 //! | `reach.rs` | closed positions and velocities with given ones |
 //! | `solve.rs` | linear equations |
