@@ -10,6 +10,7 @@ use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
+use super::multipliers::solve;
 use super::random_dyads::{KINDS, Surroundings, draw};
 use super::references::spec;
 use super::robot::{Robot, close, largest};
@@ -77,6 +78,7 @@ impl Compared {
             q[p.0] = sample[p.0];
         }
         closure.walk(&closure.position_rows(), &mut q, &mut Random(900 + seed));
+        self.close_to_the_last_digit(&mut q);
         state.q = q;
         let parameters = self.robot.graph.parameters.iter();
         Inputs {
@@ -86,6 +88,22 @@ impl Compared {
             u: state.u,
             parameters: parameters.map(|p| p.default * Dd::from_f64(1.3)).collect(),
             ..Inputs::default()
+        }
+    }
+
+    /// Takes another step of Newton's method: the literal sum reads dependent positions, and towards singular positions
+    /// a residual of 1e-27 is a large error of theirs.
+    fn close_to_the_last_digit(&self, q: &mut [Dd]) {
+        let closure = self.robot.mechanism.closure().expect("loops");
+        let (residuals, jacobian) = closure.values(&closure.rows, q);
+        let dependents: Vec<usize> = closure.dependents().map(|j| j.0).collect();
+        let square = jacobian
+            .iter()
+            .map(|row| dependents.iter().map(|&j| row[j]).collect());
+        let step = solve(square.collect(), &residuals);
+        for (j, step) in dependents.into_iter().zip(step) {
+            let position = closure.positions[j].expect("a joint with one position");
+            q[position.0] -= step;
         }
     }
 
@@ -188,9 +206,8 @@ fn the_specs_equal_the_literal_sum() {
         "andrews",
     ] {
         let compared = Compared::new(&spec(name), name.to_owned());
-        for (method, f) in &compared.functions {
-            println!("{name} {method:?}: {} {:?}", f.formulation, f.operations());
-        }
+        let (_, forward) = &compared.functions[0];
+        assert!(in_closed_form(forward), "{name}: {}", forward.formulation);
         (0..STATES).for_each(|seed| compared.compare(seed));
         compared.dependents_are_not_read();
     }
