@@ -260,3 +260,79 @@ fn out_of_reach_the_loop_is_refused() {
         }
     }
 }
+
+/// Returns the largest error of a function in `f64` at a state, relative to the largest entry of the exact result.
+fn error(function: &Function, at: &Inputs<f64>, exact: &[Dd]) -> f64 {
+    let (found, refused) = function.evaluate(at.clone());
+    assert_eq!(refused, None, "{}", function.formulation);
+    let off = found
+        .iter()
+        .zip(exact)
+        .map(|(&x, &y)| (Dd::from_f64(x) - y).to_f64().abs());
+    off.fold(0.0, f64::max) / largest(exact)
+}
+
+/// At positions that close exactly for independent ones in `f64`: the largest errors over the states are not above twice
+/// those of elimination, which reads rounded dependent positions, and a few roundings.
+#[test]
+fn digits_are_not_lost_against_elimination() {
+    for name in [
+        "four_bar",
+        "slider_crank",
+        "slider_crank_near_singular",
+        "five_bar",
+        "six_bar",
+        "andrews",
+        "excavator",
+    ] {
+        let compared = Compared::new(&spec(name), name.to_owned());
+        let robot = &compared.robot;
+        let closure = robot.mechanism.closure().expect("loops");
+        let eliminated = Choice::by_elimination(&robot.graph, None);
+        for (method, function) in compared
+            .functions
+            .iter()
+            .take(2)
+            .filter(|(_, f)| in_closed_form(f))
+        {
+            let other = eliminated.function(*method).expect("a function");
+            assert!(!in_closed_form(&other));
+            let mut worst = [0.0_f64; 2];
+            for seed in 0..150 {
+                let mut at = compared.state(seed);
+                let round =
+                    |x: &mut Vec<Dd>| x.iter_mut().for_each(|x| *x = Dd::from_f64(x.to_f64()));
+                [
+                    &mut at.q,
+                    &mut at.v,
+                    &mut at.a,
+                    &mut at.u,
+                    &mut at.parameters,
+                ]
+                .map(round);
+                assert!(closure.close(&mut at.q));
+                compared.close_to_the_last_digit(&mut at.q);
+                let (exact, _) = other.evaluate(at.clone());
+                let all = |x: &[Dd]| x.iter().map(|x| x.to_f64()).collect();
+                let rounded = Inputs {
+                    q: all(&at.q),
+                    v: all(&at.v),
+                    a: all(&at.a),
+                    u: all(&at.u),
+                    parameters: all(&at.parameters),
+                    ..Inputs::default()
+                };
+                let errors = [function, &other].map(|f| error(f, &rounded, &exact));
+                worst = std::array::from_fn(|k| worst[k].max(errors[k]));
+            }
+            println!(
+                "{name} {method:?}: {:e} in closed form, {:e} by elimination",
+                worst[0], worst[1]
+            );
+            assert!(
+                worst[0] <= 2.0 * worst[1] + 1e-14,
+                "{name}, {method:?}: {worst:?}"
+            );
+        }
+    }
+}

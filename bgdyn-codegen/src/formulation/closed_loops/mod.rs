@@ -36,12 +36,15 @@ use crate::passes::factor;
 /// The largest number of angles of known arcs with whose axes polygons are tried.
 const MOST_AXES: usize = 2;
 
+/// The largest number of velocities of the open tree for which all ways of writing are tried.
+const MOST_COORDINATES: usize = 12;
+
 /// Planar loops in closed form, on functions chosen for the open tree.
 pub(super) struct ClosedLoops;
 
 /// A way to write the functions.
 #[derive(Clone, Copy, Debug)]
-struct ClosedForm {
+struct WrittenForm {
     by_cosine: bool,
     axes: usize,
     style: MapStyle,
@@ -107,17 +110,21 @@ impl Formulation for ClosedLoops {
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let closed = prepared.graph.closed.as_deref()?;
         let polygons = polygons(&closed.closure)?;
+        let long = closed.tree.coordinates.len() > MOST_COORDINATES;
         let angles = polygons.iter().map(|one| one.known.len()).max();
-        let axes = 0..=angles.unwrap_or(0).min(MOST_AXES);
+        let most = if long { 1 } else { MOST_AXES };
+        let axes = 0..=angles.unwrap_or(0).min(most);
         let single = prepared.graph.coordinates.len() == 1;
         let styles = [MapStyle::Vectors, MapStyle::Columns, MapStyle::Unit];
-        let styles = styles
-            .iter()
-            .filter(|style| single || **style != MapStyle::Unit);
+        let styles = styles.iter().filter(|style| match style {
+            MapStyle::Vectors => !long,
+            MapStyle::Columns => true,
+            MapStyle::Unit => single,
+        });
         let forms = styles.flat_map(|&style| {
             let axes = axes.clone();
             axes.flat_map(move |axes| {
-                [false, true].map(|by_cosine| ClosedForm {
+                [false, true].map(|by_cosine| WrittenForm {
                     by_cosine,
                     axes,
                     style,
@@ -137,7 +144,7 @@ fn function(
     prepared: &Prepared<'_>,
     method: Method,
     (closure, polygons): (&Closure, &[Polygon]),
-    form: ClosedForm,
+    form: WrittenForm,
 ) -> Option<Function> {
     let graph = prepared.graph;
     let read = |method: Method| {

@@ -9,38 +9,38 @@ use crate::mechanism::closure::PlaneVector;
 
 /// A vector in the plane of a loop; also cosine and sine of an angle.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Plane<'g>(pub [Expr<'g>; 2]);
+pub(super) struct InPlane<'g>(pub [Expr<'g>; 2]);
 
-impl<'g> Plane<'g> {
+impl<'g> InPlane<'g> {
     pub(super) fn zero(b: &'g Builder) -> Self {
-        Plane([b.zero(); 2])
+        InPlane([b.zero(); 2])
     }
 
     pub(super) fn constant(b: &'g Builder, v: PlaneVector) -> Self {
-        Plane(v.map(|x| b.constant(x)))
+        InPlane(v.map(|x| b.constant(x)))
     }
 
     /// Returns the vector times a number.
     pub(super) fn scale(self, k: Expr<'g>) -> Self {
-        Plane(self.0.map(|x| x * k))
+        InPlane(self.0.map(|x| x * k))
     }
 
     /// Returns the vector turned by a right angle.
     pub(super) fn turned(self) -> Self {
         let [x, y] = self.0;
-        Plane([-y, x])
+        InPlane([-y, x])
     }
 
     /// Returns the vector turned by the angle of another one, times its length.
     pub(super) fn along(self, direction: Self) -> Self {
         let ([x, y], [c, s]) = (self.0, direction.0);
-        Plane([x * c - y * s, x * s + y * c])
+        InPlane([x * c - y * s, x * s + y * c])
     }
 
     /// Returns the vector mirrored: an angle of the opposite sign.
     pub(super) fn mirrored(self) -> Self {
         let [x, y] = self.0;
-        Plane([x, -y])
+        InPlane([x, -y])
     }
 
     pub(super) fn dot(self, other: Self) -> Expr<'g> {
@@ -55,21 +55,21 @@ impl<'g> Plane<'g> {
     }
 }
 
-impl Add for Plane<'_> {
+impl Add for InPlane<'_> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
         let ([x, y], [u, v]) = (self.0, other.0);
-        Plane([x + u, y + v])
+        InPlane([x + u, y + v])
     }
 }
 
-impl Sub for Plane<'_> {
+impl Sub for InPlane<'_> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
         let ([x, y], [u, v]) = (self.0, other.0);
-        Plane([x - u, y - v])
+        InPlane([x - u, y - v])
     }
 }
 

@@ -12,7 +12,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::plane::{Plane, direction, snapped};
+use super::plane::{InPlane, direction, snapped};
 use super::sums::{JointSum, JointSums, unknown};
 use crate::expr::{AngleSum, Builder, Expr, Leaf};
 use crate::formulation::elimination::at;
@@ -37,17 +37,17 @@ pub(super) struct PositionForm<'s> {
 
 /// The unknown joints of a polygon at a position.
 #[derive(Clone, Copy)]
-pub(super) enum Solved<'g> {
+pub(super) enum SolvedPolygon<'g> {
     Triangle {
-        first: Plane<'g>,
-        second: Plane<'g>,
+        first: InPlane<'g>,
+        second: InPlane<'g>,
         /// 1 / H
         inverse: Expr<'g>,
         /// first · first, first · second, second · second
         products: [Expr<'g>; 3],
     },
     Slider {
-        along: Plane<'g>,
+        along: InPlane<'g>,
         displacement: Expr<'g>,
         y: Expr<'g>,
         e: Expr<'g>,
@@ -55,7 +55,7 @@ pub(super) enum Solved<'g> {
         inverse: Expr<'g>,
     },
     Cylinder {
-        along: Plane<'g>,
+        along: InPlane<'g>,
         y: Expr<'g>,
         across: Expr<'g>,
         /// 1 / y
@@ -74,8 +74,8 @@ pub(super) struct ClosedPositions<'a, 'g> {
     /// For each polygon the angle of its axes.
     axes: Vec<JointSum>,
     /// Cosine and sine of each unknown angle in these axes; the displacement of a slide as first component.
-    unknown: Vec<Plane<'g>>,
-    pub solved: Vec<Solved<'g>>,
+    unknown: Vec<InPlane<'g>>,
+    pub solved: Vec<SolvedPolygon<'g>>,
 }
 
 impl<'a, 'g> ClosedPositions<'a, 'g> {
@@ -143,9 +143,9 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
     }
 
     /// Returns cosine and sine of a sum of angles and a constant.
-    pub(super) fn direction(&self, sum: &JointSum, offset: Dd) -> Plane<'g> {
+    pub(super) fn direction(&self, sum: &JointSum, offset: Dd) -> InPlane<'g> {
         let mut left = sum.clone();
-        let mut whole: Option<Plane<'g>> = None;
+        let mut whole: Option<InPlane<'g>> = None;
         // The axes of a polygon depend on earlier polygons alone.
         while let Some((k, n)) = left.unknown.pop_last() {
             let one = self.unknown[k];
@@ -159,14 +159,14 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
         let turned = match (whole, own) {
             (Some(whole), Some(own)) => whole.along(own),
             (Some(one), None) | (None, Some(one)) => one,
-            (None, None) => Plane([self.b.constant(Dd::ONE), self.b.zero()]),
+            (None, None) => InPlane([self.b.constant(Dd::ONE), self.b.zero()]),
         };
-        turned.along(Plane::constant(self.b, direction(offset)))
+        turned.along(InPlane::constant(self.b, direction(offset)))
     }
 
     /// Returns cosine and sine of a sum of independent angles, from those of a sum with a constant that the open
     /// tree's functions have.
-    fn own_direction(&self, sum: &JointSum) -> Plane<'g> {
+    fn own_direction(&self, sum: &JointSum) -> InPlane<'g> {
         let terms: Vec<Expr<'g>> = (sum.own.iter())
             .flat_map(|(&p, &n)| {
                 let q = if n < 0 { -self.q[p] } else { self.q[p] };
@@ -194,33 +194,33 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
         let offset = offsets.min_by(|x, y| x.abs().to_f64().total_cmp(&y.abs().to_f64()));
         let offset = offset.unwrap_or(Dd::ZERO);
         let (cos, sin) = self.b.cos_sin(&terms, offset);
-        Plane([cos, sin]).along(Plane::constant(self.b, direction(-offset)))
+        InPlane([cos, sin]).along(InPlane::constant(self.b, direction(-offset)))
     }
 
     /// Returns the vector that a link carries, in the axes of polygon p.
-    pub(super) fn vector(&self, p: usize, turned: &TurnedVector) -> Plane<'g> {
-        let vector = Plane::constant(self.b, snapped(turned.vector));
+    pub(super) fn vector(&self, p: usize, turned: &TurnedVector) -> InPlane<'g> {
+        let vector = InPlane::constant(self.b, snapped(turned.vector));
         let mut angle = self.sums.angle(&turned.angle);
         angle.add(&self.axes[p], -1);
         vector.along(self.direction(&angle, Dd::ZERO))
     }
 
     /// Returns a side of the known arc of polygon p.
-    pub(super) fn side(&self, p: usize, side: &PolygonSide) -> Plane<'g> {
+    pub(super) fn side(&self, p: usize, side: &PolygonSide) -> InPlane<'g> {
         let vector = self.vector(p, &side.turned);
         let slide = side.slide.and_then(|joint| self.position(joint.position.0));
         slide.map_or(vector, |x| vector.scale(x))
     }
 
     /// Returns the vector D of the known arc.
-    fn known(&self, p: usize) -> Plane<'g> {
+    fn known(&self, p: usize) -> InPlane<'g> {
         let sides = self.polygons[p].known.iter();
         let sides = sides.map(|side| self.side(p, side));
-        sides.fold(Plane::zero(self.b), |sum, side| sum + side)
+        sides.fold(InPlane::zero(self.b), |sum, side| sum + side)
     }
 
     /// Returns D·D; by the law of cosines if D is a constant side and one that turns.
-    fn squared(&self, p: usize, known: Plane<'g>) -> Expr<'g> {
+    fn squared(&self, p: usize, known: InPlane<'g>) -> Expr<'g> {
         let sides = &self.polygons[p].known[..];
         if let ([one, other], true) = (sides, self.form.by_cosine)
             && one.slide.is_none()
@@ -259,7 +259,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
     }
 
     /// Returns the unknown joints of a polygon, and cosine and sine of its unknown angles or a displacement.
-    fn solve(&self, p: usize) -> (Solved<'g>, [Plane<'g>; 2]) {
+    fn solve(&self, p: usize) -> (SolvedPolygon<'g>, [InPlane<'g>; 2]) {
         let (b, polygon) = (self.b, &self.polygons[p]);
         let one = || b.constant(Dd::ONE);
         let known = self.known(p);
@@ -274,7 +274,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 let along = (squared + b.constant(aa - bb)) * half;
                 let a = known.scale(along) + known.turned().scale(root * half);
                 let c = a - known;
-                let solved = Solved::Triangle {
+                let solved = SolvedPolygon::Triangle {
                     first: a,
                     second: c,
                     inverse: b.number(2.0) / root,
@@ -299,7 +299,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 let y = self.root(polygon, b.constant(aa) - e * e);
                 let x = y - known.dot(along);
                 let moved = along.scale(y) + along.turned().scale(e);
-                let solved = Solved::Slider {
+                let solved = SolvedPolygon::Slider {
                     along,
                     displacement: x,
                     y,
@@ -307,7 +307,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                     inverse: one() / y,
                 };
                 let turn = self.turn_of(moved, arm.vector);
-                (solved, [turn, Plane([x, b.zero()])])
+                (solved, [turn, InPlane([x, b.zero()])])
             }
             PolygonForm::Cylinder {
                 along,
@@ -324,10 +324,10 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                     true => known.scale(inverse),
                     false => {
                         let per = one() / squared;
-                        known.along(Plane([y * per, -(across * per)]))
+                        known.along(InPlane([y * per, -(across * per)]))
                     }
                 };
-                let solved = Solved::Cylinder {
+                let solved = SolvedPolygon::Cylinder {
                     along: unit,
                     y,
                     across,
@@ -336,17 +336,17 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 let x = y - b.constant(*start);
                 (
                     solved,
-                    [self.turn_of(unit, along.vector), Plane([x, b.zero()])],
+                    [self.turn_of(unit, along.vector), InPlane([x, b.zero()])],
                 )
             }
         }
     }
 
     /// Returns cosine and sine of the angle by which a link turned its vector.
-    fn turn_of(&self, moved: Plane<'g>, vector: PlaneVector) -> Plane<'g> {
+    fn turn_of(&self, moved: InPlane<'g>, vector: PlaneVector) -> InPlane<'g> {
         let [x, y] = snapped(vector);
         let inverse = Dd::ONE / square(vector);
-        moved.along(Plane::constant(self.b, [x * inverse, -(y * inverse)]))
+        moved.along(InPlane::constant(self.b, [x * inverse, -(y * inverse)]))
     }
 }
 

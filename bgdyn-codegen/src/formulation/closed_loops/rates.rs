@@ -11,8 +11,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::plane::Plane;
-use super::positions::{ClosedPositions, Solved};
+use super::plane::InPlane;
+use super::positions::{ClosedPositions, SolvedPolygon};
 use super::sums::{JointSum, unknown};
 use crate::expr::Expr;
 use crate::mechanism::closure::{Polygon, PolygonForm, PolygonSide};
@@ -69,7 +69,7 @@ impl<'g> ClosedPositions<'_, 'g> {
     fn unknown_rates(
         &self,
         (p, polygon): (usize, &Polygon),
-        solved: Solved<'g>,
+        solved: SolvedPolygon<'g>,
         of: impl Fn(&JointSum) -> Expr<'g>,
     ) -> [Expr<'g>; 2] {
         let side = |side: &PolygonSide| {
@@ -84,10 +84,10 @@ impl<'g> ClosedPositions<'_, 'g> {
             }
         };
         let sides = polygon.known.iter().map(side);
-        let moved = sides.fold(Plane::zero(self.b), |sum, side| sum + side);
+        let moved = sides.fold(InPlane::zero(self.b), |sum, side| sum + side);
         match (solved, &polygon.form) {
             (
-                Solved::Triangle {
+                SolvedPolygon::Triangle {
                     first,
                     second,
                     inverse,
@@ -96,7 +96,7 @@ impl<'g> ClosedPositions<'_, 'g> {
                 _,
             ) => [moved.dot(second) * inverse, moved.dot(first) * inverse],
             (
-                Solved::Slider {
+                SolvedPolygon::Slider {
                     along,
                     displacement,
                     e,
@@ -111,7 +111,7 @@ impl<'g> ClosedPositions<'_, 'g> {
                 [omega, -(omega * e) - moved.dot(along)]
             }
             (
-                Solved::Cylinder {
+                SolvedPolygon::Cylinder {
                     along,
                     across,
                     inverse,
@@ -146,7 +146,7 @@ impl<'g> ClosedPositions<'_, 'g> {
     fn unknown_accelerations(
         &self,
         (p, polygon): (usize, &Polygon),
-        solved: Solved<'g>,
+        solved: SolvedPolygon<'g>,
         (rates, [omega, other]): (&JointRates<'g>, [Expr<'g>; 2]),
         of: impl Fn(&JointSum) -> Expr<'g>,
     ) -> [Expr<'g>; 2] {
@@ -168,10 +168,10 @@ impl<'g> ClosedPositions<'_, 'g> {
             }
         };
         let sides = polygon.known.iter().map(side);
-        let moved = sides.fold(Plane::zero(self.b), |sum, side| sum + side);
+        let moved = sides.fold(InPlane::zero(self.b), |sum, side| sum + side);
         match (solved, &polygon.form) {
             (
-                Solved::Triangle {
+                SolvedPolygon::Triangle {
                     first,
                     second,
                     inverse,
@@ -185,7 +185,7 @@ impl<'g> ClosedPositions<'_, 'g> {
                 [along_second * inverse, along_first * inverse]
             }
             (
-                Solved::Slider {
+                SolvedPolygon::Slider {
                     along,
                     displacement: x,
                     y,
@@ -205,7 +205,7 @@ impl<'g> ClosedPositions<'_, 'g> {
                 [turning, -(ww * y) - turning * e - moved.dot(along)]
             }
             (
-                Solved::Cylinder {
+                SolvedPolygon::Cylinder {
                     along,
                     y,
                     across,
@@ -229,19 +229,19 @@ impl<'g> ClosedPositions<'_, 'g> {
             let k = unknown(p);
             let [g, other] = [efforts.unknown[k], efforts.unknown[k + 1]];
             let force = match self.solved[p] {
-                Solved::Triangle {
+                SolvedPolygon::Triangle {
                     first,
                     second,
                     inverse,
                     ..
                 } => (second.scale(g) + first.scale(other)).scale(inverse),
-                Solved::Slider {
+                SolvedPolygon::Slider {
                     along, e, inverse, ..
                 } => {
                     let turning = (g - e * other) * inverse;
                     along.turned().scale(turning) - along.scale(other)
                 }
-                Solved::Cylinder {
+                SolvedPolygon::Cylinder {
                     along,
                     across,
                     inverse,
@@ -260,7 +260,7 @@ impl<'g> ClosedPositions<'_, 'g> {
                 }
             }
             if let (
-                Solved::Slider {
+                SolvedPolygon::Slider {
                     along,
                     displacement,
                     ..

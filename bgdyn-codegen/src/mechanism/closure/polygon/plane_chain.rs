@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
+use super::shape::{AngleTerm, PlaneJoint, PolygonSide, TurnedVector};
 use super::vectors::PlaneVector;
-use super::{AngleTerm, PlaneJoint, PolygonSide, TurnedVector};
 use crate::math::Vec3;
 use crate::mechanism::Motion;
 use crate::mechanism::closure::KinematicLoop;
@@ -14,25 +14,25 @@ const IN_PLANE: f64 = 1e-26;
 
 /// The motion of a step along the chain of a planar loop.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Step {
+pub(super) enum ChainMotion {
     Fixed,
     Turn(AngleTerm),
     Slide(PlaneJoint, PlaneVector),
 }
 
-impl Step {
+impl ChainMotion {
     pub(super) fn joint(&self) -> Option<PlaneJoint> {
         match self {
-            Step::Fixed => None,
-            Step::Turn(term) => Some(term.joint),
-            Step::Slide(joint, _) => Some(*joint),
+            ChainMotion::Fixed => None,
+            ChainMotion::Turn(term) => Some(term.joint),
+            ChainMotion::Slide(joint, _) => Some(*joint),
         }
     }
 }
 
 /// The chain of a loop in its plane, with all joints at zero.
 pub(super) struct PlaneChain {
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<ChainMotion>,
     outward: Vec<bool>,
     /// From place a to the first link's origin, then from link to link, then to place b.
     segments: Vec<PlaneVector>,
@@ -62,12 +62,12 @@ impl PlaneChain {
         let along = (0..chain.steps.len()).find(slide).map(axis_of);
         let plane = plane_axes(normal, along)?;
         let flat = |v: Vec3<Dd>| plane.map(|axis| axis.dot(v));
-        let step = |k: usize| -> Option<Step> {
+        let step = |k: usize| -> Option<ChainMotion> {
             let step = &chain.steps[k];
             let axis = axis_of(k);
             let across = axis.dot(normal);
             if step.motion == Motion::None {
-                return Some(Step::Fixed);
+                return Some(ChainMotion::Fixed);
             }
             let (&[position], &[velocity], None) = (
                 &step.degrees.positions[..],
@@ -81,16 +81,16 @@ impl PlaneChain {
             let opposite = across < Dd::ZERO;
             match step.motion {
                 Motion::Rotation if is(across.abs(), 1.0) => {
-                    Some(Step::Turn(AngleTerm { joint, opposite }))
+                    Some(ChainMotion::Turn(AngleTerm { joint, opposite }))
                 }
                 Motion::Translation if is(across, 0.0) => {
                     let axis = if step.outward { axis } else { -axis };
-                    Some(Step::Slide(joint, flat(axis)))
+                    Some(ChainMotion::Slide(joint, flat(axis)))
                 }
                 _ => None,
             }
         };
-        let steps: Option<Vec<Step>> = (0..chain.steps.len()).map(step).collect();
+        let steps: Option<Vec<ChainMotion>> = (0..chain.steps.len()).map(step).collect();
         let outward: Vec<bool> = chain.steps.iter().map(|step| step.outward).collect();
         let mut at: Vec<Vec3<Dd>> = (0..=chain.steps.len()).map(|k| frames.link(k).1).collect();
         at.insert(0, Vec3([Dd::ZERO; 3]));
@@ -109,8 +109,8 @@ impl PlaneChain {
     /// Returns the angle of a link: the sum of the rotations between it and the link that carries the loop.
     pub(super) fn angle(&self, link: usize) -> Vec<AngleTerm> {
         let between = link.min(self.root)..link.max(self.root);
-        let turn = |step: &Step| match step {
-            Step::Turn(term) => Some(*term),
+        let turn = |step: &ChainMotion| match step {
+            ChainMotion::Turn(term) => Some(*term),
             _ => None,
         };
         self.steps[between].iter().filter_map(turn).collect()
@@ -137,7 +137,7 @@ impl PlaneChain {
                 arcs[at].link = k + 1;
             }
             arcs[at].sides.push(own);
-            if let (Step::Slide(joint, direction), false) = (step, ends) {
+            if let (ChainMotion::Slide(joint, direction), false) = (step, ends) {
                 arcs[at].sides.push(side(link, *direction, Some(*joint)));
             }
             if ends && self.outward[k] {

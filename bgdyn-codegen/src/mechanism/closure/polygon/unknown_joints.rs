@@ -2,12 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::plane_chain::{Arc, PlaneChain, Step};
+use super::plane_chain::{Arc, ChainMotion, PlaneChain};
+use super::shape::{LEAST, PolygonForm, PolygonSide, TurnedVector};
 use super::vectors::{conjugate, length, negated, plus, times};
-use super::{LEAST, PolygonForm, PolygonSide, TurnedVector};
 
 /// The unknown joints; with a slide beside the known arc, before or after it, also the rigid arc that turns with it.
-pub(super) enum Found {
+pub(super) enum FoundForm {
     Whole(PolygonForm),
     Slide {
         before: bool,
@@ -21,7 +21,7 @@ pub(super) fn form(
     chain: &PlaneChain,
     [i, j]: [usize; 2],
     (arcs, known): (&[Arc; 3], usize),
-) -> Option<Found> {
+) -> Option<FoundForm> {
     let rigid = |arc: &Arc| TurnedVector {
         angle: chain.angle(arc.link),
         vector: (arc.sides.iter()).fold([Dd::ZERO; 2], |sum, side| plus(sum, side.turned.vector)),
@@ -32,7 +32,7 @@ pub(super) fn form(
         return None;
     };
     let slides = [i, j].map(|k| match chain.steps[k] {
-        Step::Slide(joint, direction) => Some((joint, direction)),
+        ChainMotion::Slide(joint, direction) => Some((joint, direction)),
         _ => None,
     });
     let long = |turned: &TurnedVector| length(turned.vector).to_f64() > LEAST;
@@ -48,7 +48,7 @@ pub(super) fn form(
             let PolygonForm::Triangle { first, second, .. } = &form else {
                 return None;
             };
-            return (long(first) && long(second)).then_some(Found::Whole(form));
+            return (long(first) && long(second)).then_some(FoundForm::Whole(form));
         }
         // The unknown joints in their order along the polygon: the closing pin, step i, step j.
         [Some((slide, direction)), None] => (slide, direction, second_joint, 1),
@@ -63,7 +63,7 @@ pub(super) fn form(
             vector: negated(unit),
         };
         let [start, across] = whole;
-        return Some(Found::Whole(PolygonForm::Cylinder {
+        return Some(FoundForm::Whole(PolygonForm::Cylinder {
             along,
             start,
             across,
@@ -86,7 +86,7 @@ pub(super) fn form(
         turned: turning,
         slide: None,
     };
-    let found = Found::Slide {
+    let found = FoundForm::Slide {
         before,
         last,
         form: PolygonForm::Slider {
