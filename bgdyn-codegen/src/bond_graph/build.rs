@@ -9,7 +9,9 @@ use super::{
 };
 use crate::math::{Mat3, Vec3, rodrigues};
 use crate::mechanism::joint::{self, Column, PoseNumbers};
-use crate::mechanism::{CoordinateId, Frame, Link, LinkId, Mechanism, Motion, Pose, Value};
+use crate::mechanism::{
+    CoordinateId, Frame, Inertial, Link, LinkId, Mechanism, Motion, Pose, Value,
+};
 
 /// Builds the bond graph of a mechanism. With loops, the junctions of the open tree are those of its own graph.
 pub fn build(mechanism: &Mechanism) -> BondGraph {
@@ -49,7 +51,7 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
         .map(|j| Junction::Velocity(CoordinateId(j)))
         .collect();
     for (i, link) in mechanism.links().iter().enumerate() {
-        add_link(&mut graph, LinkId(i), link);
+        add_link(&mut graph, LinkId(i), &link.inertial);
     }
     let places = places(&graph.frames);
     for i in 0..graph.frames.len() {
@@ -157,12 +159,12 @@ fn frame(link: &Link) -> LinkFrame {
 }
 
 /// Adds the two junctions of a link, each with a store and a source.
-fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
+fn add_link(graph: &mut BondGraph, i: LinkId, inertial: &Inertial) {
     let (translation, rotation) = (graph.translation(i), graph.rotation(i));
     graph
         .junctions
         .extend([Junction::Translation(i), Junction::Rotation(i)]);
-    let mass = link.inertial.mass;
+    let mass = inertial.mass;
     graph.stores.extend([
         Store {
             junction: translation,
@@ -170,7 +172,7 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
         },
         Store {
             junction: rotation,
-            inertia: StoreInertia::Tensor(link.inertial.inertia.entries),
+            inertia: StoreInertia::Tensor(inertial.inertia.entries),
         },
     ]);
     let weight = Effort::Weight {
@@ -188,6 +190,16 @@ fn add_link(graph: &mut BondGraph, i: LinkId, link: &Link) {
             efforts: vec![],
         },
     ]);
+}
+
+/// Adds a body that is fixed on a link.
+pub(super) fn add_fixed_body(graph: &mut BondGraph, frame: LinkFrame, inertial: Inertial) {
+    let i = LinkId(graph.frames.len());
+    graph.multibody.frames.push(frame);
+    graph.multibody.inertials.push(inertial);
+    add_link(graph, i, &inertial);
+    let places = places(&graph.frames);
+    add_transformers(graph, &places, i);
 }
 
 /// Pattern of a link frame's axes and origin in fixed axes.

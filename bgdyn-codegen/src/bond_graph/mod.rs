@@ -9,6 +9,7 @@
 mod build;
 mod causality;
 mod massless;
+mod moved_masses;
 mod multibody;
 mod network;
 mod node;
@@ -26,6 +27,7 @@ use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
 pub use causality::Causality;
+pub use moved_masses::with_moved_masses;
 pub use multibody::{
     Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,
 };

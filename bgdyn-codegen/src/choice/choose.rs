@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::keep_digits::{CheckedCandidate, check, sort};
-use crate::bond_graph::BondGraph;
+use crate::bond_graph::{BondGraph, with_moved_masses};
 use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
 use crate::formulation::{
     Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared, create,
@@ -34,6 +34,12 @@ pub struct Choice<'a> {
     open: RefCell<BTreeSet<Method>>,
     /// The functions of the open tree, for a mechanism with loops.
     tree: Option<Box<Choice<'a>>>,
+    /// The open tree with masses moved across the pins of planar loops.
+    moved: Option<Box<BondGraph>>,
+    /// Whether formulations may compute dependent positions of loops.
+    closes_loops: bool,
+    /// The choice without such formulations: derivatives are along all positions.
+    eliminated: OnceCell<Box<Choice<'a>>>,
 }
 
 /// A formulation with its offer for one method.
@@ -43,6 +49,17 @@ impl<'a> Choice<'a> {
     /// Starts with no choices. If the user selected a formulation (`asked`), it provides the methods that
     /// it supports.
     pub fn new(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
+        let closed = graph.closed.as_deref();
+        let moved = closed.and_then(|closed| with_moved_masses(&closed.tree, &closed.closure));
+        Choice {
+            moved: moved.map(Box::new),
+            closes_loops: true,
+            ..Choice::by_elimination(graph, asked)
+        }
+    }
+
+    /// Does the same without formulations that compute dependent positions of loops: all functions read these.
+    pub fn by_elimination(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
         Choice {
             prepared: Prepared::new(graph),
             asked,
@@ -51,6 +68,9 @@ impl<'a> Choice<'a> {
             open: RefCell::default(),
             tree: (graph.closed.as_deref())
                 .map(|closed| Box::new(Choice::new(&closed.tree, asked))),
+            moved: None,
+            closes_loops: false,
+            eliminated: OnceCell::new(),
         }
     }
 
@@ -72,6 +92,11 @@ impl<'a> Choice<'a> {
     pub(super) fn choose_once(&self, method: Method) -> (Rc<Candidates>, Option<Rc<Function>>) {
         if let Some(chosen) = self.prepared.choice_of(method) {
             return chosen;
+        }
+        if self.closes_loops && self.prepared.graph.closed.is_some() && differentiates(method) {
+            let graph: &'a BondGraph = self.prepared.graph;
+            let other = || Box::new(Choice::by_elimination(graph, self.asked));
+            return self.eliminated.get_or_init(other).choose_once(method);
         }
         let anew = self.open.borrow_mut().insert(method);
         assert!(anew, "{method:?} is made of what is made of it");
@@ -123,7 +148,10 @@ impl<'a> Choice<'a> {
     /// Returns the offers of the formulations that support the method.
     fn offers(&self, all: &[&'static dyn Formulation], method: Method) -> Vec<Offered> {
         let graph = self.prepared.graph;
-        let known = all.iter().filter(|f| f.knows(method) && f.serves(graph));
+        let allowed = |f: &dyn Formulation| self.closes_loops || !f.closes_loops();
+        let known = all
+            .iter()
+            .filter(|f| allowed(**f) && f.knows(method) && f.serves(graph));
         let offered = known.map(|&f| (f, f.offer(&self.prepared, method)));
         offered.collect()
     }
@@ -168,8 +196,25 @@ impl<'a> Choice<'a> {
                 self.prepared.set_tree_function(other, function);
             }
         }
+        for other in formulation.reads_of_moved_tree(method) {
+            if let (Some(moved), None) = (&self.moved, self.prepared.moved_tree_function(other))
+                && let Some(function) = Choice::new(moved, self.asked).function(other)
+            {
+                self.prepared.set_moved_tree_function(other, function);
+            }
+        }
         create(formulation, &self.prepared, method)
     }
+}
+
+/// Returns whether a method is a derivative of others.
+fn differentiates(method: Method) -> bool {
+    matches!(
+        method,
+        Method::CoriolisMatrix
+            | Method::InverseDynamicsDerivatives
+            | Method::ForwardDynamicsDerivatives
+    )
 }
 
 /// Returns a function whose accuracy is not checked.

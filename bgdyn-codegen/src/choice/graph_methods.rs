@@ -36,7 +36,8 @@ impl GraphMethods {
         }
     }
 
-    /// Returns the function of a method with the least cost, before the last passes; by the formulation `asked`, if
+    /// Returns the function of a method with the least cost, before the last passes, with loops by elimination: scenes
+    /// have all positions in their state; by the formulation `asked`, if
     /// the user selected one. `None` if no formulation creates the method.
     pub fn function(
         &self,
@@ -49,7 +50,7 @@ impl GraphMethods {
             return function;
         }
         // Not while the lock is held: it takes long.
-        let made = Choice::new(&self.graph, asked).function(method);
+        let made = Choice::by_elimination(&self.graph, asked).function(method);
         let made = made.map(|function| Arc::new((*function).clone()));
         let mut chosen = self.chosen.lock().unwrap_or_else(PoisonError::into_inner);
         chosen.entry(key).or_insert(made).clone()
@@ -59,7 +60,7 @@ impl GraphMethods {
     /// formulations.
     pub(crate) fn forward_dynamics(&self) -> Arc<[Function]> {
         let made = || {
-            let choice = Choice::new(&self.graph, None);
+            let choice = Choice::by_elimination(&self.graph, None);
             choice.forward_dynamics().cloned().collect()
         };
         self.forward.get_or_init(made).clone()

@@ -1,5 +1,7 @@
 //! Copies expressions from one graph to another and replaces leaves.
 
+use bgdyn_runtime::Dd;
+
 use super::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 
 /// Copies `outputs` to `to`; `leaf` may return another expression for a leaf. All constants are folded
@@ -30,6 +32,74 @@ pub(crate) fn copy_with_pivots(
                 Some(joint) => to.pivot(at(*value), at(*magnitude), joint),
                 None => at(*value),
             },
+            node => to.rebuilt(node, at),
+        }
+    })
+}
+
+/// The sum of angles that a sine or a cosine reads.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct AngleSum {
+    /// The node of the sum.
+    pub node: NodeId,
+    /// Its terms, with a sign: arguments, or `None` for other values.
+    pub terms: Vec<(Option<Leaf>, bool)>,
+    /// The constant in it, rad.
+    pub offset: Dd,
+}
+
+/// Returns the sums of angles whose sines or cosines the results need.
+pub(crate) fn angle_sums(graph: &Graph, outputs: &[Signed]) -> Vec<AngleSum> {
+    let needed = reachable(graph, outputs);
+    let mut sums: Vec<AngleSum> = Vec::new();
+    for id in (0..graph.len())
+        .map(NodeId::at)
+        .filter(|id| needed[id.place()])
+    {
+        let (Node::Sin(node) | Node::Cos(node)) = *graph.node(id) else {
+            continue;
+        };
+        if sums.iter().any(|sum| sum.node == node) {
+            continue;
+        }
+        let leaf = |id: NodeId| match graph.node(id) {
+            Node::Leaf(leaf) => Some(*leaf),
+            _ => None,
+        };
+        let (terms, offset) = match graph.node(node) {
+            Node::Angle(terms, size, negative) => {
+                let terms = terms.iter().map(|t| (leaf(t.node), t.negative)).collect();
+                let size = size.value();
+                (terms, if *negative { -size } else { size })
+            }
+            _ => (vec![(leaf(node), false)], Dd::ZERO),
+        };
+        sums.push(AngleSum {
+            node,
+            terms,
+            offset,
+        });
+    }
+    sums
+}
+
+/// Copies `outputs` to `to` with other leaves, and with the cosine and the sine that `turn` returns for the node of a
+/// sum of angles.
+pub(crate) fn copy_with_turns(
+    to: &mut Graph,
+    from: &Graph,
+    outputs: &[Signed],
+    mut leaf: impl FnMut(Leaf) -> Option<Signed>,
+    turn: impl Fn(NodeId) -> Option<[Signed; 2]>,
+) -> Vec<Signed> {
+    let needed = reachable(from, outputs);
+    let wanted = (0..from.len()).filter(|&i| needed[i]);
+    remade(to, from, outputs, wanted, |to, id, at| {
+        let node = from.node(id);
+        match node {
+            Node::Leaf(l) => leaf(*l).unwrap_or_else(|| to.leaf(*l)),
+            Node::Cos(angle) => turn(*angle).map_or_else(|| to.rebuilt(node, at), |[cos, _]| cos),
+            Node::Sin(angle) => turn(*angle).map_or_else(|| to.rebuilt(node, at), |[_, sin]| sin),
             node => to.rebuilt(node, at),
         }
     })

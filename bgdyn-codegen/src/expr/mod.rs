@@ -28,7 +28,7 @@ pub use arrange::reassociate;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Expr};
 pub use copy::copy_into;
-pub(crate) use copy::copy_with_pivots;
+pub(crate) use copy::{AngleSum, angle_sums, copy_with_pivots, copy_with_turns};
 pub(crate) use cost::reads;
 pub use cost::{Cost, cost};
 pub use count::{count, reachable};

@@ -49,6 +49,17 @@ pub trait Formulation: Sync {
         Vec::new()
     }
 
+    /// Returns the methods of the open tree with masses moved across pins whose functions it uses:
+    /// [`Prepared::moved_tree_function`] returns them when [`Formulation::function`] is called.
+    fn reads_of_moved_tree(&self, _: Method) -> Vec<Method> {
+        Vec::new()
+    }
+
+    /// Returns whether it computes dependent positions of loops from the independent ones, instead of reading them.
+    fn closes_loops(&self) -> bool {
+        false
+    }
+
     /// Returns the method's function; `None` if this formulation cannot create it for this mechanism, which has no
     /// prescribed joints unless [`Formulation::reads`] names other methods.
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function>;

@@ -205,7 +205,7 @@ pub(super) fn largest_at(b: &Builder, value: Expr<'_>, samples: &[Vec<Dd>]) -> f
 }
 
 /// Returns the values of expressions at a position of the tree.
-fn at(b: &Builder, outputs: &[Signed], q: &[Dd]) -> Vec<f64> {
+pub(super) fn at(b: &Builder, outputs: &[Signed], q: &[Dd]) -> Vec<f64> {
     let inputs = Inputs {
         q: q.to_vec(),
         ..Inputs::default()

@@ -7,6 +7,7 @@
 
 mod actuators;
 mod arguments;
+mod closed_loops;
 mod closing_loads;
 mod definition;
 mod derivatives;
@@ -55,8 +56,9 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
 /// make offers for any selected formulation, because those functions belong to it.
-pub(crate) static DERIVED: [&dyn Formulation; 3] = [
+pub(crate) static DERIVED: [&dyn Formulation; 4] = [
     &loops::Elimination,
+    &closed_loops::ClosedLoops,
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
 ];

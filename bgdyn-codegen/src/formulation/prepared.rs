@@ -46,6 +46,8 @@ pub struct Prepared<'a> {
     chosen: RefCell<BTreeMap<Method, Chosen>>,
     /// Functions of the open tree, for a mechanism with loops.
     of_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
+    /// The same with masses moved across the pins of planar loops.
+    of_moved_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
     /// The mechanism in which the prescribed joints are free.
     released: OnceCell<Option<Box<Prepared<'a>>>>,
 }
@@ -59,6 +61,7 @@ impl<'a> Prepared<'a> {
             plans: RefCell::default(),
             chosen: RefCell::default(),
             of_tree: RefCell::default(),
+            of_moved_tree: RefCell::default(),
             released: OnceCell::new(),
         }
     }
@@ -88,6 +91,17 @@ impl<'a> Prepared<'a> {
     /// Stores the function of a method of the open tree.
     pub(crate) fn set_tree_function(&self, method: Method, function: Rc<Function>) {
         self.of_tree.borrow_mut().insert(method, function);
+    }
+
+    /// Returns the function of a method of the open tree in which masses are moved across the pins of planar loops;
+    /// `None` without such, and unless [`super::Formulation::reads_of_moved_tree`] names the method.
+    pub fn moved_tree_function(&self, method: Method) -> Option<Rc<Function>> {
+        self.of_moved_tree.borrow().get(&method).cloned()
+    }
+
+    /// Stores the function of a method of the open tree with moved masses.
+    pub(crate) fn set_moved_tree_function(&self, method: Method, function: Rc<Function>) {
+        self.of_moved_tree.borrow_mut().insert(method, function);
     }
 
     /// Returns all functions of another method that derivatives may use, under the same condition.

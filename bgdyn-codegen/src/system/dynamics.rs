@@ -26,7 +26,7 @@ pub(super) fn derivative_by(
     formulation: &'static dyn Formulation,
 ) -> Option<Function> {
     if !system.may_hold_joints() {
-        let choice = Choice::new(&system.graph, Some(formulation));
+        let choice = Choice::by_elimination(&system.graph, Some(formulation));
         let forward = choice.asked_plain(Method::ForwardDynamics)?;
         return Some(without_modes(system, &forward));
     }

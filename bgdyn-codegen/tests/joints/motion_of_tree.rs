@@ -26,7 +26,8 @@ pub fn motion_of_tree(robot: &Robot, way: Way, state: &State<Dd>) -> (State<Dd>,
         accelerations,
         &state.a,
         1e-20,
-        largest(&motion.a),
+        // At rest the accelerations are what is left of efforts.
+        largest(&motion.a).max(largest(&motion.u)),
         "accelerations",
     );
     (motion, reactions.to_vec())

@@ -16,6 +16,15 @@ const MECHANISMS: [(&str, &str); 5] = [
     ("stewart_platform", "Stewart platform, platform independent"),
 ];
 
+/// Multiplications, additions, divisions, and roots if there are any.
+fn words(o: Operations) -> String {
+    let roots = match o.sqrt {
+        0 => String::new(),
+        n => format!(" + {n}√"),
+    };
+    format!("{} / {} + {}÷{roots}", o.mul, o.add, o.div)
+}
+
 #[test]
 fn the_page_has_the_counts() {
     let page = file(["docs", "loops.md"]);
@@ -24,7 +33,6 @@ fn the_page_has_the_counts() {
         Method::MassMatrix,
         Method::ForwardDynamics,
     ];
-    let words = |o: Operations| format!("{} / {} + {}÷", o.mul, o.add, o.div);
     for (name, title) in MECHANISMS {
         let robot = Robot::read(&spec(name));
         let counts = methods.map(|method| words(robot.function(None, method).operations()));
@@ -43,7 +51,6 @@ fn the_page_has_the_counts_of_methods_on_request() {
         Method::Reactions,
         Method::JointReactions,
     ];
-    let words = |o: Operations| format!("{} / {} + {}÷", o.mul, o.add, o.div);
     let mut missing = Vec::new();
     for (name, title) in MECHANISMS {
         let robot = Robot::read(&spec(name));

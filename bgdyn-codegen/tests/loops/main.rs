@@ -19,6 +19,7 @@ mod findings;
 
 mod actuated;
 mod actuated_positions;
+mod closed_form;
 mod counts;
 mod drawn;
 mod faults;
@@ -26,6 +27,7 @@ mod frame_rows;
 mod locks;
 mod multipliers;
 mod open_tree;
+mod random_dyads;
 mod random_loops;
 mod rank;
 mod reactions;

@@ -20,6 +20,7 @@
 //! | `rows_at.rs` | the rows of a loop or a contact at one position |
 //! | `closing/` | a file for each type of loop |
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
+//! | `polygon/` | planar loops in closed form |
 //! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
 //! | `reach.rs` | closed positions and velocities with given ones |
 //! | `solve.rs` | linear equations |
@@ -32,6 +33,7 @@ mod contact_row;
 mod contact_shape;
 mod contact_types;
 mod numeric;
+mod polygon;
 mod ranges;
 mod reach;
 mod round_contact;
@@ -52,6 +54,9 @@ pub use contact_shape::{
     SPHERE_ROWS,
 };
 pub use contact_types::{DISC, ELLIPSOID, KNIFE_EDGE, SPHERE};
+pub use polygon::{
+    AngleTerm, PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector, polygons,
+};
 pub use ranges::{ClosedRange, RangeEnd, TreeLimits};
 pub use reach::Unreached;
 pub use row::{ClosingRow, RowKind};

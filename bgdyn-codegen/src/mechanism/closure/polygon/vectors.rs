@@ -1,0 +1,27 @@
+//! Vectors in the plane of a loop, as complex numbers.
+
+use bgdyn_runtime::Dd;
+
+/// A vector in the plane of a loop: components along two axes that are perpendicular to each other.
+pub type PlaneVector = [Dd; 2];
+
+pub(super) fn negated(v: PlaneVector) -> PlaneVector {
+    v.map(|x| -x)
+}
+
+pub(super) fn plus([x, y]: PlaneVector, [u, v]: PlaneVector) -> PlaneVector {
+    [x + u, y + v]
+}
+
+pub(super) fn length([x, y]: PlaneVector) -> Dd {
+    (x * x + y * y).sqrt()
+}
+
+pub(super) fn conjugate([x, y]: PlaneVector) -> PlaneVector {
+    [x, -y]
+}
+
+/// Returns the product of complex numbers.
+pub(super) fn times([x, y]: PlaneVector, [u, v]: PlaneVector) -> PlaneVector {
+    [x * u - y * v, x * v + y * u]
+}
