@@ -302,14 +302,15 @@ fn digits_are_not_lost_against_elimination() {
                 let mut at = compared.state(seed);
                 let round =
                     |x: &mut Vec<Dd>| x.iter_mut().for_each(|x| *x = Dd::from_f64(x.to_f64()));
-                [
+                for x in [
                     &mut at.q,
                     &mut at.v,
                     &mut at.a,
                     &mut at.u,
                     &mut at.parameters,
-                ]
-                .map(round);
+                ] {
+                    round(x);
+                }
                 assert!(closure.close(&mut at.q));
                 compared.close_to_the_last_digit(&mut at.q);
                 let (exact, _) = other.evaluate(at.clone());
