@@ -3,7 +3,7 @@
 //! It holds its joint up to the static limit; beyond, the joint slides against the kinetic effort. A mode of the
 //! state distinguishes the two.
 
-use super::viscous::{JOINT, REFERENCE};
+use super::keys::{JOINT, REFERENCE};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

@@ -5,7 +5,7 @@
 //! `coulomb` and `lugre` can hold.
 
 use super::coulomb::EFFORT;
-use super::viscous::{JOINT, REFERENCE};
+use super::keys::{JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

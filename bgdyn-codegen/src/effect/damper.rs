@@ -1,7 +1,8 @@
 //! A damper, at a joint or along the line between two sites: f = −b (ṡ − ṙ).
 
+use super::keys::REFERENCE;
 use super::spring::{BETWEEN, MAYBE_JOINT};
-use super::viscous::{EFFORT_PER_RATE, REFERENCE};
+use super::viscous::EFFORT_PER_RATE;
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

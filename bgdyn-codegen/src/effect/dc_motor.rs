@@ -13,7 +13,7 @@
 use bgdyn_runtime::Dd;
 
 use super::gear::declare_mode;
-use super::viscous::JOINT;
+use super::keys::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

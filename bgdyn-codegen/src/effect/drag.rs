@@ -3,7 +3,8 @@
 //! It is f = −(c₁ + c₂ |v|) v against the velocity v of its origin, m = −c_ω ω against its angular velocity. c₁
 //! is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
-use super::wrench::{AT, act, moves, twist};
+use super::keys::AT;
+use super::wrench::{act, moves, twist};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};

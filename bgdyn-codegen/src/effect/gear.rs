@@ -6,7 +6,7 @@
 //! any effort between the two. The loss is proportional to the load; losses without load belong to the
 //! friction of the joint.
 
-use super::viscous::JOINT;
+use super::keys::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, ValueCheck};

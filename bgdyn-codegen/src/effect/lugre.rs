@@ -10,8 +10,9 @@ use bgdyn_runtime::Dd;
 
 use super::coulomb::EFFORT;
 use super::coulomb_smooth::SPEED;
+use super::keys::{JOINT, REFERENCE};
 use super::stribeck::{KINETIC, curve};
-use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
+use super::viscous::EFFORT_PER_RATE;
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};

@@ -1,8 +1,6 @@
 //! Bond graph nodes that several effects add in the same way, and their texts.
 
-use super::rotor::{INERTIA, RATIO};
-use super::viscous::REFERENCE;
-use super::wrench::AT;
+use super::keys::{AT, INERTIA, RATIO, REFERENCE};
 use crate::bond_graph::{BondNetwork, GraphNodeId, NodeKind, PortSite, PowerTerm};
 use crate::declaration::{Element, undeclared};
 use crate::format::Key;

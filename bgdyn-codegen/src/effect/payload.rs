@@ -6,7 +6,8 @@
 use bgdyn_runtime::Dd;
 
 use super::Effect;
-use super::wrench::{AT, moves};
+use super::keys::AT;
+use super::wrench::moves;
 use crate::bond_graph::BondNetwork;
 use crate::declaration::{EffectKind, Element, Quantity, SceneContext, ValueCheck};
 use crate::fault::{Faults, Help};

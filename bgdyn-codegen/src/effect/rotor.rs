@@ -5,6 +5,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::keys::{INERTIA, RATIO};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondGraph, BondNetwork, Gyrostat, Rotor as RotorStore};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
@@ -15,20 +16,6 @@ use crate::mechanism::{CoordinateId, Mechanism, Parameter, ParameterId, Value};
 
 pub(super) struct RotorEffect;
 
-/// The inertia of a rotor.
-pub(super) const INERTIA: Key = Key {
-    name: "inertia",
-    reads: Reads::Number(&[Dimension::Inertia, Dimension::Mass]),
-    needed: true,
-    about: "J, the rotor's moment of inertia about its axis",
-};
-/// The ratio of the gear between a rotor and its joint.
-pub(super) const RATIO: Key = Key {
-    name: "ratio",
-    reads: Reads::Number(&[Dimension::One]),
-    needed: false,
-    about: "N, turns of the rotor per turn of the joint; 1 without it",
-};
 const JOINT: Key = Key {
     name: "joint",
     reads: Reads::Joint,

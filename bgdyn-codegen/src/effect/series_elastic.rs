@@ -8,8 +8,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::rotor::{INERTIA, RATIO};
-use super::viscous::{EFFORT_PER_RATE, JOINT};
+use super::keys::{INERTIA, JOINT, RATIO};
+use super::viscous::EFFORT_PER_RATE;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

@@ -2,7 +2,7 @@
 //!
 //! The effort depends on the slip of a port against its counterpart, and dissipates the power that it receives.
 
-use super::viscous::REFERENCE;
+use super::keys::REFERENCE;
 use crate::declaration::Element;
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;

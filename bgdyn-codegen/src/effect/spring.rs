@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::viscous::REFERENCE;
+use super::keys::REFERENCE;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

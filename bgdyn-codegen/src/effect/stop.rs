@@ -11,7 +11,7 @@
 use bgdyn_runtime::Dd;
 
 use super::coulomb_smooth::SPEED;
-use super::viscous::JOINT;
+use super::keys::JOINT;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};

@@ -8,7 +8,8 @@
 
 use super::coulomb::EFFORT;
 use super::coulomb_smooth::{SPEED, WIDTH};
-use super::viscous::{EFFORT_PER_RATE, JOINT, REFERENCE};
+use super::keys::{JOINT, REFERENCE};
+use super::viscous::EFFORT_PER_RATE;
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};

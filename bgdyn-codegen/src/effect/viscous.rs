@@ -1,5 +1,6 @@
 //! Viscous friction of a joint: τ = −b (q̇ − ṙ).
 
+use super::keys::{JOINT, REFERENCE};
 use super::{Effect, nodes, slip};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, ValueCheck};
@@ -9,22 +10,6 @@ use crate::format::{Dimension, Key, Reads};
 use crate::layout::StateLayout;
 
 pub(super) struct Viscous;
-
-/// The counterpart of friction and springs; by default the fixed world.
-pub(super) const REFERENCE: Key = Key {
-    name: "reference",
-    reads: Reads::Input,
-    needed: false,
-    about: "name of the moving counterpart (a belt), an input; at rest without it",
-};
-
-/// The joint an effect acts on.
-pub(super) const JOINT: Key = Key {
-    name: "joint",
-    reads: Reads::Coordinate,
-    needed: true,
-    about: "the joint, or the effect whose coordinate it is",
-};
 
 /// The dimensions of an effort per rate.
 pub(super) const EFFORT_PER_RATE: Reads =

@@ -2,6 +2,7 @@
 //!
 //! It is an effort source on the flow V = [ω; v] of the site: τ_j += J_jᵀ w.
 
+use super::keys::AT;
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
@@ -13,14 +14,6 @@ use crate::layout::StateLayout;
 use crate::math::Vec3;
 
 pub(super) struct WrenchEffect;
-
-/// The site of a link at which an effect acts.
-pub(super) const AT: Key = Key {
-    name: "at",
-    reads: Reads::Site,
-    needed: true,
-    about: "the link or frame at whose origin it acts",
-};
 
 /// Moments first, as in all spatial vectors.
 const COMPONENTS: [&str; 6] = ["mx", "my", "mz", "fx", "fy", "fz"];

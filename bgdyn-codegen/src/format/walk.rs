@@ -3,7 +3,7 @@
 use super::number::number;
 use super::yaml::{Data, YamlEntry, YamlKind, YamlTree};
 use super::{Field, Located, Number, Vector};
-use crate::fault::wording::{Found, Wanted, expected};
+use crate::fault::wording::{FoundValue, Wanted, expected};
 use crate::fault::{Faults, Location, wording};
 use crate::unit::Dimension;
 
@@ -364,15 +364,15 @@ fn is_parameter(tree: &YamlTree) -> bool {
 }
 
 /// Returns what a value is.
-fn describe(tree: &YamlTree) -> Found<'_> {
+fn describe(tree: &YamlTree) -> FoundValue<'_> {
     match &tree.data {
-        Data::List(items) => Found::List(items.len()),
-        Data::Map(_) => Found::Mapping,
+        Data::List(items) => FoundValue::List(items.len()),
+        Data::Map(_) => FoundValue::Mapping,
         Data::Scalar { kind, text } => match kind {
-            YamlKind::Nothing => Found::Nothing,
-            YamlKind::Truth => Found::Truth(text),
-            YamlKind::Number => Found::Number(text),
-            YamlKind::Text { .. } => Found::Text(text),
+            YamlKind::Nothing => FoundValue::Nothing,
+            YamlKind::Truth => FoundValue::Truth(text),
+            YamlKind::Number => FoundValue::Number(text),
+            YamlKind::Text { .. } => FoundValue::Text(text),
         },
     }
 }

@@ -130,7 +130,7 @@ pub(crate) type Wanted<'a> = (&'a str, &'a str);
 
 /// A value of a file that is of the wrong type.
 #[derive(Clone, Copy)]
-pub(crate) enum Found<'a> {
+pub(crate) enum FoundValue<'a> {
     /// A list of this length.
     List(usize),
     /// A mapping.
@@ -145,15 +145,15 @@ pub(crate) enum Found<'a> {
     Text(&'a str),
 }
 
-impl Found<'_> {
+impl FoundValue<'_> {
     fn in_words(self) -> String {
         match self {
-            Found::List(length) => format!("a list of {length}"),
-            Found::Mapping => "a mapping".to_owned(),
-            Found::Nothing => "nothing".to_owned(),
-            Found::Truth(text) => format!("the truth value {}", quote(text)),
-            Found::Number(text) => format!("the number {}", quote(text)),
-            Found::Text(text) => format!("the text {}", quote(text)),
+            FoundValue::List(length) => format!("a list of {length}"),
+            FoundValue::Mapping => "a mapping".to_owned(),
+            FoundValue::Nothing => "nothing".to_owned(),
+            FoundValue::Truth(text) => format!("the truth value {}", quote(text)),
+            FoundValue::Number(text) => format!("the number {}", quote(text)),
+            FoundValue::Text(text) => format!("the text {}", quote(text)),
         }
     }
 }
@@ -161,11 +161,11 @@ impl Found<'_> {
 pub(crate) fn wrong_type(
     location: &Location,
     (what, example): Wanted<'_>,
-    found: Found<'_>,
+    found: FoundValue<'_>,
 ) -> Fault {
     let message = format!("{what} belongs here, not {}", found.in_words());
     let help = match found {
-        Found::Nothing => "leave the key out if there is no value".to_owned(),
+        FoundValue::Nothing => "leave the key out if there is no value".to_owned(),
         _ => format!("write {example}"),
     };
     Fault::new(location, "wrong-type", message).with_help(help)
