@@ -161,6 +161,8 @@ impl Method {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
         }
+        // Joints carry the loads of these loops, which no equation contains.
+        all.retain(|method| graph.parallel.is_empty() || *method != Method::JointReactions);
         all
     }
 
@@ -188,6 +190,9 @@ impl Method {
         let (possible, sites) = (Method::possible_of(graph), &graph.sites);
         let found = possible.iter().find(|m| m.name(sites) == name);
         found.copied().ok_or_else(|| {
+            if let Some(message) = without_multipliers(graph, name) {
+                return message;
+            }
             let known: Vec<String> = possible.iter().map(|m| m.name(sites)).collect();
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
             let own = &known[..possible.iter().filter(|m| m.site().is_none()).count()];
@@ -334,4 +339,19 @@ impl Method {
             Method::Scene(_) => Shape::CheckedParts,
         }
     }
+}
+
+/// Returns why a mechanism with a loop on its parallel branch does not have this method, if that is the reason: the
+/// efforts of such a loop are in no equation, and it has no rows.
+fn without_multipliers(graph: &BondGraph, name: &str) -> Option<String> {
+    let closes = graph.parallel.first()?;
+    let mut of_loops = (Method::OF_LOOPS.into_iter())
+        .chain(Method::ON_REQUEST)
+        .chain([Method::JointReactions]);
+    let asked = of_loops.any(|method| method.name(&graph.sites) == name);
+    asked.then(|| {
+        format!(
+            "`{name}`: the loop `{closes}` has no rows and no multipliers, because with `branch: parallel` it is closed by joints that follow; write `branch: left` or `branch: right`, or `near`, for the efforts that close it"
+        )
+    })
 }
