@@ -290,7 +290,7 @@ fn model(mechanism: &Mechanism, loops: bool) -> Value {
         "parameters": parameters,
         "snapped": mechanism.snapped().map(|s| json!({ "count": s.count, "most": s.most, "path": s.location.path })),
     });
-    if mechanism.closure().is_some() {
+    if mechanism.closure().is_some() || !mechanism.parallel_loops().is_empty() {
         model["closure"] = closure(mechanism, loops);
     }
     model

@@ -1,14 +1,38 @@
 //! What `bgdyn check` reports of a mechanism's loops, wheels and knife edges.
 
-use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::mechanism::closure::{Closure, LoopRow};
+use bgdyn_codegen::mechanism::{Mechanism, ParallelLoop};
 use serde_json::{Value, json};
 
 /// Returns lines: for each loop its type, rows and branch; then the mobility with the independent joints.
 pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
-    let Some(closure) = mechanism.closure() else {
-        return Vec::new();
-    };
+    let parallel = mechanism.parallel_loops();
+    let mut lines: Vec<String> = (parallel.iter())
+        .map(|one| parallel_line(mechanism, one))
+        .collect();
+    let closure = mechanism.closure();
+    lines.extend(closure.into_iter().flat_map(closure_lines));
+    if !lines.is_empty() {
+        lines.push(mobility(mechanism));
+    }
+    let actuated = mechanism.actuated_names().join(", ");
+    let line = format!("actuated: {actuated}");
+    lines.extend((!actuated.is_empty()).then_some(line));
+    lines
+}
+
+/// Returns "loop pin, hinge: closed by joints that follow: rocker_angle; rows 2; branch parallel".
+fn parallel_line(mechanism: &Mechanism, one: &ParallelLoop) -> String {
+    format!(
+        "loop {}, {}: closed by joints that follow: {}; rows {}; branch parallel",
+        one.name,
+        one.kind.keyword,
+        mechanism.followers_of(one).join(", "),
+        one.rows
+    )
+}
+
+fn closure_lines(closure: &Closure) -> Vec<String> {
     let of_loop = |closes: usize| {
         let one = &closure.loops[closes];
         let word = match one.contact {
@@ -39,28 +63,32 @@ pub(super) fn lines(mechanism: &Mechanism) -> Vec<String> {
         }
         line
     };
-    let mut lines: Vec<String> = (0..closure.loops.len()).map(of_loop).collect();
-    let [independent, dependent] = joints(mechanism, closure);
-    lines.push(format!(
+    (0..closure.loops.len()).map(of_loop).collect()
+}
+
+/// Returns "mobility 1: 3 velocities less 2 rows; independent: crank; dependent: coupler, rocker".
+fn mobility(mechanism: &Mechanism) -> String {
+    let rows: usize = mechanism.parallel_loops().iter().map(|l| l.rows).sum();
+    let [independent, dependent] = joints(mechanism);
+    let own = mechanism.closure().map_or(0, |closure| closure.rows.len());
+    format!(
         "mobility {}: {} velocities less {} rows; independent: {}; dependent: {}",
-        closure.independents.len(),
-        closure.positions.len(),
-        closure.rows.len(),
+        independent.len(),
+        independent.len() + own + rows,
+        own + rows,
         independent.join(", "),
         dependent.join(", ")
-    ));
-    let actuated = mechanism.actuated_names().join(", ");
-    let line = format!("actuated: {actuated}");
-    lines.extend((!actuated.is_empty()).then_some(line));
-    lines
+    )
 }
 
 /// Returns the same as JSON; null without loops.
 pub(super) fn model(mechanism: &Mechanism) -> Value {
-    let Some(closure) = mechanism.closure() else {
+    let closure = mechanism.closure();
+    let parallel = mechanism.parallel_loops();
+    if closure.is_none() && parallel.is_empty() {
         return Value::Null;
-    };
-    let of_loop = |closes: usize| {
+    }
+    let of_loop = |closure: &Closure, closes: usize| {
         let one = &closure.loops[closes];
         json!({
             "name": one.name,
@@ -72,9 +100,20 @@ pub(super) fn model(mechanism: &Mechanism) -> Value {
             "branch": side(closure, closes),
         })
     };
-    let [independent, dependent] = joints(mechanism, closure);
+    let own = closure.into_iter();
+    let own = own.flat_map(|c| (0..c.loops.len()).map(move |k| of_loop(c, k)));
+    let followed = parallel.iter().map(|one| {
+        json!({
+            "name": one.name,
+            "type": one.kind.keyword,
+            "branch": "parallel",
+            "following_joints": mechanism.followers_of(one),
+            "number_of_rows": one.rows,
+        })
+    });
+    let [independent, dependent] = joints(mechanism);
     json!({
-        "loops": (0..closure.loops.len()).map(of_loop).collect::<Vec<_>>(),
+        "loops": own.chain(followed).collect::<Vec<_>>(),
         "independent": independent,
         "dependent": dependent,
         "actuated": mechanism.actuated_names(),
@@ -82,11 +121,21 @@ pub(super) fn model(mechanism: &Mechanism) -> Value {
 }
 
 /// Returns the names of the independent and of the dependent joints.
-fn joints(mechanism: &Mechanism, closure: &Closure) -> [Vec<String>; 2] {
+fn joints(mechanism: &Mechanism) -> [Vec<String>; 2] {
+    let parallel = mechanism.parallel_loops().iter();
+    let mut dependent: Vec<String> = Vec::new();
+    for name in parallel.flat_map(|one| mechanism.followers_of(one)) {
+        if !dependent.iter().any(|known| known == name) {
+            dependent.push(name.to_owned());
+        }
+    }
     let of_tree = mechanism.open().joint_names();
+    let Some(closure) = mechanism.closure() else {
+        return [of_tree, dependent];
+    };
     let independent = closure.independents.iter().map(|j| of_tree[j.0].clone());
-    let dependent = closure.dependents().map(|j| of_tree[j.0].clone());
-    [independent.collect(), dependent.collect()]
+    dependent.extend(closure.dependents().map(|j| of_tree[j.0].clone()));
+    [independent.collect(), dependent]
 }
 
 fn names(of: &[LoopRow], closes: usize) -> Vec<&'static str> {

@@ -35,6 +35,12 @@ impl Chart {
         let mut unfolding = Unfolding::new(&network, &drive);
         let mut chart = Chart::of_graph(graph, &mut unfolding, title, mechanism.description());
         chart.add_ports(graph, &network, &mut unfolding);
+        let parallel = mechanism.parallel_loops().iter();
+        chart.notes.extend(parallel.map(|one| {
+            let followers = mechanism.followers_of(one).join(", ");
+            let name = &one.name;
+            format!("Loop {name} is closed by joints that follow, with constant moduli: {followers}. Its multipliers do not appear.")
+        }));
         chart
     }
 

@@ -45,7 +45,7 @@ pub(super) fn closing() -> Value {
         "propertyNames": identifier(),
         "additionalProperties": position,
     });
-    let side = "side of the line from the joint of a's link to the joint of b's link on which the places lie";
+    let side = "side of the line from the joint of a's link to the joint of b's link on which the places lie; `parallel`: opposite sides of a parallelogram stay parallel, at no cost; `crossed`: its other branch";
     object(
         &[
             (
@@ -68,7 +68,10 @@ pub(super) fn closing() -> Value {
             ),
             (
                 "branch",
-                described(side, json!({ "enum": ["left", "right"] })),
+                described(
+                    side,
+                    json!({ "enum": ["left", "right", "parallel", "crossed"] }),
+                ),
             ),
             ("near", near),
             (

@@ -46,6 +46,9 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
         transformers: Vec::new(),
         released: released(mechanism).map(Box::new),
         closed: None,
+        parallel: (mechanism.parallel_loops().iter())
+            .map(|one| one.name.clone())
+            .collect(),
     };
     graph.junctions = (0..mechanism.nv())
         .map(|j| Junction::Velocity(CoordinateId(j)))

@@ -120,6 +120,8 @@ pub struct BondGraph {
     pub released: Option<Box<Released>>,
     /// The loops, with the graph of the open tree; then the coordinates are the independent ones.
     pub closed: Option<Box<ClosedTree>>,
+    /// The names of the loops that are closed by joints that follow, whose multipliers no equation contains.
+    pub parallel: Vec<String>,
 }
 
 /// An open tree with loops that close it.

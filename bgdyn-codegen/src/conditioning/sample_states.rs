@@ -12,8 +12,8 @@ use bgdyn_runtime::{Dd, Scalar};
 
 use crate::bond_graph::{BondGraph, Multibody};
 use crate::expr::Inputs;
-use crate::formulation::geometry::{Body, angle_of, geometry};
-use crate::math::Vec3;
+use crate::formulation::geometry::{Body, geometry};
+use crate::math::{Vec3, angle_of};
 use crate::mechanism::closure::Closure;
 use crate::mechanism::{BaseMotion, Motion, Value};
 use crate::random::Random;

@@ -186,7 +186,7 @@ pub struct LoopSpec {
     pub axis: Field<Vector>,
     /// Length of a rod.
     pub length: Field<Number>,
-    /// The branch: `left` or `right`.
+    /// The branch: `left`, `right`, `parallel` or `crossed`.
     pub branch: Field<String>,
     /// Positions of joints near the branch.
     pub near: Field<Vec<(Located<String>, Located<Number>)>>,
@@ -194,6 +194,13 @@ pub struct LoopSpec {
     pub redundant: Field<String>,
     /// The gap by which rows that follow from others may be open.
     pub tolerance: Field<Number>,
+}
+
+impl LoopSpec {
+    /// Returns whether it is a parallelogram that is closed by joints that follow.
+    pub fn is_parallel(&self) -> bool {
+        self.branch.value().is_some_and(|word| word == "parallel")
+    }
 }
 
 /// One place of a loop: a link with an origin on it, or a frame.

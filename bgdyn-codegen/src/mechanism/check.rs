@@ -21,11 +21,13 @@ use crate::fault::{Faults, wording};
 use crate::format::{self, Dimension, Field, Spec};
 use crate::math::Vec3;
 use base::{at_rest, base_is_given, base_link};
+use constraint::Row;
 pub use constraint::constraint_types;
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use joint::CheckedJoints;
 pub use loops::PLANE_KEYS;
+use loops::Tree;
 use order::LinkTree;
 use parameters::Parameters;
 
@@ -90,11 +92,16 @@ fn checked(
     let given = base_is_given(spec, &parameters, faults);
     let whole = || {
         let (mut links, places) = assemble(bodies, &tree, given, faults)?;
-        let constraints = constraint::apply(spec, &mut links, &parameters, faults)?;
-        let mut frames = all(frames)?;
-        for frame in &mut frames {
+        let mut frames = all(frames);
+        for frame in frames.iter_mut().flatten() {
             frame.link = frame.link.and_then(|LinkId(i)| places.get(i).copied());
         }
+        let tree = Tree::new(&links, frames.as_deref().unwrap_or_default());
+        let parallel = loops::parallel_loops((spec, tree, &directions), faults);
+        let (rows, parallel) = parallel.unzip();
+        let rows: Vec<Row> = rows.unwrap_or_default();
+        let constraints = constraint::apply(spec, (&mut links, rows), &parameters, faults)?;
+        let (frames, parallel) = (frames?, parallel?);
         let gravity = gravity?;
         let mut parameters = parameters.into_all();
         let base = given.then(|| {
@@ -116,6 +123,7 @@ fn checked(
             coordinates: Vec::new(),
             positions: Vec::new(),
             snapped: None,
+            parallel,
             closure: None,
         };
         mechanism.number();

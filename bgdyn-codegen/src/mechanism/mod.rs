@@ -13,6 +13,7 @@ pub mod joint;
 mod lock;
 mod locked_tree;
 mod numbering;
+mod parallel_loop;
 mod places;
 mod pose;
 mod prescribed;
@@ -35,6 +36,7 @@ pub use dependents::DependentVelocity;
 pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
 pub use joint::{JointType, Motion};
 pub(crate) use locked_tree::LockedTree;
+pub use parallel_loop::ParallelLoop;
 pub(crate) use places::SiteOrigins;
 pub use pose::Pose;
 pub use prescribed::{PRESCRIBED_PARAMETERS, PrescribedJoint, prescribed_parameter_names};
@@ -197,6 +199,7 @@ pub struct Mechanism {
     coordinates: Vec<LinkId>,
     positions: Vec<LinkId>,
     snapped: Option<Snapped>,
+    parallel: Vec<ParallelLoop>,
     closure: Option<Closure>,
 }
 
@@ -252,7 +255,12 @@ impl Mechanism {
         self.snapped.as_ref()
     }
 
-    /// Returns its loops.
+    /// Returns its loops on their parallel branch, which are closed by joints that follow.
+    pub fn parallel_loops(&self) -> &[ParallelLoop] {
+        &self.parallel
+    }
+
+    /// Returns its other loops.
     pub fn closure(&self) -> Option<&Closure> {
         self.closure.as_ref()
     }

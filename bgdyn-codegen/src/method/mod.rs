@@ -176,6 +176,8 @@ impl Method {
                 all.push(Method::ActuatedReactions(actuated.joints.len()));
             }
         }
+        // Joints carry the loads of these loops, which no equation contains.
+        all.retain(|method| graph.parallel.is_empty() || *method != Method::JointReactions);
         all
     }
 
@@ -205,6 +207,9 @@ impl Method {
         let own_name = |m: &Method| m.name_in(closed, sites);
         let found = possible.iter().find(|m| own_name(m) == name);
         found.copied().ok_or_else(|| {
+            if let Some(message) = without_multipliers(graph, name) {
+                return message;
+            }
             if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
                 return why;
             }
@@ -357,4 +362,19 @@ impl Method {
             Method::Scene(_) => Shape::CheckedParts,
         }
     }
+}
+
+/// Returns why a mechanism with a loop on its parallel branch does not have this method, if that is the reason: the
+/// efforts of such a loop are in no equation, and it has no rows.
+fn without_multipliers(graph: &BondGraph, name: &str) -> Option<String> {
+    let closes = graph.parallel.first()?;
+    let mut of_loops = (Method::OF_LOOPS.into_iter())
+        .chain(Method::ON_REQUEST)
+        .chain([Method::JointReactions]);
+    let asked = of_loops.any(|method| method.name(&graph.sites) == name);
+    asked.then(|| {
+        format!(
+            "`{name}`: the loop `{closes}` has no rows and no multipliers, because with `branch: parallel` it is closed by joints that follow; write `branch: left` or `branch: right`, or `near`, for the efforts that close it"
+        )
+    })
 }

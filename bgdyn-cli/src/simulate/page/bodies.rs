@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::declaration::Element;
 use bgdyn_codegen::mechanism::closure::{ContactShape, PlaneContact};
-use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Value};
+use bgdyn_codegen::mechanism::{Link, LinkId, Mechanism, Motion, Pose, Value};
 use bgdyn_codegen::scene::Scene;
 
 use super::body::{Body, BodyJoint, BodyPoint, End, Placed};
@@ -177,19 +177,27 @@ impl Bodies {
                 self.rims(body, &place.then(&Placed::of(&contact.place)), contact);
                 continue;
             }
-            let ends = [&one.chain.start, &one.chain.end];
-            let names = [one.name.as_str(), ""];
-            for ((link, pose), name) in one.links.iter().zip(ends).zip(names) {
-                let (body, place) = self.carrier(*link);
-                let at = place.point(Placed::of(pose).o);
-                let from = self.all[body].nearest(at);
-                self.all[body].points.push(BodyPoint {
-                    name: name.to_owned(),
-                    beam: body != 0 && from != at,
-                    from,
-                    ..BodyPoint::at(at)
-                });
-            }
+            let places = [&one.chain.start, &one.chain.end];
+            self.pin(&one.name, one.links, places);
+        }
+        for one in mechanism.parallel_loops() {
+            self.pin(&one.name, one.links, one.places.each_ref());
+        }
+    }
+
+    /// Adds the two places at which a loop closes.
+    fn pin(&mut self, name: &str, links: [Option<LinkId>; 2], places: [&Pose; 2]) {
+        let names = [name, ""];
+        for ((link, pose), name) in links.into_iter().zip(places).zip(names) {
+            let (body, place) = self.carrier(link);
+            let at = place.point(Placed::of(pose).o);
+            let from = self.all[body].nearest(at);
+            self.all[body].points.push(BodyPoint {
+                name: name.to_owned(),
+                beam: body != 0 && from != at,
+                from,
+                ..BodyPoint::at(at)
+            });
         }
     }
 

@@ -95,14 +95,20 @@ pub(crate) fn independent_follower(location: &Location, joint: &str, leaders: &[
         .with_help("write a constraint `gear` in place of `mimic`, or list another joint")
 }
 
-pub(crate) fn row_of_independents(location: &Location, name: &str, joints: &[&str]) -> Fault {
+/// `of` is "constraint" or "loop".
+pub(crate) fn row_of_independents(
+    location: &Location,
+    (of, name): (&str, &str),
+    joints: &[&str],
+) -> Fault {
     let message = format!(
-        "the constraint {} relates {} only, which are all `independent`",
+        "the {of} {} relates {} only, which are all `independent`",
         quote(name),
         quoted_list(joints.iter().copied())
     );
-    Fault::new(location, "too-many-independents", message)
-        .with_help("take one of them out of `independent`: each constraint makes one joint follow")
+    Fault::new(location, "too-many-independents", message).with_help(format!(
+        "take one of them out of `independent`: the {of} makes it follow"
+    ))
 }
 
 /// Returns the sum of rows with factors: "2 · `a` + -1 · `b`".
@@ -111,14 +117,19 @@ fn combination(rows: &[(&str, f64)]) -> String {
     rows.iter().map(term).collect::<Vec<_>>().join(" + ")
 }
 
-pub(crate) fn dependent_row(location: &Location, name: &str, others: &[(&str, f64)]) -> Fault {
+/// `of` is "constraint" or "loop".
+pub(crate) fn dependent_row(
+    location: &Location,
+    (of, name): (&str, &str),
+    others: &[(&str, f64)],
+) -> Fault {
     let message = match others {
         [] => format!(
-            "the terms of the constraint {} cancel: it says nothing",
+            "the terms of the {of} {} cancel: it says nothing",
             quote(name)
         ),
         _ => format!(
-            "the constraint {} follows from others: it is {}",
+            "the {of} {} follows from others: it is {}",
             quote(name),
             combination(others)
         ),
@@ -126,20 +137,21 @@ pub(crate) fn dependent_row(location: &Location, name: &str, others: &[(&str, f6
     Fault::new(location, "dependent-row", message).with_help("leave it out")
 }
 
+/// `of` is "constraint" or "loop".
 pub(crate) fn contradicting_row(
     location: &Location,
-    name: &str,
+    (of, name): (&str, &str),
     others: &[(&str, f64)],
     gap: f64,
 ) -> Fault {
     let gap = six_digits(gap);
     let message = match others {
         [] => format!(
-            "the terms of the constraint {} cancel, and their sum should be {gap}",
+            "the terms of the {of} {} cancel, and their sum should be {gap}",
             quote(name)
         ),
         _ => format!(
-            "the constraint {} contradicts others: its coefficients are those of {}, its offset differs by {gap}",
+            "the {of} {} contradicts others: its coefficients are those of {}, its offset differs by {gap}",
             quote(name),
             combination(others)
         ),
@@ -164,18 +176,20 @@ pub(crate) fn constraint_empty_range(
 }
 
 /// `at` is the position that is left; `None` for rows on velocities.
+/// The rows are those of constraints or loops: the word, and the name.
 pub(crate) fn no_motion_left(
     location: &Location,
     joint: &str,
-    rows: &[&str],
+    rows: &[(&str, &str)],
     at: Option<f64>,
 ) -> Fault {
+    let names = rows.iter().map(|(_, name)| *name);
     let rows = match rows {
-        [row] => format!("the constraint {} leaves", quote(row)),
-        _ => format!(
-            "the constraints {} together leave",
-            quoted_list(rows.iter().copied())
-        ),
+        [(of, row)] => format!("the {of} {} leaves", quote(row)),
+        _ if rows.iter().any(|(of, _)| *of == "loop") => {
+            format!("{} together leave", quoted_list(names))
+        }
+        _ => format!("the constraints {} together leave", quoted_list(names)),
     };
     let rest = match at {
         Some(at) => format!("it is fixed at {}", six_digits(at)),

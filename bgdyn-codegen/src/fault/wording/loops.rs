@@ -88,8 +88,112 @@ pub(crate) fn loop_key_unused(location: &Location, key: &str, keyword: &str, of:
 
 pub(crate) fn unknown_branch(location: &Location, word: &str) -> Fault {
     let message = format!("{} is not a branch", quote(word));
-    let help = "write `left` or `right`: the side of the line from the joint of a's link to the joint of b's link on which the places lie; or give positions on the branch with `near`";
+    let help = "write `left` or `right`: the side of the line from the joint of a's link to the joint of b's link on which the places lie; `parallel` or `crossed` for a parallelogram; or give positions on the branch with `near`";
     Fault::new(location, "unknown-branch", message).with_help(help)
+}
+
+/// `branch` is "parallel" or "crossed".
+pub(crate) fn parallelogram_without_pin(
+    location: &Location,
+    (name, branch): (&str, &str),
+    keyword: &str,
+) -> Fault {
+    let message = format!(
+        "the loop {} has the branch `{branch}`, and the type `{keyword}`",
+        quote(name)
+    );
+    Fault::new(location, "not-a-parallelogram", message).with_help(
+        "parallelograms are closed by `type: hinge`, or by `type: point` in a plane; leave `branch` out for other loops",
+    )
+}
+
+pub(crate) fn parallelogram_with_joint(
+    location: &Location,
+    (name, branch): (&str, &str),
+    (joint, keyword): (&str, &str),
+) -> Fault {
+    let message = format!(
+        "the loop {} has the branch `{branch}`, and goes through {}, a {keyword} joint",
+        quote(name),
+        quote(joint)
+    );
+    Fault::new(location, "not-a-parallelogram", message)
+        .with_help("the joints of a parallelogram are revolute; leave `branch` out for other loops")
+}
+
+pub(crate) fn parallelogram_axes(location: &Location, (name, branch): (&str, &str)) -> Fault {
+    let message = format!(
+        "the loop {} has the branch `{branch}`, and its axes are not parallel",
+        quote(name)
+    );
+    Fault::new(location, "not-a-parallelogram", message).with_help(
+        "a parallelogram has revolute joints with parallel axes, and with `hinge` the `axis` of both places points the same way; leave `branch` out for other loops",
+    )
+}
+
+pub(crate) fn not_a_parallelogram(
+    location: &Location,
+    (name, branch): (&str, &str),
+    sides: &[f64],
+) -> Fault {
+    let message = format!(
+        "the loop {} has the branch `{branch}`, and is no parallelogram: its sides are {}",
+        quote(name),
+        lengths(sides)
+    );
+    Fault::new(location, "not-a-parallelogram", message).with_help(
+        "correct the places, so that opposite sides are equal; or write `branch: left` or `branch: right`, or leave it out",
+    )
+}
+
+pub(crate) fn rounded_parallelogram(
+    location: &Location,
+    (name, branch): (&str, &str),
+    sides: &[f64],
+) -> Fault {
+    let message = format!(
+        "the loop {} has the branch `{branch}`, and is almost a parallelogram: opposite ones of its sides {} differ, by {}",
+        quote(name),
+        lengths(sides),
+        (0..sides.len() / 2)
+            .map(|k| format!(
+                "{} m",
+                six_digits((sides[k] - sides[k + sides.len() / 2]).abs())
+            ))
+            .collect::<Vec<_>>()
+            .join(" and ")
+    );
+    Fault::new(location, "not-a-parallelogram", message).with_help(
+        "lengths seem to be rounded: write them exactly (the same digits, fractions of pi for angles); or write `branch: left` or `branch: right`, and the loop closes as it is",
+    )
+}
+
+pub(crate) fn crossed_rhombus(location: &Location, name: &str, [a, b]: [f64; 2]) -> Fault {
+    let message = format!(
+        "the loop {} has the branch `crossed`, and all its sides are equal: {}",
+        quote(name),
+        lengths(&[a, b, a, b])
+    );
+    Fault::new(location, "crossed-rhombus", message).with_help(
+        "on that branch links lie on each other: write `branch: parallel`, or make two opposite sides longer",
+    )
+}
+
+pub(crate) fn parallel_with_key(location: &Location, key: &str) -> Fault {
+    let message = format!("a loop with `branch: parallel` has no `{key}`");
+    Fault::new(location, "unused-key", message).with_help(
+        "leave it out: the branch is that on which opposite sides stay parallel, at every position and exactly",
+    )
+}
+
+/// Returns "0.4, 0.3, 0.4 and 0.2 m".
+fn lengths(sides: &[f64]) -> String {
+    let all: Vec<String> = sides.iter().map(|side| six_digits(*side)).collect();
+    match all.split_last() {
+        None => "all zero".into(),
+        Some((last, [])) => format!("{last} m"),
+        Some((last, others)) => format!("{} and {last} m", others.join(", ")),
+    }
 }
 
 pub(crate) fn branch_of_spatial_loop(location: &Location) -> Fault {

@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::base_parameters::{Parts, regrouped};
 use super::body_joint::BodyJoint;
-use super::geometry::{Geometry, angle_of};
+use super::geometry::Geometry;
 use super::inertia::{BodyInertia, Point};
 use super::joint_columns::{ColumnDirection, JointColumn, joint_columns};
 use super::names::{name_body, name_number};
@@ -16,7 +16,7 @@ use super::rotors::Rotors;
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
-use crate::math::{Mat3, Vec3};
+use crate::math::{Mat3, Vec3, angle_of};
 use crate::mechanism::Motion;
 use crate::mechanism::joint::Column;
 

@@ -392,12 +392,3 @@ fn compose(outer: &Pose, inner: &Pose) -> Pose {
         translation: outer.translation + outer.rotation * inner.translation,
     }
 }
-
-/// Returns the angle with this cosine and sine, to double-double accuracy.
-pub(crate) fn angle_of((cos, sin): (Dd, Dd)) -> Dd {
-    let near = Dd::from_f64(f64::atan2(sin.to_f64(), cos.to_f64()));
-    let (s, c) = near.sin_cos();
-    // sin(φ − near), so small that it is the angle.
-    let rest = sin * c - cos * s;
-    near + rest
-}

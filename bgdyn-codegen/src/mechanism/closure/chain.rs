@@ -348,6 +348,11 @@ impl<E: Ring> ChainFrames<E> {
         (self.rotations[steps], origin)
     }
 
+    /// Returns a segment: 0 from place a to the first link's origin, the last one to place b, m.
+    pub fn segment(&self, k: usize) -> Vec3<E> {
+        self.segments[k]
+    }
+
     /// Returns the origin of place b.
     pub fn end(&self) -> Vec3<E> {
         let zero = Vec3([self.zero; 3]);

@@ -9,7 +9,7 @@ use crate::mechanism::check::mimic::narrow;
 use crate::mechanism::{Coupling, Leader, Link, LinkId};
 
 /// What joints follow: by `mimic`, by rows on positions, and by rows on velocities.
-struct Relations {
+pub(in crate::mechanism::check) struct Relations {
     mimics: Vec<Option<Coupling>>,
     positions: Vec<Dependent>,
     velocities: Vec<Dependent>,
@@ -48,6 +48,26 @@ pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: 
 }
 
 impl Relations {
+    /// Returns what joints follow by `mimic` and these rows on positions.
+    pub(in crate::mechanism::check) fn of(links: &[Link], rows: &[Row]) -> Self {
+        let mimics = links.iter().map(|link| link.joint.degrees.coupling.clone());
+        let mut relations = Relations {
+            mimics: mimics.collect(),
+            positions: Vec::new(),
+            velocities: Vec::new(),
+        };
+        let expanded = rows.iter().map(|row| relations.without_mimics(row));
+        let expanded: Vec<ExpandedRow> = expanded.collect();
+        (relations.positions, _) = solve(&expanded, links.len(), &[]);
+        relations
+    }
+
+    /// Returns a sum of positions in joints that follow no others, and a constant.
+    pub(in crate::mechanism::check) fn reduced(&self, terms: &[Leader]) -> ExpandedRow {
+        let (terms, constant) = replaced(terms, Dd::ZERO, |link| self.by_mimic(link));
+        replaced(&terms, constant, |link| self.by_positions(link))
+    }
+
     fn by_mimic(&self, link: LinkId) -> Option<(&[Leader], Dd)> {
         let coupling = self.mimics[link.0].as_ref()?;
         Some((&coupling.positions, coupling.offset))
@@ -162,7 +182,7 @@ fn report(
             .map(|(r, k)| (rows[*r].name.as_str(), k.to_f64()))
             .collect();
         let kept: Vec<&str> = leftover.kept.iter().map(|&link| joint(link)).collect();
-        let (location, name) = (&row.location, row.name.as_str());
+        let (location, name) = (&row.location, (row.of, row.name.as_str()));
         faults.push(if !kept.is_empty() {
             wording::row_of_independents(location, name, &kept)
         } else if leftover.gap == Dd::ZERO {
@@ -173,7 +193,8 @@ fn report(
     }
     for dependent in dependents.iter().filter(|d| d.leaders.is_empty()) {
         let own: Vec<&Row> = dependent.rows.iter().map(|&r| rows[r]).collect();
-        let names: Vec<&str> = own.iter().map(|row| row.name.as_str()).collect();
+        let mut names: Vec<(&str, &str)> = own.iter().map(|r| (r.of, r.name.as_str())).collect();
+        names.dedup();
         if let Some(row) = own.first() {
             let at = row.offset.map(|_| dependent.offset.to_f64());
             let name = joint(dependent.link);

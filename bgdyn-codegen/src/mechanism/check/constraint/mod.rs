@@ -38,6 +38,8 @@ use crate::mechanism::{Joint, Leader, Link, LinkId, Motion};
 use crate::name::is_identifier;
 use constraint_type::{ConstraintType, ReadConstraint};
 pub(super) use contact::{ContactEntry, ContactKind, RollingSize, Slip};
+pub(super) use couple::Relations;
+pub(super) use row::Row;
 use row::{RowReader, one_degree, unknown};
 
 /// All types of constraints.
@@ -72,17 +74,17 @@ pub(super) struct AppliedConstraints {
     pub(super) contacts: Vec<ContactEntry>,
 }
 
-/// Reads the constraints, couples the joints that they make dependent, and returns the rest. `None` if a rule is
-/// broken.
+/// Reads the constraints, couples the joints that they and the rows of loops make dependent, and returns the rest.
+/// `None` if a rule is broken.
 pub(super) fn apply(
     spec: &Spec,
-    links: &mut [Link],
+    (links, of_loops): (&mut [Link], Vec<Row>),
     parameters: &Parameters<'_>,
     faults: &mut Faults,
 ) -> Option<AppliedConstraints> {
     let before = faults.count();
     let raws = spec.constraints.value().map_or(&[][..], Vec::as_slice);
-    let (mut rows, mut prescribed, mut contacts) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut rows, mut prescribed, mut contacts) = (of_loops, Vec::new(), Vec::new());
     for raw in raws {
         match read(raw, (spec, links), faults) {
             Some(ReadConstraint::Row(row)) => rows.push(row),
@@ -94,7 +96,11 @@ pub(super) fn apply(
     let kept = independent(spec, links, !contacts.is_empty(), faults);
     let others = (&*links, &rows[..], &kept[..]);
     prescribed::check(&prescribed, others, parameters, faults);
-    let closed = !contacts.is_empty() || spec.loops.value().is_some_and(|l| !l.is_empty());
+    let closed = !contacts.is_empty()
+        || spec
+            .loops
+            .value()
+            .is_some_and(|l| l.iter().any(|one| !one.is_parallel()));
     prescribed::check_loops(&prescribed, closed, (links, faults));
     if faults.count() > before {
         return None;

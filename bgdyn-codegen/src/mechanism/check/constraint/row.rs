@@ -12,15 +12,17 @@ pub(super) const COEFFICIENTS: [Dimension; 3] =
 
 /// A row: Σ coefficient · q = offset, or Σ coefficient · v = 0 without an offset.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
-    /// The name of its constraint.
-    pub(super) name: String,
-    /// The location of the constraint.
-    pub(super) location: Location,
-    /// The links of the joints, each once, with their coefficients.
-    pub(super) terms: Vec<Leader>,
+pub(in crate::mechanism::check) struct Row {
+    /// The name of its constraint or loop.
+    pub(in crate::mechanism::check) name: String,
+    /// Which of them it is: `constraint`, `loop`.
+    pub(in crate::mechanism::check) of: &'static str,
+    /// The location of the constraint or loop.
+    pub(in crate::mechanism::check) location: Location,
+    /// The links of the joints, with their coefficients, which add up for a link with several.
+    pub(in crate::mechanism::check) terms: Vec<Leader>,
     /// The value of the sum, rad or m; `None` for a row on velocities only.
-    pub(super) offset: Option<Dd>,
+    pub(in crate::mechanism::check) offset: Option<Dd>,
 }
 
 /// A joint as a constraint prescribes it.
@@ -47,6 +49,7 @@ impl RowReader<'_> {
     pub(super) fn row(&self, terms: Vec<Leader>, offset: Option<Dd>) -> Row {
         Row {
             name: self.name.value.clone(),
+            of: "constraint",
             location: self.location.clone(),
             terms,
             offset,

@@ -109,10 +109,9 @@ pub(super) fn assemble(
 /// Returns the first loop that is closed on another branch than that of the file, or turned over.
 fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usize> {
     (0..read.len()).find(|&one| {
-        let side = closure.side(one, q);
-        let wanted = read[one].branch.as_ref().map(|branch| branch.value);
-        let other = |left: bool| side.is_some_and(|side| (side > 0.0) != left);
-        wanted.is_some_and(other) || closure.flipped(one, q)
+        let wanted = read[one].branch.as_ref();
+        let other = wanted.is_some_and(|branch| !branch.value.contains(closure, one, q));
+        other || closure.flipped(one, q)
     })
 }
 

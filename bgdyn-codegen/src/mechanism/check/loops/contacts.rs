@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use super::planes;
-use super::read::{Context, ReadLoop, path, step};
+use super::read::{Context, ReadLoop};
+use super::tree::{Tree, path, step};
 use crate::fault::{Faults, wording};
 use crate::format::Located;
 use crate::math::Vec3;
@@ -14,7 +15,7 @@ use crate::mechanism::closure::{
     KinematicLoop, LoopChain, PlaneContact, SPHERE, SPHERE_ROWS,
 };
 use crate::mechanism::joint::DoubleDouble;
-use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, Pose};
+use crate::mechanism::{CoordinateId, LinkId, Motion, Pose};
 
 /// Components of constant directions deviate by less.
 const ROUNDING: f64 = 1e-24;
@@ -28,8 +29,8 @@ pub(super) fn read(
     (context, planes): (Context<'_>, &planes::Planes<'_>),
     faults: &mut Faults,
 ) -> Option<ReadLoop> {
-    let (_, mechanism, directions) = context;
-    let (link, pose) = site(&entry.at, mechanism, faults)?;
+    let (_, tree, directions) = context;
+    let (link, pose) = site(&entry.at, tree, faults)?;
     let on = match &entry.kind {
         ContactKind::Edge { .. } => None,
         ContactKind::Rolling { on, .. } => on.as_ref(),
@@ -72,11 +73,11 @@ pub(super) fn read(
             }
         },
     };
-    let (carrier, start, contact) = on_carrier(mechanism, (link, pose), contact);
-    let path = path(mechanism, carrier, plane_link);
+    let (carrier, start, contact) = on_carrier(tree, (link, pose), contact);
+    let path = path(tree, carrier, plane_link);
     let steps = path
         .iter()
-        .map(|&(link, outward)| step(mechanism, link, outward));
+        .map(|&(link, outward)| step(tree, link, outward));
     let closes = KinematicLoop {
         name: entry.name.clone(),
         kind,
@@ -117,19 +118,19 @@ fn rows(slip: Slip) -> Vec<(&'static str, ContactRow)> {
 /// Returns link and pose of a link or a frame.
 fn site(
     name: &Located<String>,
-    mechanism: &Mechanism,
+    tree: Tree<'_>,
     faults: &mut Faults,
 ) -> Option<(Option<LinkId>, Pose)> {
-    let mut frames = mechanism.frames().iter();
+    let mut frames = tree.frames().iter();
     if let Some(frame) = frames.find(|frame| frame.name == name.value) {
         return Some((frame.link, frame.origin));
     }
-    let mut links = mechanism.links().iter();
+    let mut links = tree.links().iter();
     let found = links.position(|link| !link.hidden && link.name == name.value);
     if found.is_none() {
-        let links = mechanism.links().iter().filter(|link| !link.hidden);
+        let links = tree.links().iter().filter(|link| !link.hidden);
         let links = links.map(|link| link.name.as_str());
-        let frames = mechanism.frames().iter().map(|frame| frame.name.as_str());
+        let frames = tree.frames().iter().map(|frame| frame.name.as_str());
         let known: Vec<&str> = links.chain(frames).collect();
         faults.push(wording::unknown_site(&name.location, &name.value, &known));
     }
@@ -139,12 +140,12 @@ fn site(
 /// Moves the place of a wheel to the link that carries its axle, as long as joints are rotations about it: then their
 /// angles do not enter the rows.
 fn on_carrier(
-    mechanism: &Mechanism,
+    tree: Tree<'_>,
     (mut link, mut pose): (Option<LinkId>, Pose),
     mut contact: PlaneContact,
 ) -> (Option<LinkId>, Pose, PlaneContact) {
     while let (ContactShape::Disc(axle), Some(LinkId(i))) = (contact.shape, link) {
-        let joint = &mechanism.links()[i].joint;
+        let joint = &tree.links()[i].joint;
         let axle = pose.rotation * axle;
         let small = |v: Vec3<Dd>| v.dot(v).to_f64() <= ROUNDING * ROUNDING;
         let about_axle = small(joint.axis.cross(axle)) && small(joint.axis.cross(pose.translation));
@@ -163,7 +164,7 @@ fn on_carrier(
             rotation: origin.rotation * pose.rotation,
             translation: origin.translation + origin.rotation * pose.translation,
         };
-        link = mechanism.links()[i].parent;
+        link = tree.links()[i].parent;
     }
     (link, pose, contact)
 }

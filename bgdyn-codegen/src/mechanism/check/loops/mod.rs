@@ -2,6 +2,8 @@
 //!
 //! 1. `read.rs`: the entries of the file, and the chain of joints between the places; `contacts.rs`, `planes.rs`:
 //!    the same for wheels and knife edges.
+//!    `branch.rs`: their branch. `parallel.rs`, `sides.rs`: parallelograms on the branch `parallel` are closed by joints
+//!    that follow, before the tree is numbered; the steps below are those of other loops.
 //! 2. `axes.rs`: the axes of a loop's rows. `structure.rs`: a row that holds at every position of the tree is dropped;
 //!    one that holds at none is a fault.
 //! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; `samples.rs`: closed positions
@@ -18,16 +20,23 @@ mod allowed;
 mod assembly;
 mod axes;
 mod blocks;
+mod branch;
 mod combine;
 mod contacts;
 mod independents;
+mod parallel;
 mod planes;
 mod rank;
 mod read;
 mod samples;
+mod sides;
 mod structure;
+mod tree;
 
+pub(super) use parallel::parallel_loops;
 pub use planes::PLANE_KEYS;
+
+pub(super) use tree::Tree;
 
 use super::constraint::ContactEntry;
 use super::direction::Directions;
@@ -46,9 +55,10 @@ pub(super) fn close(
 ) -> Option<()> {
     let before = faults.count();
     let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
-    let context = (spec, &*mechanism, directions);
+    let specs = specs.iter().filter(|one| !one.is_parallel());
+    let context = (spec, Tree::of(mechanism), directions);
     let planes = planes::planes(context, faults);
-    let loops = specs.iter().map(|one| read::read(one, context, faults));
+    let loops = specs.map(|one| read::read(one, context, faults));
     let mut read: Vec<Option<read::ReadLoop>> = loops.collect();
     read.extend(
         entries
@@ -127,7 +137,7 @@ fn unsolved(mechanism: &Mechanism, read: &[read::ReadLoop]) -> Closure {
             positions[j] = joint.degrees.positions.first().copied();
         } else if compounds.iter().all(|known| known.degrees != joint.degrees) {
             let LinkId(link) = mechanism.coordinates()[j];
-            compounds.push(read::step(mechanism, LinkId(link), true));
+            compounds.push(tree::step(Tree::of(mechanism), LinkId(link), true));
         }
     }
     Closure {

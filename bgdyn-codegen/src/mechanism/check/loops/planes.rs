@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::read::{Context, find_link, turn_to_axis};
+use super::read::{Context, turn_to_axis};
+use super::tree::find_link;
 use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Key, Located, ParsedValue, Raw, Reads, check_unit};

@@ -2,20 +2,22 @@
 
 use bgdyn_runtime::Dd;
 
-use super::allowed;
-use crate::fault::{Faults, Location, wording};
+use super::branch::Branch;
+use super::tree::{Tree, find_link, path, step};
+use super::{allowed, branch};
+use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Field, Located, LoopEndSpec, LoopSpec, Spec, check_unit};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::check::direction::Directions;
-use crate::mechanism::closure::{CLOSING_TYPES, ChainStep, ClosingType, KinematicLoop, LoopChain};
-use crate::mechanism::{Joint, LinkId, Mechanism, Motion, Pose, PositionId};
-use crate::name::{WORLD, is_identifier};
+use crate::mechanism::closure::{CLOSING_TYPES, ClosingType, KinematicLoop, LoopChain};
+use crate::mechanism::{Joint, LinkId, Motion, Pose, PositionId};
+use crate::name::is_identifier;
 
 /// A loop of the file.
 pub(super) struct ReadLoop {
     pub(super) closes: KinematicLoop,
-    /// Whether the places lie left or right of the line between the outer joints, with the word.
-    pub(super) branch: Option<Located<bool>>,
+    /// The branch that the file names, at the word.
+    pub(super) branch: Option<Located<Branch>>,
     /// Positions to start from.
     pub(super) near: Vec<(PositionId, Dd)>,
     /// Whether its rows may follow from others.
@@ -25,16 +27,30 @@ pub(super) struct ReadLoop {
 }
 
 /// What the entries of `loops` refer to.
-pub(super) type Context<'a> = (&'a Spec, &'a Mechanism, &'a Directions);
+pub(in crate::mechanism::check) type Context<'a> = (&'a Spec, Tree<'a>, &'a Directions);
 
-/// Reads a loop. `None` if a rule is broken.
-pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) -> Option<ReadLoop> {
-    let (spec, mechanism, directions) = context;
+/// The places of a loop, and the joints between them.
+pub(super) struct Placed<'a> {
+    pub(super) name: &'a str,
+    pub(super) kind: &'static ClosingType,
+    /// The links of places a and b; `None` for the world.
+    pub(super) links: [Option<LinkId>; 2],
+    pub(super) chain: LoopChain,
+    length: Dd,
+}
+
+/// Reads name, type and places of a loop. `None` if a rule is broken.
+pub(super) fn placed<'a>(
+    one: &'a LoopSpec,
+    context: Context<'_>,
+    faults: &mut Faults,
+) -> Option<Placed<'a>> {
+    let (spec, tree, directions) = context;
     let name = one.name.given()?;
     if !is_identifier(&name.value) {
         faults.push(wording::not_identifier(&name.location, &name.value));
     }
-    if is_taken(spec, mechanism, one, &name.value) {
+    if is_taken(spec, tree, one, &name.value) {
         faults.push(wording::loop_has_taken_name(&name.location, &name.value));
     }
     let kind = kind(one, faults);
@@ -43,8 +59,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
     let (kind, a, b) = (kind?, a?, b?);
     let length = length(one, kind, faults)?;
     let turn = axis(one, kind, directions, faults)?;
-    let near = near(one, mechanism, faults);
-    let path = path(mechanism, a.0, b.0);
+    let path = path(tree, a.0, b.0);
     if path.is_empty() {
         faults.push(wording::loop_closes_nothing(&one.location, &name.value));
         return None;
@@ -53,40 +68,46 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
         rotation: pose.rotation * turn,
         ..pose
     };
-    let chain = LoopChain {
-        start: turned(a.1),
-        steps: path
-            .iter()
-            .map(|&(link, outward)| step(mechanism, link, outward))
-            .collect(),
-        end: turned(b.1),
-    };
-    let mut suitable = true;
-    for &(link, _) in path
-        .iter()
-        .filter(|(link, _)| !is_suitable(mechanism, *link))
-    {
-        suitable = false;
-        unsuitable(one, &name.value, mechanism, link.0, faults);
+    let steps = path.iter();
+    let steps = steps.map(|&(link, outward)| step(tree, link, outward));
+    Some(Placed {
+        name: &name.value,
+        kind,
+        links: [a.0, b.0],
+        chain: LoopChain {
+            start: turned(a.1),
+            steps: steps.collect(),
+            end: turned(b.1),
+        },
+        length,
+    })
+}
+
+/// Reads a loop. `None` if a rule is broken.
+pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) -> Option<ReadLoop> {
+    let tree = context.1;
+    let placed = placed(one, context, faults)?;
+    let near = near(one, tree, faults);
+    let steps = placed.chain.steps.iter();
+    let unsuited = steps.filter(|step| !is_suitable(tree, step.link));
+    let unsuited: Vec<LinkId> = unsuited.map(|step| step.link).collect();
+    for link in &unsuited {
+        unsuitable(one, placed.name, tree, link.0, faults);
     }
-    let axis = loop_axis(&chain);
-    let branch = branch(
-        one,
-        axis.is_some() && a.0.is_some() && b.0.is_some() && kind.coincident,
-        faults,
-    );
+    let axis = loop_axis(&placed.chain);
+    let branch = branch::read(one, (&placed, tree, axis), faults);
     let redundant = allowed::redundant(one, faults);
     let tolerance = allowed::tolerance(one, faults);
-    if !suitable {
+    if !unsuited.is_empty() {
         return None;
     }
     Some(ReadLoop {
         closes: KinematicLoop {
-            name: name.value.clone(),
-            kind,
-            links: [a.0, b.0],
-            chain,
-            length,
+            name: placed.name.to_owned(),
+            kind: placed.kind,
+            links: placed.links,
+            chain: placed.chain,
+            length: placed.length,
             axis,
             reversible: false,
             contact: None,
@@ -100,10 +121,10 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
 }
 
 /// Returns whether a link, a joint, a frame, a constraint, an effect or another loop has this name.
-fn is_taken(spec: &Spec, mechanism: &Mechanism, own: &LoopSpec, name: &str) -> bool {
-    let links = mechanism.links().iter();
+fn is_taken(spec: &Spec, tree: Tree<'_>, own: &LoopSpec, name: &str) -> bool {
+    let links = tree.links().iter();
     let mut joints = links.flat_map(|link| [&link.name, &link.joint.name]);
-    let mut frames = mechanism.frames().iter();
+    let mut frames = tree.frames().iter();
     let constraints = spec.constraints.value().into_iter().flatten();
     let mut raws = constraints.chain(spec.effects.value().into_iter().flatten());
     let mut loops = spec.loops.value().into_iter().flatten();
@@ -132,16 +153,16 @@ fn kind(one: &LoopSpec, faults: &mut Faults) -> Option<&'static ClosingType> {
 /// Returns link and pose of a place.
 fn end(
     end: &LoopEndSpec,
-    (_, mechanism, directions): Context<'_>,
+    (_, tree, directions): Context<'_>,
     faults: &mut Faults,
 ) -> Option<(Option<LinkId>, Pose)> {
     if let Some(frame) = end.frame.given() {
         if let Some(given) = end.link.given() {
             faults.push(wording::loop_end_twice(&given.location));
         }
-        let mut frames = mechanism.frames().iter();
+        let mut frames = tree.frames().iter();
         let Some(found) = frames.find(|known| known.name == frame.value) else {
-            let known: Vec<&str> = mechanism.frames().iter().map(|f| f.name.as_str()).collect();
+            let known: Vec<&str> = tree.frames().iter().map(|f| f.name.as_str()).collect();
             faults.push(wording::unknown_frame(
                 &frame.location,
                 &frame.value,
@@ -158,39 +179,7 @@ fn end(
         return None;
     };
     let pose = directions.pose(&end.origin, faults)?;
-    Some((
-        find_link(&link.value, &link.location, mechanism, faults)?,
-        pose,
-    ))
-}
-
-/// Returns the link of this name; `None` in it for the world.
-pub(super) fn find_link(
-    name: &str,
-    location: &Location,
-    mechanism: &Mechanism,
-    faults: &mut Faults,
-) -> Option<Option<LinkId>> {
-    if name == WORLD {
-        return Some(None);
-    }
-    let shown = || mechanism.links().iter().filter(|link| !link.hidden);
-    let found = mechanism
-        .links()
-        .iter()
-        .position(|known| !known.hidden && known.name == name);
-    if found.is_none() {
-        let known: Vec<&str> = shown().map(|link| link.name.as_str()).collect();
-        let is_frame = mechanism.frames().iter().any(|frame| frame.name == name);
-        faults.push(wording::unknown_link(
-            location,
-            "unknown-link",
-            name,
-            &known,
-            is_frame,
-        ));
-    }
-    Some(Some(LinkId(found?)))
+    Some((find_link(&link.value, &link.location, tree, faults)?, pose))
 }
 
 /// Returns the length of a rod; 1 for other types.
@@ -266,9 +255,9 @@ pub(super) fn turn_to_axis(axis: Vec3<Dd>) -> Mat3<Dd> {
 }
 
 /// Reads the positions to start from.
-fn near(one: &LoopSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(PositionId, Dd)> {
+fn near(one: &LoopSpec, tree: Tree<'_>, faults: &mut Faults) -> Vec<(PositionId, Dd)> {
     let own = |joint: &&Joint| joint.degrees.own_positions() && joint.kind.one_degree();
-    let all = || mechanism.links().iter().map(|link| &link.joint).filter(own);
+    let all = || tree.links().iter().map(|link| &link.joint).filter(own);
     let mut found = Vec::new();
     for (name, number) in one.near.value().into_iter().flatten() {
         let joint = all().find(|joint| joint.name == name.value);
@@ -291,69 +280,10 @@ fn near(one: &LoopSpec, mechanism: &Mechanism, faults: &mut Faults) -> Vec<(Posi
     found
 }
 
-fn branch(one: &LoopSpec, planar: bool, faults: &mut Faults) -> Option<Located<bool>> {
-    let word = one.branch.given()?;
-    let left = match word.value.as_str() {
-        "left" => true,
-        "right" => false,
-        _ => {
-            faults.push(wording::unknown_branch(&word.location, &word.value));
-            return None;
-        }
-    };
-    if !planar {
-        faults.push(wording::branch_of_spatial_loop(&word.location));
-        return None;
-    }
-    Some(Located {
-        value: left,
-        location: word.location.clone(),
-    })
-}
-
-/// Returns the links whose joints lead from place a to place b, and whether each is passed outward.
-pub(super) fn path(
-    mechanism: &Mechanism,
-    a: Option<LinkId>,
-    b: Option<LinkId>,
-) -> Vec<(LinkId, bool)> {
-    let to_base = |mut link: Option<LinkId>| {
-        let mut all = Vec::new();
-        while let Some(l) = link {
-            all.push(l);
-            link = mechanism.links()[l.0].parent;
-        }
-        all
-    };
-    let (from, to) = (to_base(a), to_base(b));
-    let inward = from
-        .iter()
-        .filter(|link| !to.contains(link))
-        .map(|&link| (link, false));
-    let outward = to
-        .iter()
-        .rev()
-        .filter(|link| !from.contains(link))
-        .map(|&link| (link, true));
-    inward.chain(outward).collect()
-}
-
-pub(super) fn step(mechanism: &Mechanism, link: LinkId, outward: bool) -> ChainStep {
-    let joint = &mechanism.links()[link.0].joint;
-    ChainStep {
-        link,
-        outward,
-        origin: joint.origin,
-        motion: joint.kind.motion,
-        axis: joint.axis,
-        degrees: joint.degrees.clone(),
-    }
-}
-
 /// Returns whether a loop can go through the joint: it has at most one velocity, which moves no joint whose
 /// position is not a function of its own.
-fn is_suitable(mechanism: &Mechanism, link: LinkId) -> bool {
-    let joint = &mechanism.links()[link.0].joint;
+fn is_suitable(tree: Tree<'_>, link: LinkId) -> bool {
+    let joint = &tree.links()[link.0].joint;
     let coupling = joint.degrees.coupling.as_ref();
     let by_velocity = coupling.is_some_and(|coupling| !coupling.of_positions());
     joint.kind.motion.nv() <= 1 && joint.kind.motion.nq() <= 1 && !by_velocity
@@ -361,7 +291,7 @@ fn is_suitable(mechanism: &Mechanism, link: LinkId) -> bool {
 
 /// Returns the axis of a loop whose rotations are all about one direction, in the axes of place a: that of the
 /// first rotation.
-fn loop_axis(chain: &LoopChain) -> Option<Vec3<Dd>> {
+pub(super) fn loop_axis(chain: &LoopChain) -> Option<Vec3<Dd>> {
     let (mut rotation, mut axis) = (chain.start.rotation.transpose(), None::<Vec3<Dd>>);
     for step in &chain.steps {
         let origin = step.origin.rotation;
@@ -383,14 +313,14 @@ fn loop_axis(chain: &LoopChain) -> Option<Vec3<Dd>> {
     axis
 }
 
-fn parallel(a: Vec3<Dd>, b: Vec3<Dd>) -> bool {
+pub(super) fn parallel(a: Vec3<Dd>, b: Vec3<Dd>) -> bool {
     let across = a.cross(b);
     across.dot(across).to_f64() < 1e-40
 }
 
 /// Reports a joint that no loop can go through.
-fn unsuitable(one: &LoopSpec, name: &str, mechanism: &Mechanism, link: usize, faults: &mut Faults) {
-    let joint = &mechanism.links()[link].joint;
+fn unsuitable(one: &LoopSpec, name: &str, tree: Tree<'_>, link: usize, faults: &mut Faults) {
+    let joint = &tree.links()[link].joint;
     faults.push(wording::loop_through_joint(
         &one.location,
         name,
