@@ -111,8 +111,8 @@ def text(rows, root: Path, quick, times):
         whole.append(table(heads, [line(r) for r in some]))
         if name == "parallelograms":
             whole.append(
-                "*Parallel rods*: the branch on which couplers stay parallel to the ground is written with joints that "
-                "follow ([`parallel_rods.yaml`](../benches/peers/loops/parallel_rods.yaml)), and has no singular position. "
+                "*Parallel rods*: `branch: parallel`, on which couplers stay parallel to the ground "
+                "([`parallel_rods.yaml`](../specs/loops/parallel_rods.yaml)), has no singular position. "
                 "*Pins*: the loops as they are; bgdyn refuses the flat position.\n"
             )
         if not times:

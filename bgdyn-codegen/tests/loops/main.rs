@@ -27,6 +27,8 @@ mod frame_rows;
 mod locks;
 mod multipliers;
 mod open_tree;
+mod parallel;
+mod parallel_faults;
 mod random_dyads;
 mod random_loops;
 mod rank;

@@ -1,7 +1,7 @@
 //! Runs of mechanisms with loops, as JSON: `loops MECHANISM STEP END`.
 //!
-//! `parallel_rods` are two parallelograms on the branch of parallel couplers, written with joints that follow;
-//! `parallelograms` the same with pins; `five_bar` a driven five-bar. Each is run twice by RK4 in the independent
+//! `parallel_rods` are two parallelograms with `branch: parallel`, closed by joints that follow; `parallelograms` the same
+//! with pins that dependent joints close; `five_bar` a driven five-bar. Each is run twice by RK4 in the independent
 //! velocities: for its largest gap and its end, then for its time.
 
 use std::hint::black_box;
@@ -11,7 +11,7 @@ use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;
 use bgdyn_sim::{State, rk4_step};
 
-bgdyn::bgdyn!("parallel_rods.yaml");
+bgdyn::bgdyn!("../../../specs/loops/parallel_rods.yaml");
 bgdyn::bgdyn!("../../../specs/loops/parallelograms.yaml");
 bgdyn::bgdyn!("../../../specs/loops/five_bar.yaml");
 

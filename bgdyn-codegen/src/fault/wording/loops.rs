@@ -149,19 +149,16 @@ pub(crate) fn not_a_parallelogram(
 pub(crate) fn rounded_parallelogram(
     location: &Location,
     (name, branch): (&str, &str),
-    sides: &[f64],
+    (sides, differences): (&[f64], &[f64]),
 ) -> Fault {
+    let differences: Vec<String> = (differences.iter())
+        .map(|x| format!("{} m", six_digits(*x)))
+        .collect();
     let message = format!(
         "the loop {} has the branch `{branch}`, and is almost a parallelogram: opposite ones of its sides {} differ, by {}",
         quote(name),
         lengths(sides),
-        (0..sides.len() / 2)
-            .map(|k| format!(
-                "{} m",
-                six_digits((sides[k] - sides[k + sides.len() / 2]).abs())
-            ))
-            .collect::<Vec<_>>()
-            .join(" and ")
+        differences.join(" and ")
     );
     Fault::new(location, "not-a-parallelogram", message).with_help(
         "lengths seem to be rounded: write them exactly (the same digits, fractions of pi for angles); or write `branch: left` or `branch: right`, and the loop closes as it is",

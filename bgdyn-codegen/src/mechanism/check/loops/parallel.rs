@@ -40,14 +40,13 @@ pub(in crate::mechanism::check) fn parallel_loops(
     loop {
         let rows: Vec<Row> = found.iter().flat_map(|one| one.rows.clone()).collect();
         let relations = Relations::of(tree.links(), &rows);
-        let known = found.len();
-        waiting.retain(|(one, placed)| {
+        let closed = waiting.iter().enumerate().find_map(|(k, (one, placed))| {
             let closed = read_one((one, placed), tree, &relations, &mut Faults::default());
-            let rest = closed.is_none();
-            found.extend(closed);
-            rest
+            Some((k, closed?))
         });
-        if found.len() > known {
+        if let Some((k, closed)) = closed {
+            waiting.remove(k);
+            found.push(closed);
             continue;
         }
         for (one, placed) in &waiting {
@@ -143,7 +142,7 @@ pub(super) fn not_equal(word: &Located<String>, name: &str, sides: &Sides) -> Fa
     let lengths = sides.lengths();
     match sides.largest_difference() {
         Some(gap) if gap < ROUNDED => {
-            wording::rounded_parallelogram(&word.location, named, &lengths)
+            wording::rounded_parallelogram(&word.location, named, (&lengths, &sides.differences()))
         }
         _ => wording::not_a_parallelogram(&word.location, named, &lengths),
     }

@@ -174,6 +174,14 @@ impl Sides {
         lengths.collect()
     }
 
+    /// Returns by how much opposite sides differ, m.
+    pub(super) fn differences(&self) -> Vec<f64> {
+        let (first, opposite) = self.all.split_at(self.all.len() / 2);
+        let pairs = first.iter().zip(opposite);
+        let differences = pairs.map(|(a, c)| (a.length() - c.length()).to_f64().abs());
+        differences.collect()
+    }
+
     /// Returns whether the places are at one height.
     pub(super) fn level(&self) -> bool {
         self.height.to_f64().abs() <= EQUAL * self.size
