@@ -25,6 +25,10 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let (name, text) = (stem(&path), fs::read_to_string(&path).unwrap());
         let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&name));
         let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&name, &text)));
+        // Joints that follow close parallel branches without rows.
+        if mechanism.closure().is_none() {
+            continue;
+        }
         let options = Options {
             frames: Some(vec![]),
             ..Options::default()
