@@ -234,28 +234,24 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
         known.dot(known)
     }
 
-    /// Returns a root with the sign of the branch, checked: it is refused where it is a rounding error of its size, or
-    /// where its argument is negative, out of reach.
-    fn root(&self, polygon: &Polygon, argument: Expr<'g>) -> Expr<'g> {
+    /// Returns a root with the sign of the branch. Its argument is checked: it is refused where it is negative, out of
+    /// reach, or a rounding error of the terms that are subtracted in it, which have this `size`; without one of its
+    /// largest sampled value.
+    fn root(&self, polygon: &Polygon, argument: Expr<'g>, size: Option<Dd>) -> Expr<'g> {
         let b = self.b;
-        let root = argument.sqrt();
-        let checked = match self
-            .form
-            .first_pivot
-            .filter(|_| root.as_constant().is_none())
-        {
-            None => root,
+        let varies = argument.as_constant().is_none();
+        let checked = match self.form.first_pivot.filter(|_| varies) {
+            None => argument,
             Some(first) => {
-                let sampled = self
-                    .closure
-                    .samples
-                    .iter()
-                    .map(|q| at(b, &[root.signed()], q)[0]);
-                let size = sampled.fold(0.0, f64::max);
-                root.pivot(b.number(size), first + polygon.closes)
+                let samples = self.closure.samples.iter();
+                let sampled = samples.map(|q| at(b, &[argument.signed()], q)[0]);
+                let size = size.map(Dd::to_f64);
+                let size = size.unwrap_or_else(|| sampled.fold(0.0, f64::max));
+                argument.pivot(b.number(size), first + polygon.closes)
             }
         };
-        if polygon.positive { checked } else { -checked }
+        let root = checked.sqrt();
+        if polygon.positive { root } else { -root }
     }
 
     /// Returns the unknown joints of a polygon, and cosine and sine of its unknown angles or a displacement.
@@ -269,7 +265,10 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 let twice = aa.sqrt() * bb.sqrt() * Dd::from_f64(2.0);
                 let squared = self.squared(p, known);
                 let reach = b.constant(aa + bb + twice) - squared;
-                let root = self.root(polygon, reach * (squared - b.constant(aa + bb - twice)));
+                let argument = reach * (squared - b.constant(aa + bb - twice));
+                // Near the ends of the reach the rounding error of L², and the other factor, are below these.
+                let size = (aa + bb + twice) * twice * Dd::from_f64(8.0);
+                let root = self.root(polygon, argument, Some(size));
                 let half = b.number(0.5) / squared;
                 let along = (squared + b.constant(aa - bb)) * half;
                 let a = known.scale(along) + known.turned().scale(root * half);
@@ -296,7 +295,8 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 let along = self.vector(p, along);
                 let aa = square(arm.vector);
                 let e = along.cross(known);
-                let y = self.root(polygon, b.constant(aa) - e * e);
+                let twice = aa * Dd::from_f64(2.0);
+                let y = self.root(polygon, b.constant(aa) - e * e, Some(twice));
                 let x = y - known.dot(along);
                 let moved = along.scale(y) + along.turned().scale(e);
                 let solved = SolvedPolygon::Slider {
@@ -317,7 +317,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
             } => {
                 let squared = known.dot(known);
                 let across = across_or_zero(*across, *start);
-                let y = self.root(polygon, squared - b.constant(across * across));
+                let y = self.root(polygon, squared - b.constant(across * across), None);
                 let inverse = one() / y;
                 let across = b.constant(across);
                 let unit = match across.is_zero() {
