@@ -1,6 +1,6 @@
 //! Positions of mechanisms and scenes with loops: closed if they are open by rounding.
 
-use bgdyn_codegen::mechanism::closure::Closure;
+use bgdyn_codegen::mechanism::closure::{Closure, polygons};
 use bgdyn_runtime::Dd;
 
 use super::states::{Failure, plain};
@@ -28,7 +28,7 @@ pub(super) fn not_actuated(name: &str) -> Failure {
 }
 
 /// Returns positions with the dependent ones changed so that the loops close. Loops that are open by more than
-/// [`OPEN`] are refused.
+/// [`OPEN`] are refused, and other branches of loops that have a closed form.
 pub(super) fn closed(closure: &Closure, q: &[f64]) -> Result<Vec<f64>, Failure> {
     let mut exact: Vec<Dd> = q.iter().map(|&x| Dd::from_f64(x)).collect();
     let (residuals, _) = closure.values(&closure.rows, &exact);
@@ -44,5 +44,13 @@ pub(super) fn closed(closure: &Closure, q: &[f64]) -> Result<Vec<f64>, Failure> 
         )));
     }
     closure.close(&mut exact);
+    // Functions in closed form would compute the branch of the start in silence.
+    let signs = closure.signs_at(&exact);
+    let mut pairs = signs.iter().zip(&closure.signs);
+    if let (Some(block), true) = (pairs.position(|(x, y)| x != y), polygons(closure).is_some()) {
+        let row = closure.blocks[block].rows.first();
+        let closes = row.map_or(0, |&r| closure.rows[r].closes);
+        return Err(singular_loop(Some(closure), closes));
+    }
     Ok(exact.into_iter().map(Dd::to_f64).collect())
 }

@@ -9,7 +9,7 @@ use crate::mechanism::check::mimic::narrow;
 use crate::mechanism::{Coupling, Leader, Link, LinkId};
 
 /// What joints follow: by `mimic`, by rows on positions, and by rows on velocities.
-pub(in crate::mechanism::check) struct Relations {
+pub struct Relations {
     mimics: Vec<Option<Coupling>>,
     positions: Vec<Dependent>,
     velocities: Vec<Dependent>,
@@ -49,7 +49,7 @@ pub(super) fn couple(links: &mut [Link], rows: &[Row], kept: &[LinkId], faults: 
 
 impl Relations {
     /// Returns what joints follow by `mimic` and these rows on positions.
-    pub(in crate::mechanism::check) fn of(links: &[Link], rows: &[Row]) -> Self {
+    pub fn of(links: &[Link], rows: &[Row]) -> Self {
         let mimics = links.iter().map(|link| link.joint.degrees.coupling.clone());
         let mut relations = Relations {
             mimics: mimics.collect(),
@@ -63,7 +63,7 @@ impl Relations {
     }
 
     /// Returns a sum of positions in joints that follow no others, and a constant.
-    pub(in crate::mechanism::check) fn reduced(&self, terms: &[Leader]) -> ExpandedRow {
+    pub fn reduced(&self, terms: &[Leader]) -> ExpandedRow {
         let (terms, constant) = replaced(terms, Dd::ZERO, |link| self.by_mimic(link));
         replaced(&terms, constant, |link| self.by_positions(link))
     }

@@ -12,17 +12,17 @@ pub(super) const COEFFICIENTS: [Dimension; 3] =
 
 /// A row: Σ coefficient · q = offset, or Σ coefficient · v = 0 without an offset.
 #[derive(Clone, Debug)]
-pub(in crate::mechanism::check) struct Row {
+pub struct Row {
     /// The name of its constraint or loop.
-    pub(in crate::mechanism::check) name: String,
+    pub name: String,
     /// Which of them it is: `constraint`, `loop`.
-    pub(in crate::mechanism::check) of: &'static str,
+    pub of: &'static str,
     /// The location of the constraint or loop.
-    pub(in crate::mechanism::check) location: Location,
+    pub location: Location,
     /// The links of the joints, with their coefficients, which add up for a link with several.
-    pub(in crate::mechanism::check) terms: Vec<Leader>,
+    pub terms: Vec<Leader>,
     /// The value of the sum, rad or m; `None` for a row on velocities only.
-    pub(in crate::mechanism::check) offset: Option<Dd>,
+    pub offset: Option<Dd>,
 }
 
 /// A joint as a constraint prescribes it.

@@ -8,7 +8,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::read::turn_to_axis;
+use super::placed::turn_to_axis;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
 use crate::mechanism::closure::{ChainStep, ClosingRow, KinematicLoop, LoopChain};

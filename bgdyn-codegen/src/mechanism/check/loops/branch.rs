@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::parallel;
-use super::read::Placed;
+use super::placed::PlacedLoop;
 use super::tree::Tree;
 use crate::fault::{Faults, wording};
 use crate::format::{Located, LoopSpec};
@@ -30,7 +30,7 @@ pub(super) enum Branch {
 /// Reads the branch; `axis` is that of a planar loop.
 pub(super) fn read(
     one: &LoopSpec,
-    (placed, tree, axis): (&Placed<'_>, Tree<'_>, Option<Vec3<Dd>>),
+    (placed, tree, axis): (&PlacedLoop<'_>, Tree<'_>, Option<Vec3<Dd>>),
     faults: &mut Faults,
 ) -> Option<Located<Branch>> {
     let word = one.branch.given()?;
@@ -60,7 +60,7 @@ pub(super) fn read(
 /// Returns the branch of an antiparallelogram: opposite sides are equal, others are not.
 fn crossed(
     one: &LoopSpec,
-    (placed, tree): (&Placed<'_>, Tree<'_>),
+    (placed, tree): (&PlacedLoop<'_>, Tree<'_>),
     faults: &mut Faults,
 ) -> Option<Branch> {
     let word = one.branch.given()?;

@@ -2,8 +2,9 @@
 
 use bgdyn_runtime::Dd;
 
+use super::placed::Context;
 use super::planes;
-use super::read::{Context, ReadLoop};
+use super::read::ReadLoop;
 use super::tree::{Tree, path, step};
 use crate::fault::{Faults, wording};
 use crate::format::Located;

@@ -25,6 +25,7 @@ mod combine;
 mod contacts;
 mod independents;
 mod parallel;
+mod placed;
 mod planes;
 mod rank;
 mod read;

@@ -1,7 +1,7 @@
 //! Reads loops with `branch: parallel`: the joints of a parallelogram that follow each other.
 
-use super::read::{self, Context, Placed};
-use super::sides::{NotPlanar, Relation, Sides, relation, sides};
+use super::placed::{self, Context, PlacedLoop};
+use super::sides::{AngleRelation, LoopSides, NotPlanar, relation, sides};
 use super::tree::Tree;
 use crate::fault::{Fault, Faults, Location, wording};
 use crate::format::{Field, Located, LoopSpec};
@@ -22,17 +22,17 @@ struct ReadParallel {
 
 /// Reads the loops with `branch: parallel` of a tree without numbers, in which joints follow others by `mimic` only.
 /// Returns the rows that make joints follow, and the loops. `None` if a rule is broken.
-pub(in crate::mechanism::check) fn parallel_loops(
+pub fn parallel_loops(
     context: Context<'_>,
     faults: &mut Faults,
 ) -> Option<(Vec<Row>, Vec<ParallelLoop>)> {
     let before = faults.count();
     let tree = context.1;
     let specs = context.0.loops.value().map_or(&[][..], Vec::as_slice);
-    let mut waiting: Vec<(&LoopSpec, Placed<'_>)> = Vec::new();
+    let mut waiting: Vec<(&LoopSpec, PlacedLoop<'_>)> = Vec::new();
     for one in specs.iter().filter(|one| one.is_parallel()) {
         report_keys(one, faults);
-        let placed = read::placed(one, context, faults);
+        let placed = placed::placed(one, context, faults);
         waiting.extend(placed.map(|placed| (one, placed)));
     }
     // A loop whose joints follow others by another loop may be a parallelogram with these only.
@@ -67,7 +67,7 @@ pub(in crate::mechanism::check) fn parallel_loops(
 
 /// Returns the rows of a parallelogram. `None` if it is none, where joints follow others by these relations.
 fn read_one(
-    (one, placed): (&LoopSpec, &Placed<'_>),
+    (one, placed): (&LoopSpec, &PlacedLoop<'_>),
     tree: Tree<'_>,
     relations: &Relations,
     faults: &mut Faults,
@@ -79,7 +79,7 @@ fn read_one(
         faults.push(not_equal(word, placed.name, &sides));
         return None;
     };
-    let row = |(terms, offset): Relation| Row {
+    let row = |(terms, offset): AngleRelation| Row {
         name: placed.name.to_owned(),
         of: "loop",
         location: one.location.clone(),
@@ -105,10 +105,10 @@ fn read_one(
 /// Returns the sides of a loop whose branch is this word: one with a pin, of revolute joints with parallel axes.
 pub(super) fn sides_of(
     word: &Located<String>,
-    (placed, tree): (&Placed<'_>, Tree<'_>),
-    reduced: impl Fn(&[Leader]) -> Relation,
+    (placed, tree): (&PlacedLoop<'_>, Tree<'_>),
+    reduced: impl Fn(&[Leader]) -> AngleRelation,
     faults: &mut Faults,
-) -> Option<Sides> {
+) -> Option<LoopSides> {
     let (name, kind) = (placed.name, placed.kind);
     let named = (name, word.value.as_str());
     if !PINS.contains(&kind.keyword) {
@@ -137,7 +137,7 @@ pub(super) fn sides_of(
 }
 
 /// Returns the fault of a loop whose opposite sides are not equal.
-pub(super) fn not_equal(word: &Located<String>, name: &str, sides: &Sides) -> Fault {
+pub(super) fn not_equal(word: &Located<String>, name: &str, sides: &LoopSides) -> Fault {
     let named = (name, word.value.as_str());
     let lengths = sides.lengths();
     match sides.largest_difference() {

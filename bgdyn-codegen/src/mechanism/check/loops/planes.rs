@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::read::{Context, turn_to_axis};
+use super::placed::{Context, turn_to_axis};
 use super::tree::find_link;
 use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};

@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::read::{loop_axis, parallel, turn_to_axis};
+use super::placed::{loop_axis, parallel, turn_to_axis};
 use crate::math::{Mat3, Vec3, angle_of};
 use crate::mechanism::closure::LoopChain;
 use crate::mechanism::joint::DoubleDouble;
@@ -24,7 +24,7 @@ type Planar = [Dd; 2];
 
 /// A side of a loop.
 #[derive(Clone, Debug)]
-pub(super) struct Side {
+pub(super) struct LoopSide {
     /// The joints whose positions add to its angle.
     pub(super) angle: Vec<Leader>,
     /// The side where these joints are at zero.
@@ -35,9 +35,9 @@ pub(super) struct Side {
 
 /// The sides of a loop, in their order.
 #[derive(Clone, Debug)]
-pub(super) struct Sides {
+pub(super) struct LoopSides {
     /// Those that are not zero.
-    pub(super) all: Vec<Side>,
+    pub(super) all: Vec<LoopSide>,
     /// By how much place b is above place a along the axes, m.
     pub(super) height: Dd,
     /// The sum of the lengths of all segments, m.
@@ -53,7 +53,7 @@ pub(super) enum NotPlanar {
 }
 
 /// Joints whose positions have a constant sum: Σ ratio · q = offset, rad.
-pub(super) type Relation = (Vec<Leader>, Dd);
+pub(super) type AngleRelation = (Vec<Leader>, Dd);
 
 /// Returns the sides of a loop. `reduced` returns a sum of joints' positions in independent ones, and a constant. If
 /// `axial`, axis z of both places must be the loop's.
@@ -63,8 +63,8 @@ pub(super) type Relation = (Vec<Leader>, Dd);
 pub(super) fn sides(
     chain: &LoopChain,
     axial: bool,
-    reduced: impl Fn(&[Leader]) -> Relation,
-) -> Result<Sides, NotPlanar> {
+    reduced: impl Fn(&[Leader]) -> AngleRelation,
+) -> Result<LoopSides, NotPlanar> {
     let moves = |motion| !matches!(motion, Motion::None | Motion::Rotation);
     if let Some(step) = chain.steps.iter().find(|step| moves(step.motion)) {
         return Err(NotPlanar::Joint(step.link));
@@ -81,7 +81,7 @@ pub(super) fn sides(
     }
     let angles = angles(&chain, axis, |k| frames.link(k).0);
     let across = turn_to_axis(axis).transpose();
-    let mut found = Sides {
+    let mut found = LoopSides {
         all: Vec::new(),
         height: Dd::ZERO,
         size: 0.0,
@@ -142,7 +142,7 @@ fn turned([x, y]: Planar, angle: Dd) -> Planar {
     [cos * x - sin * y, sin * x + cos * y]
 }
 
-impl Side {
+impl LoopSide {
     /// Returns its length, m.
     pub(super) fn length(&self) -> Dd {
         let [x, y] = self.vector;
@@ -150,17 +150,17 @@ impl Side {
     }
 }
 
-impl Sides {
+impl LoopSides {
     /// Adds a segment to the side with this angle.
     fn add(&mut self, angle: Vec<Leader>, [x, y]: Planar, segment: usize) {
-        let same = |side: &&mut Side| is_same(&side.angle, &angle);
+        let same = |side: &&mut LoopSide| is_same(&side.angle, &angle);
         match self.all.iter_mut().find(same) {
             Some(side) => {
                 let [own_x, own_y] = side.vector;
                 side.vector = [own_x + x, own_y + y];
                 side.segments.push(segment);
             }
-            None => self.all.push(Side {
+            None => self.all.push(LoopSide {
                 angle,
                 vector: [x, y],
                 segments: vec![segment],
@@ -189,14 +189,14 @@ impl Sides {
 
     /// Returns the opposite sides of a parallelogram, or the only two sides of a loop, if they are equally long;
     /// nothing for a loop without sides. `None` for others.
-    pub(super) fn opposite(&self) -> Option<Vec<[&Side; 2]>> {
+    pub(super) fn opposite(&self) -> Option<Vec<[&LoopSide; 2]>> {
         let pairs = match self.all.as_slice() {
             [] => vec![],
             [a, b] => vec![[a, b]],
             [a, b, c, d] => vec![[a, c], [b, d]],
             _ => return None,
         };
-        let equal = |[a, b]: &[&Side; 2]| self.difference([a, b]) <= EQUAL;
+        let equal = |[a, b]: &[&LoopSide; 2]| self.difference([a, b]) <= EQUAL;
         pairs.iter().all(equal).then_some(pairs)
     }
 
@@ -210,7 +210,7 @@ impl Sides {
         }
     }
 
-    fn difference(&self, [a, b]: [&Side; 2]) -> f64 {
+    fn difference(&self, [a, b]: [&LoopSide; 2]) -> f64 {
         (a.length() - b.length()).to_f64().abs() / self.size
     }
 }
@@ -227,7 +227,7 @@ fn is_same(a: &[Leader], b: &[Leader]) -> bool {
 
 /// Returns the relation of two sides that are opposite and equally long: a e^{iφ_a} + c e^{iφ_c} = 0, so that
 /// φ_a − φ_c = arg(−c ā), from −π to π.
-pub(super) fn relation([a, c]: [&Side; 2]) -> Relation {
+pub(super) fn relation([a, c]: [&LoopSide; 2]) -> AngleRelation {
     let negative = c.angle.iter().map(|leader| Leader {
         ratio: -leader.ratio,
         ..*leader

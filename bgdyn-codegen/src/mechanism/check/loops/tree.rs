@@ -7,14 +7,14 @@ use crate::name::WORLD;
 
 /// Links and frames.
 #[derive(Clone, Copy)]
-pub(in crate::mechanism::check) struct Tree<'a> {
+pub struct Tree<'a> {
     links: &'a [Link],
     frames: &'a [Frame],
 }
 
 impl<'a> Tree<'a> {
     /// Returns these links and frames.
-    pub(in crate::mechanism::check) fn new(links: &'a [Link], frames: &'a [Frame]) -> Self {
+    pub fn new(links: &'a [Link], frames: &'a [Frame]) -> Self {
         Self { links, frames }
     }
 
