@@ -260,6 +260,13 @@ impl Mechanism {
         &self.parallel
     }
 
+    /// Returns the names of the joints of a loop that follow others, from place a to place b.
+    pub fn followers_of(&self, one: &ParallelLoop) -> Vec<&str> {
+        let joints = one.joints.iter().map(|link| &self.links[link.0].joint);
+        let following = joints.filter(|joint| joint.degrees.coupling.is_some());
+        following.map(|joint| joint.name.as_str()).collect()
+    }
+
     /// Returns its other loops.
     pub fn closure(&self) -> Option<&Closure> {
         self.closure.as_ref()

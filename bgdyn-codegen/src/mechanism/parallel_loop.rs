@@ -1,7 +1,7 @@
 //! Loops that are closed by joints that follow.
 
 use super::closure::ClosingType;
-use super::{LinkId, Mechanism, Pose};
+use super::{LinkId, Pose};
 
 /// A parallelogram on its parallel branch: opposite links stay parallel, so that its dependent joints follow others
 /// with constant ratios and offsets, like those of a gear.
@@ -19,13 +19,4 @@ pub struct ParallelLoop {
     pub joints: Vec<LinkId>,
     /// The number of joints that it makes follow others: 2, or fewer where other loops make them follow already.
     pub rows: usize,
-}
-
-impl Mechanism {
-    /// Returns the names of the joints of a loop that follow others, from place a to place b.
-    pub fn followers_of(&self, one: &ParallelLoop) -> Vec<&str> {
-        let joints = one.joints.iter().map(|link| &self.links[link.0].joint);
-        let following = joints.filter(|joint| joint.degrees.coupling.is_some());
-        following.map(|joint| joint.name.as_str()).collect()
-    }
 }
