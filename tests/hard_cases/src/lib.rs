@@ -136,7 +136,26 @@ pub struct Topic {
 pub const MISSED: &[(&str, &str)] = &[
     ("body_tumbling", "velocities, orientation; dop853 at 1e-13"),
     ("slider_crank_near_singular", "forward dynamics"),
-    ("slider_crank_near_singular", "forward dynamics, f32"),
+    // The closed form does not read the rounded dependent positions that the residual is taken at.
+    ("slider_crank_near_singular", "M q̈ + h = P + Bᵀλ"),
+    ("slider_crank_near_singular", "M q̈ + h = P + Bᵀλ, f32"),
+    // Forward dynamics in closed form does not read dependent positions, and does not refuse those that are NaN.
+    (
+        "8 mechanisms with loops",
+        "integrate: not closed, and not refused next",
+    ),
+    (
+        "8 mechanisms with loops",
+        "integrate: not closed, and not refused next, f32",
+    ),
+    (
+        "8 mechanisms with loops",
+        "no error to return, not finite beside accelerations",
+    ),
+    (
+        "8 mechanisms with loops",
+        "no error to return, not finite beside accelerations, f32",
+    ),
     ("excavator", "Newton steps to 8 eps; 0.1 rad away"),
     (
         "excavator",
