@@ -78,7 +78,7 @@ pub fn close_state<T: Scalar, const N: usize, const NQ: usize, const M: usize>(
 ) -> Result<(), T::Singular<M>> {
     let closing = close_from(*y, dependents, M, step);
     let refused = closing.refused;
-    *y = closing.or_nan(dependents);
+    *y = closing.or_nan(dependents, &[]);
     let nothing = SVector::<T, M>::from_element(T::from_f64(0.0));
     T::finish(nothing, refused, names, |_| ()).map(|_| ())
 }
@@ -185,15 +185,16 @@ impl<T: Scalar, const NQ: usize> Closing<SVector<T, NQ>> {
 }
 
 impl<Y: StateVector> Closing<Y> {
-    /// Returns the positions; where a loop does not close, the dependent ones are NaN, so that no function takes
-    /// them for closed ones.
+    /// Returns the positions; where a loop does not close, the dependent ones are NaN, and those with the indices
+    /// `others`: functions that read no dependent position shall not take them for closed ones either.
     #[inline]
-    pub fn or_nan(self, dependents: &[Dependent]) -> Y {
+    pub fn or_nan(self, dependents: &[Dependent], others: &[usize]) -> Y {
         let mut q = self.q;
         let number = <Y::Scalar as Scalar>::from_f64;
         let closed = self.last.less(closed());
-        for d in dependents {
-            if let Some(q) = q.entries_mut().get_mut(d.position) {
+        let positions = dependents.iter().map(|d| d.position);
+        for position in positions.chain(others.iter().copied()) {
+            if let Some(q) = q.entries_mut().get_mut(position) {
                 *q = Y::Scalar::select(closed, *q, number(f64::NAN));
             }
         }

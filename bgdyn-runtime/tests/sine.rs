@@ -119,14 +119,14 @@ fn errors_of_f32() {
 
 /// A hundred million arguments.
 #[test]
-#[ignore = "five minutes"]
+#[ignore = "five minutes, part of .ci/long"]
 fn errors_of_f64_over_many() {
     measure::<f64>(34_000_000, 3);
 }
 
 /// Every `f32`, against double precision if that is accurate enough.
 #[test]
-#[ignore = "five minutes"]
+#[ignore = "five minutes, part of .ci/long"]
 fn errors_of_every_f32() {
     let mut found = (0.0, 0.0_f32);
     for bits in 0..f32::INFINITY.to_bits() {

@@ -87,7 +87,7 @@ impl Evaluated<'_> {
         let first = layout.nv() + layout.nx();
         let closed = close_from(y.clone(), &closing.dependents, first, step);
         let refused = closed.refused;
-        *y = closed.or_nan(&closing.dependents);
+        *y = closed.or_nan(&closing.dependents, &[]);
         refused.map_or(Ok(true), |i| Err(self.refused(i)))
     }
 }

@@ -14,6 +14,7 @@ use super::tokens::{argument_type, ident};
 use super::writer::Writer;
 use crate::expr::Leaf;
 use crate::function::{Block, Function};
+use crate::mechanism::closure::Closure;
 use crate::method::{Argument, Method, Shape};
 use crate::model::Model;
 
@@ -155,10 +156,21 @@ fn separate_block(
     (block, quote! { self.#name(#(#arguments),*) })
 }
 
+fn leaves_of(function: &Function) -> BTreeSet<Leaf> {
+    let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
+    function.blocks.iter().flat_map(of_block).collect()
+}
+
+/// Returns whether a function reads a position of a dependent joint; one in closed form does not.
+pub(super) fn reads_dependents(function: &Function, closure: &Closure) -> bool {
+    let read = leaves_of(function);
+    let mut positions = closure.dependents().filter_map(|j| closure.positions[j.0]);
+    positions.any(|p| read.contains(&Leaf::Position(p.0)))
+}
+
 /// Returns the names that a function does not read: arguments, as `q[joint]`, and run-time parameters.
 pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
-    let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
-    let read: BTreeSet<Leaf> = function.blocks.iter().flat_map(of_block).collect();
+    let read = leaves_of(function);
     let mut unread = Vec::new();
     let naming = Naming::of_model(model, false);
     for argument in function.method.arguments() {

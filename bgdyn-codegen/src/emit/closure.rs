@@ -90,7 +90,8 @@ pub(super) fn position_body(
             quote! {
                 let moved = self.tree_velocity(q, dv);
                 let q = { #body };
-                __rt::closure::close(q, &DEPENDENTS, |q| self.closing_step(q)).or_nan(&DEPENDENTS)
+                __rt::closure::close(q, &DEPENDENTS, |q| self.closing_step(q))
+                    .or_nan(&DEPENDENTS, &INDEPENDENT_POSITIONS)
             }
         }
         "sample" => {

@@ -239,8 +239,11 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
         let slips = closed.is_some_and(|closed| closed.closure.nonholonomic());
         if slips {
             docs.push(" Names the constraint at a singular position, and beyond one.".into());
-        } else if closed.is_some() {
-            docs.push(" Names the loop at a singular position, and on another branch than that of the start.".into());
+        } else if let Some(closed) = closed {
+            docs.push(match body::reads_dependents(function, &closed.closure) {
+                true => " Names the loop at a singular position, and on another branch than that of the start.".into(),
+                false => " Names the loop at a singular position, and out of its reach; the branch is always that of the start.".into(),
+            });
         }
     }
     docs
