@@ -89,7 +89,7 @@ fn derivatives_are_the_literal_sums() {
 }
 
 #[test]
-#[ignore = "long: 2,000 mechanisms; run it optimised"]
+#[ignore = "long: 2,000 mechanisms, part of .ci/long"]
 fn derivatives_of_two_thousand_mechanisms() {
     check(2_000..3_500, 6, false);
     check(3_500..4_000, 6, true);

@@ -238,7 +238,7 @@ fn functions_of_random_mechanisms_keep_their_values() {
 
 /// The long run: `cargo test --release -p bgdyn-codegen --test factor -- --ignored`.
 #[test]
-#[ignore = "long: 2,000 mechanisms; run it optimised"]
+#[ignore = "long: 2,000 mechanisms, part of .ci/long"]
 fn functions_of_many_random_mechanisms_keep_their_values() {
     for seed in 1000..3000 {
         mechanism(seed, 6);

@@ -104,25 +104,25 @@ fn quarter(number: u64) {
 }
 
 #[test]
-#[ignore = "long: 2,500 mechanisms; run it optimised"]
+#[ignore = "long: 2,500 mechanisms, part of .ci/long"]
 fn first_quarter_of_ten_thousand() {
     quarter(0);
 }
 
 #[test]
-#[ignore = "long: 2,500 mechanisms; run it optimised"]
+#[ignore = "long: 2,500 mechanisms, part of .ci/long"]
 fn second_quarter_of_ten_thousand() {
     quarter(1);
 }
 
 #[test]
-#[ignore = "long: 2,500 mechanisms; run it optimised"]
+#[ignore = "long: 2,500 mechanisms, part of .ci/long"]
 fn third_quarter_of_ten_thousand() {
     quarter(2);
 }
 
 #[test]
-#[ignore = "long: 2,500 mechanisms; run it optimised"]
+#[ignore = "long: 2,500 mechanisms, part of .ci/long"]
 fn last_quarter_of_ten_thousand() {
     quarter(3);
 }

@@ -4,6 +4,7 @@ use bgdyn::nalgebra::{SVector, vector};
 use bgdyn::runtime::wide::f64x4;
 use bgdyn::runtime::{Cause, Dd};
 use bgdyn::{Dynamics, Scalar};
+use bgdyn_codegen::random::Random;
 
 bgdyn::bgdyn!(
     "../../specs/loops/five_bar.yaml",
@@ -28,29 +29,17 @@ bgdyn::bgdyn!(
 
 use five_bar::FiveBar;
 
-/// Numbers between −1 and 1, always the same.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
-}
-
 /// From 100 guesses anywhere: positions close to rounding, and the functions of the branch accept them.
 macro_rules! from_anywhere {
     ($test:ident, $module:ident, $model:ident, $size:expr) => {
         #[test]
         fn $test() {
             let model = $module::$model::<f64>::default();
-            let mut numbers = Numbers(5);
+            let mut numbers = Random(5);
             let (mut far, mut returned) = (0.0_f64, 0);
             for k in 0..100 {
-                let guess = SVector::<f64, { $module::NQ }>::from_fn(|_, _| $size * numbers.next());
+                let guess =
+                    SVector::<f64, { $module::NQ }>::from_fn(|_, _| $size * numbers.signed());
                 let q = model.assemble(&guess, &[true; $module::NT]);
                 let q = q.unwrap_or_else(|error| panic!("{k}: {error}"));
                 let open = model.constraint_residual(&q).amax();
@@ -97,13 +86,13 @@ from_anywhere!(
 #[test]
 fn a_guess_near_a_closed_position_changes_least() {
     let model = FiveBar::<f64>::default();
-    let mut numbers = Numbers(8);
+    let mut numbers = Random(8);
     for _ in 0..50 {
         let closed = model.integrate(
             &model.neutral(),
-            &vector![0.3 * numbers.next(), 0.3 * numbers.next()],
+            &vector![0.3 * numbers.signed(), 0.3 * numbers.signed()],
         );
-        let off = SVector::<f64, 4>::from_fn(|_, _| 0.01 * numbers.next());
+        let off = SVector::<f64, 4>::from_fn(|_, _| 0.01 * numbers.signed());
         let guess = closed + off;
         let q = model.assemble(&guess, &[true; 4]).expect("near");
         let change = guess - q;
@@ -210,10 +199,10 @@ fn every_scalar_assembles() {
 #[test]
 fn a_disc_is_put_on_the_ground() {
     let model = rolling_disc::RollingDisc::<f64>::default();
-    let mut numbers = Numbers(3);
+    let mut numbers = Random(3);
     for k in 0..100 {
         let mut guess = model.neutral();
-        let moved = SVector::<f64, { rolling_disc::NQ }>::from_fn(|_, _| 0.4 * numbers.next());
+        let moved = SVector::<f64, { rolling_disc::NQ }>::from_fn(|_, _| 0.4 * numbers.signed());
         guess = model.normalize(&(guess + moved));
         let q = model.assemble(&guess, &[true; rolling_disc::NT]);
         let q = q.unwrap_or_else(|error| panic!("{k}: {error}"));

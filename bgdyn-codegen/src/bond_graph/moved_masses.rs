@@ -11,7 +11,7 @@ use bgdyn_runtime::Dd;
 
 use super::build::add_fixed_body;
 use super::{BondGraph, LinkFrame};
-use crate::math::{Mat3, Vec3};
+use crate::math::Vec3;
 use crate::mechanism::closure::{Closure, polygons};
 use crate::mechanism::{Degrees, Inertial, LinkId, Motion, Pose, Value};
 
@@ -49,8 +49,8 @@ pub fn with_moved_masses(tree: &BondGraph, closure: &Closure) -> Option<BondGrap
 }
 
 /// Returns the mass at a place of a link with which the first moment about its origin has no component along the line
-/// from there to the place, and whether a component across it is left; `None` if the link turns about no pin, or its mass is a run-time parameter, or it carries
-/// other links.
+/// from there to the place, and whether a component across it is left; `None` if the link turns about no pin, its mass
+/// is a run-time parameter, or it carries other links.
 fn movable(graph: &BondGraph, link: LinkId, place: Vec3<Dd>) -> Option<(Dd, bool)> {
     let frame = &graph.frames[link.0];
     let carries = graph.frames.iter().any(|other| other.parent == Some(link));
@@ -98,7 +98,7 @@ fn add_point(graph: &mut BondGraph, (link, place): (LinkId, Vec3<Dd>), mass: Dd)
         degrees: Degrees::default(),
         hidden: true,
         com: Vec3([zero; 3]),
-        tensor_axes: identity(),
+        tensor_axes: Pose::IDENTITY.rotation,
     };
     let mut inertial: Inertial = graph.inertial(link);
     inertial.mass = Value::Fixed(mass);
@@ -106,10 +106,4 @@ fn add_point(graph: &mut BondGraph, (link, place): (LinkId, Vec3<Dd>), mass: Dd)
     inertial.inertia.entries = [zero; 6];
     inertial.inertia.axes = point.tensor_axes;
     add_fixed_body(graph, point, inertial);
-}
-
-fn identity() -> Mat3<Dd> {
-    Mat3(std::array::from_fn(|i| {
-        std::array::from_fn(|j| if i == j { Dd::ONE } else { Dd::ZERO })
-    }))
 }

@@ -4,7 +4,7 @@ use bgdyn_codegen::formulation::{self, Prepared};
 use bgdyn_codegen::method::Method;
 use bgdyn_runtime::Dd;
 
-use super::multipliers::solve;
+use super::multiplier_system::solve;
 use super::references::{joints, names, numbers, reference, spec};
 use super::robot::{Robot, State, Way, close, dot, largest};
 

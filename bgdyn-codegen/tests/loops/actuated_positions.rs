@@ -9,7 +9,7 @@ use super::actuated::{actuated, actuator_matrix, counted, parallel_robots};
 use super::findings::found;
 use super::frame_rows::minus;
 use super::open_tree::TreeEquations;
-use super::random_loops::{Text, noisy};
+use super::random_loops::Text;
 use super::references::spec;
 use super::robot::{Robot, State, Way, close, dot, largest};
 
@@ -86,10 +86,7 @@ fn compare_with_tree(text: &Text, seed: u64, what: &str) {
 fn random_loops_are_driven_as_with_multipliers() {
     for (seed, root) in ["fixed", "floating", "spherical"].into_iter().enumerate() {
         let mut random = Random(500 + seed as u64);
-        let mut text = Text::new(&mut random, root, 4, noisy);
-        text.connect(&mut random, "point", [4, 8], ([0, 0, 1000], [0; 3]));
-        let apart = ([0, 0, 1000], [30, 40, 120]);
-        text.connect(&mut random, "distance", [3, 6], apart);
+        let text = Text::point_and_rod(&mut random, root);
         compare_with_tree(&text, seed as u64, &format!("point and rod, {root}"));
     }
     let kinds = ["hinge", "slider", "weld", "universal"];

@@ -10,7 +10,7 @@ use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
-use super::multipliers::solve;
+use super::multiplier_system::solve;
 use super::random_dyads::{KINDS, Surroundings, draw};
 use super::references::spec;
 use super::robot::{Robot, close, largest};
@@ -164,6 +164,7 @@ impl Compared {
 #[test]
 fn random_planar_loops_equal_the_literal_sum() {
     let (mut closed, mut all, mut states) = (0, 0, 0);
+    let mut branches = [0, 0];
     for (k, kind) in KINDS.into_iter().enumerate() {
         for n in 0..MECHANISMS {
             let around = Surroundings {
@@ -181,6 +182,10 @@ fn random_planar_loops_equal_the_literal_sum() {
                 states += 1;
             }
             compared.dependents_are_not_read();
+            let closure = compared.robot.mechanism.closure().expect("loops");
+            for polygon in polygons(closure).expect("planar loops") {
+                branches[usize::from(polygon.positive)] += 1;
+            }
             all += compared.functions.len();
             closed += compared
                 .functions
@@ -190,6 +195,7 @@ fn random_planar_loops_equal_the_literal_sum() {
         }
     }
     assert!(states >= 1000, "{states}");
+    assert!(branches.iter().all(|&n| n > 4), "{branches:?}");
     // Elimination is left for potential energies and gravity that do not depend on the loop.
     assert!(10 * closed > 8 * all, "{closed} of {all}");
 }

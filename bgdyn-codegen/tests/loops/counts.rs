@@ -25,47 +25,44 @@ fn words(o: Operations) -> String {
     format!("{} / {} + {}÷{roots}", o.mul, o.add, o.div)
 }
 
+/// Returns the row of the page with the counts of these methods.
+fn row<const N: usize>(title: &str, robot: &Robot, methods: [Method; N]) -> String {
+    let counts = methods.map(|method| words(robot.function(None, method).operations()));
+    format!("| {title} | {} |", counts.join(" | "))
+}
+
+fn assert_on_page(rows: impl Iterator<Item = String>) {
+    let page = file(["docs", "loops.md"]);
+    let missing: Vec<String> = rows.filter(|row| !page.contains(row)).collect();
+    let missing = missing.join("\n");
+    assert!(missing.is_empty(), "docs/loops.md has no rows\n{missing}");
+}
+
 #[test]
 fn the_page_has_the_counts() {
-    let page = file(["docs", "loops.md"]);
     let methods = [
         Method::InverseDynamics,
         Method::MassMatrix,
         Method::ForwardDynamics,
     ];
-    for (name, title) in MECHANISMS {
-        let robot = Robot::read(&spec(name));
-        let counts = methods.map(|method| words(robot.function(None, method).operations()));
-        let row = format!("| {title} | {} |", counts.join(" | "));
-        assert!(page.contains(&row), "docs/loops.md has no row {row}");
-    }
+    let rows = MECHANISMS.map(|(name, title)| row(title, &Robot::read(&spec(name)), methods));
+    assert_on_page(rows.into_iter());
 }
 
 /// The methods that are generated if they are asked for.
 #[test]
 fn the_page_has_the_counts_of_methods_on_request() {
-    let page = file(["docs", "loops.md"]);
     let methods = [
         Method::ConstrainedDynamics,
         Method::ProjectVelocity,
         Method::Reactions,
         Method::JointReactions,
     ];
-    let mut missing = Vec::new();
-    for (name, title) in MECHANISMS {
-        let robot = Robot::read(&spec(name));
-        let counts = methods.map(|method| words(robot.function(None, method).operations()));
+    let rows = MECHANISMS.map(|(name, title)| {
         let title = title.split(',').next().unwrap_or(title);
-        let row = format!("| {title} | {} |", counts.join(" | "));
-        if !page.contains(&row) {
-            missing.push(row);
-        }
-    }
-    assert!(
-        missing.is_empty(),
-        "docs/loops.md has no rows\n{}",
-        missing.join("\n")
-    );
+        row(title, &Robot::read(&spec(name)), methods)
+    });
+    assert_on_page(rows.into_iter());
 }
 
 /// The rates of a scene under its weights: accelerations, and the rates of all positions from the same S.
@@ -91,34 +88,17 @@ fn rates_of_scenes_share_the_velocity_map_with_forward_dynamics() {
 /// Inverse and forward dynamics of the drives of parallel robots, in the positions of their platforms.
 #[test]
 fn the_page_has_the_counts_of_actuated_joints() {
-    let page = file(["docs", "loops.md"]);
-    let mut missing = Vec::new();
-    for (name, text, _) in parallel_robots() {
+    let rows = parallel_robots().into_iter().map(|(name, text, _)| {
         let robot = Robot::read(&text);
         let closed = robot.graph.closed.as_deref().expect("loops");
         let [inverse, forward] = Method::of_actuated(closed)[..] else {
             panic!("{name}: enough joints");
         };
-        let words = |method| {
-            let o = robot.function(None, method).operations();
-            match o.sqrt {
-                0 => format!("{} / {} + {}÷", o.mul, o.add, o.div),
-                roots => format!("{} / {} + {}÷ + {roots}√", o.mul, o.add, o.div),
-            }
-        };
         let title = match name {
             "delta_robot" => "Delta robot, platform independent, arms actuated",
             _ => "Stewart platform, platform independent, legs actuated",
         };
-        let counts = [Method::InverseDynamics, inverse, forward].map(words);
-        let row = format!("| {title} | {} |", counts.join(" | "));
-        if !page.contains(&row) {
-            missing.push(row);
-        }
-    }
-    assert!(
-        missing.is_empty(),
-        "docs/loops.md has no rows\n{}",
-        missing.join("\n")
-    );
+        row(title, &robot, [Method::InverseDynamics, inverse, forward])
+    });
+    assert_on_page(rows);
 }

@@ -8,7 +8,7 @@ use bgdyn_codegen::random::Random;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
 
-use super::multipliers::solve;
+use super::multiplier_system::solve;
 use super::random_loops::{Text, noisy};
 use super::references::spec;
 use super::robot::{Robot, State, close, dot, largest};

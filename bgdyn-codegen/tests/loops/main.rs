@@ -7,6 +7,8 @@ mod free_bodies;
 mod maker;
 #[path = "../joints/motion_of_tree.rs"]
 mod motion_of_tree;
+#[path = "../joints/multiplier_system.rs"]
+mod multiplier_system;
 #[path = "../joints/robot.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;

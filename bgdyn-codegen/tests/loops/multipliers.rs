@@ -6,47 +6,11 @@ use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
 use super::frame_rows::{FrameMotion, minus, rows};
+use super::multiplier_system::with_rows;
 use super::random_loops::{Text, noisy};
 use super::robot::{Robot, State, Way, close, dot, full, largest, times};
 
 const WAYS: [Way; 2] = [None, Some("subspaces")];
-
-/// Solves a system by elimination with complete pivoting; pivots below 1e-20 are those of dependent rows.
-pub fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
-    let n = b.len();
-    a.iter_mut().zip(b).for_each(|(row, &x)| row.push(x));
-    let (mut rows, mut columns, mut found): (Vec<usize>, Vec<usize>, Vec<(usize, usize)>) =
-        ((0..n).collect(), (0..n).collect(), vec![]);
-    while !rows.is_empty() {
-        let size = |&(i, j): &(usize, usize)| a[i][j].to_f64().abs();
-        let places = rows
-            .iter()
-            .flat_map(|&i| columns.iter().map(move |&j| (i, j)));
-        let (i, j) = places
-            .max_by(|x, y| size(x).total_cmp(&size(y)))
-            .expect("a place");
-        if size(&(i, j)) < 1e-20 {
-            break;
-        }
-        let pivot = a[i].clone();
-        for (k, row) in a.iter_mut().enumerate() {
-            let factor = row[j] / pivot[j];
-            if k != i {
-                row.iter_mut()
-                    .zip(&pivot)
-                    .for_each(|(x, &y)| *x -= factor * y);
-            }
-        }
-        rows.retain(|&row| row != i);
-        columns.retain(|&column| column != j);
-        found.push((i, j));
-    }
-    let mut x = vec![Dd::ZERO; n];
-    for (i, j) in found {
-        x[j] = a[i][n] / a[i][j];
-    }
-    x
-}
 
 /// Compares at closed positions with random velocities and efforts.
 pub fn compare(text: &Text, what: &str) {
@@ -89,23 +53,11 @@ pub fn compare(text: &Text, what: &str) {
             let off = dot(row, &rates).to_f64().abs();
             assert!(off < 1e-24 * largest(&rates), "{what}: a rate of {off:e}");
         }
-        // M q̈ − Bᵀ λ = P − h, B q̈ = γ
-        let (n, m) = (tree.nv(), b.len());
+        let n = tree.nv();
         let mass = full(&of_tree.value(&tree.function(None, Method::MassMatrix)), n);
         let bias: Vec<Dd> = of_tree.value(&tree.function(None, Method::Bias));
-        let mut system = vec![vec![Dd::ZERO; n + m]; n + m];
-        let mut side = minus(&all, &bias);
-        for i in 0..n {
-            system[i][..n].copy_from_slice(&mass[i]);
-        }
-        for (r, (row, gamma)) in b.iter().enumerate() {
-            for j in 0..n {
-                system[n + r][j] = row[j];
-                system[j][n + r] = -row[j];
-            }
-            side.push(*gamma);
-        }
-        let solution = solve(system, &side);
+        let gamma: Vec<Dd> = b.iter().map(|(_, gamma)| *gamma).collect();
+        let solution = with_rows(&mass, &b, [&minus(&all, &bias), &gamma]);
         let (accelerations, lambda) = solution.split_at(n);
         let expected: Vec<Dd> = closure
             .independents

@@ -5,8 +5,8 @@ use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
 use super::frame_rows::{FrameMotion, minus, rows};
-use super::multipliers::solve;
-use super::random_loops::{Text, noisy};
+use super::multiplier_system::with_rows;
+use super::random_loops::Text;
 use super::robot::{Robot, State, Way, close, dot, full, largest, times};
 
 const WAYS: [Way; 2] = [None, Some("subspaces")];
@@ -63,19 +63,9 @@ impl TreeEquations {
 
     /// Returns the solution of M x − Bᵀ λ = f, B x = r, and λ.
     pub fn solved(&self, f: &[Dd], r: &[Dd]) -> (Vec<Dd>, Vec<Dd>) {
-        let (n, m) = (f.len(), r.len());
-        let mut system = vec![vec![Dd::ZERO; n + m]; n + m];
-        for i in 0..n {
-            system[i][..n].copy_from_slice(&self.mass[i]);
-        }
-        for (r, (row, _)) in self.rows.iter().enumerate() {
-            for j in 0..n {
-                system[n + r][j] = row[j];
-                system[j][n + r] = -row[j];
-            }
-        }
-        let solution = solve(system, &[f, r].concat());
-        (solution[..n].to_vec(), solution[n..].to_vec())
+        let mut solution = with_rows(&self.mass, &self.rows, [f, r]);
+        let lambda = solution.split_off(f.len());
+        (solution, lambda)
     }
 
     /// Returns Bᵀ λ.
@@ -179,10 +169,7 @@ fn compare(text: &Text, what: &str) {
 fn spatial_loops_accelerate_and_are_projected_as_with_multipliers() {
     for (seed, root) in ["fixed", "floating", "spherical"].into_iter().enumerate() {
         let mut random = Random(500 + seed as u64);
-        let mut text = Text::new(&mut random, root, 4, noisy);
-        text.connect(&mut random, "point", [4, 8], ([0, 0, 1000], [0; 3]));
-        let apart = ([0, 0, 1000], [30, 40, 120]);
-        text.connect(&mut random, "distance", [3, 6], apart);
+        let text = Text::point_and_rod(&mut random, root);
         compare(&text, &format!("point and rod, {root}"));
     }
 }

@@ -9,7 +9,7 @@ use bgdyn_runtime::Dd;
 
 use super::drawn::{NORMAL, at, connect, four_bar, link, on, turning, xyz};
 use super::frame_rows::{FrameMotion, minus, rows};
-use super::multipliers::solve;
+use super::multiplier_system::with_rows;
 use super::random_loops::Text;
 use super::references::spec;
 use super::robot::{Robot, State, Way, close, dot, full, largest};
@@ -137,7 +137,15 @@ fn compare(text: &Text, [nv, rows]: [usize; 2], what: &str) {
             );
         }
         if k < 3 {
-            let accelerations = with_multipliers(&tree, &of_tree, &b, &drives(&robot, &state.u));
+            let mass = full(
+                &of_tree.value(&tree.function(None, Method::MassMatrix)),
+                tree.nv(),
+            );
+            let bias: Vec<Dd> = of_tree.value(&tree.function(None, Method::Bias));
+            let drive = minus(&drives(&robot, &state.u), &bias);
+            let gamma: Vec<Dd> = b.iter().map(|(_, gamma)| *gamma).collect();
+            let mut accelerations = with_rows(&mass, &b, [&drive, &gamma]);
+            accelerations.truncate(tree.nv());
             for way in WAYS {
                 let found: Vec<Dd> = state.value(&robot.function(way, Method::ForwardDynamics));
                 let moved = State {
@@ -164,31 +172,6 @@ fn drives(robot: &Robot, efforts: &[Dd]) -> Vec<Dd> {
         false => degrees.velocities.iter().map(|j| efforts[j.0]).collect(),
     })
     .collect()
-}
-
-/// Solves M q̈ − Bᵀ λ = P − h, B q̈ = γ.
-fn with_multipliers(
-    tree: &Robot,
-    state: &State<Dd>,
-    b: &[(Vec<Dd>, Dd)],
-    efforts: &[Dd],
-) -> Vec<Dd> {
-    let (n, m) = (tree.nv(), b.len());
-    let mass = full(&state.value(&tree.function(None, Method::MassMatrix)), n);
-    let bias: Vec<Dd> = state.value(&tree.function(None, Method::Bias));
-    let mut system = vec![vec![Dd::ZERO; n + m]; n + m];
-    let mut side = minus(efforts, &bias);
-    for i in 0..n {
-        system[i][..n].copy_from_slice(&mass[i]);
-    }
-    for (r, (row, gamma)) in b.iter().enumerate() {
-        for j in 0..n {
-            system[n + r][j] = row[j];
-            system[j][n + r] = -row[j];
-        }
-        side.push(*gamma);
-    }
-    solve(system, &side)[..n].to_vec()
 }
 
 /// A point of the plane, lifted along its normal.

@@ -107,6 +107,15 @@ impl Text {
         text
     }
 
+    /// A point and a rod between links of a tree with this root.
+    pub fn point_and_rod(random: &mut Random, root: &str) -> Self {
+        let mut text = Text::new(random, root, 4, noisy);
+        text.connect(random, "point", [4, 8], ([0, 0, 1000], [0; 3]));
+        let apart = ([0, 0, 1000], [30, 40, 120]);
+        text.connect(random, "distance", [3, 6], apart);
+        text
+    }
+
     /// Two branches of four joints with noisy axes whose ends a loop of this type connects; a slider's are apart along
     /// its axis, to a millimetre.
     pub fn of_type(random: &mut Random, root: &str, kind: &'static str) -> Self {

@@ -8,7 +8,7 @@ use bgdyn_runtime::Dd;
 use super::drawn::{NORMAL, at, connect, four_bar, spherical, xyz};
 use super::free_bodies::{Placed, assert_free_bodies, three};
 use super::motion_of_tree::motion_of_tree;
-use super::random_loops::{Text, noisy};
+use super::random_loops::Text;
 use super::references::{joints, names, numbers, reference, spec};
 use super::robot::{Robot, State, Way, close, dot, largest};
 
@@ -74,10 +74,7 @@ fn links_of_spatial_loops_are_free_bodies() {
         .enumerate()
     {
         let mut random = Random(1100 + seed as u64);
-        let mut text = Text::new(&mut random, root, 4, noisy);
-        text.connect(&mut random, "point", [4, 8], ([0, 0, 1000], [0; 3]));
-        let apart = ([0, 0, 1000], [30, 40, 120]);
-        text.connect(&mut random, "distance", [3, 6], apart);
+        let text = Text::point_and_rod(&mut random, root);
         compare(&text, &[[4, 8], [3, 6]], &format!("point and rod, {root}"));
     }
 }

@@ -5,33 +5,12 @@ use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
+use super::multiplier_system::with_rows;
 use super::random_mechanisms::{Text, Touch};
 use super::robot::{Robot, State, Way, close, dot, full, largest, times};
 use super::slip_rows::rows;
 
 const WAYS: [Way; 2] = [None, Some("subspaces")];
-
-/// Solves a regular system by elimination with partial pivoting.
-fn solve(mut a: Vec<Vec<Dd>>, b: &[Dd]) -> Vec<Dd> {
-    let n = b.len();
-    a.iter_mut().zip(b).for_each(|(row, &x)| row.push(x));
-    for k in 0..n {
-        let size = |i: &usize| a[*i][k].to_f64().abs();
-        let best = (k..n).max_by(|i, j| size(i).total_cmp(&size(j)));
-        a.swap(k, best.expect("a row"));
-        let pivot = a[k].clone();
-        assert!(pivot[k].to_f64().abs() > 1e-12, "a singular system");
-        for (i, row) in a.iter_mut().enumerate() {
-            let factor = row[k] / pivot[k];
-            if i != k {
-                row.iter_mut()
-                    .zip(&pivot)
-                    .for_each(|(x, &y)| *x -= factor * y);
-            }
-        }
-    }
-    (0..n).map(|k| a[k][n] / a[k][k]).collect()
-}
 
 /// Compares in three states.
 fn compare(text: &Text, what: &str) {
@@ -70,23 +49,12 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
             "{what}: slips at {off:e} m/s"
         );
     }
-    // M q̈ − Bᵀ λ = P − h, B q̈ = γ
-    let (n, m) = (tree.nv(), rows.len());
+    let n = tree.nv();
     let mass = full(&of_tree.value(&tree.function(None, Method::MassMatrix)), n);
     let bias: Vec<Dd> = of_tree.value(&tree.function(None, Method::Bias));
-    let mut system = vec![vec![Dd::ZERO; n + m]; n + m];
-    let mut side: Vec<Dd> = efforts.iter().zip(&bias).map(|(&p, &h)| p - h).collect();
-    for i in 0..n {
-        system[i][..n].copy_from_slice(&mass[i]);
-    }
-    for (r, (row, gamma)) in rows.iter().enumerate() {
-        for j in 0..n {
-            system[n + r][j] = row[j];
-            system[j][n + r] = -row[j];
-        }
-        side.push(*gamma);
-    }
-    let solution = solve(system, &side);
+    let drive: Vec<Dd> = efforts.iter().zip(&bias).map(|(&p, &h)| p - h).collect();
+    let gamma: Vec<Dd> = rows.iter().map(|(_, gamma)| *gamma).collect();
+    let solution = with_rows(&mass, &rows, [&drive, &gamma]);
     let (accelerations, lambda) = solution.split_at(n);
     let independents = closure.independents.iter();
     state.a = independents.map(|j| accelerations[j.0]).collect();
