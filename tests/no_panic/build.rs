@@ -10,7 +10,7 @@ use syn::{
     File, FnArg, Ident, ImplItem, Item, ItemImpl, ItemMod, Pat, Signature, Type, Visibility,
 };
 
-const SPECS: [&str; 7] = [
+const SPECS: [&str; 9] = [
     "specs/scara.yaml",
     "specs/puma560.yaml",
     "specs/panda.yaml",
@@ -18,11 +18,14 @@ const SPECS: [&str; 7] = [
     "tests/free_joints/quadrotor_arm.yaml",
     "tests/free_joints/any_length.yaml",
     "specs/loops/five_bar.yaml",
+    "specs/loops/parallel_rods.yaml",
+    "tests/actuated/crank_and_rod.yaml",
 ];
 
 /// Methods that are generated if they are asked for.
-const ON_REQUEST: [&str; 6] = [
+const ON_REQUEST: [&str; 7] = [
     "dynamics",
+    "assemble",
     "constraint_bias",
     "constrained_dynamics",
     "project_velocity",
@@ -47,7 +50,11 @@ fn main() {
     let mechanisms = SPECS
         .iter()
         .map(|spec| Build::new(format!("../../{spec}")).derivatives(true));
-    let on_request = Build::new("../../specs/loops/four_bar.yaml").methods(ON_REQUEST);
+    // Nonholonomic mechanisms have no derivatives.
+    let others = [
+        Build::new("../../specs/loops/four_bar.yaml").methods(ON_REQUEST),
+        Build::new("../../specs/constraints/rattleback.yaml"),
+    ];
     let scenes = SCENES.iter().map(|name| {
         let scene = format!("../../specs/scenes/{name}.scene.yaml");
         Build::new(scene).jacobian(true).canonical(true)
@@ -55,7 +62,8 @@ fn main() {
     println!("cargo::rerun-if-changed=../../specs");
     println!("cargo::rerun-if-changed=../../firmware/specs");
     println!("cargo::rerun-if-changed=../free_joints");
-    for build in mechanisms.chain([on_request]).chain(scenes) {
+    println!("cargo::rerun-if-changed=../actuated");
+    for build in mechanisms.chain(others).chain(scenes) {
         let source = build.source();
         let source = source.unwrap_or_else(|error| panic!("{error}"));
         let mut file: File = syn::parse_str(&source.text).expect("Rust");
