@@ -59,7 +59,7 @@ impl Method {
         let (drives, mobility) = (actuated.joints.len(), closed.closure.independents.len());
         match name {
             "inverse_dynamics" => Some(format!(
-                "no `inverse_dynamics`: {drives} joints are actuated, and {mobility} velocities are independent, so that no efforts produce every acceleration; `reduced_inverse_dynamics` returns the efforts along the independent velocities"
+                "no `inverse_dynamics`: the number of actuated joints is {drives}, that of independent velocities {mobility}, so that no efforts produce every acceleration; `reduced_inverse_dynamics` returns the efforts along the independent velocities"
             )),
             "joint_reactions" => Some(
                 "no `joint_reactions` with `actuated`: it returns the loads with drives at the independent joints; `reactions` returns those of the loops under the efforts of the actuated joints"

@@ -1,6 +1,7 @@
 //! Faults of loops: each with its place, its rule and the numbers seen.
 
 use super::findings::{found, refused_text};
+use super::references::spec;
 
 /// A four-bar without its loop; the coupler is 0.4 m long, the rocker 0.3 m, the ground 0.35 m, the crank 0.12 m.
 const LINKS: &str = "format: 1
@@ -281,13 +282,12 @@ fn actuated_joints() {
         "actuated",
         &["`q1`, `q3`", "3 of 4", "follow", "reduced_inverse_dynamics"],
     );
-    let text = format!("{LINKS}actuated: [q1]\n");
-    refused_text(
-        &text,
-        "actuated-without-loops",
-        "actuated",
-        &["leave it out"],
-    );
+    let without = format!("{LINKS}actuated: [q1]\n");
+    let parallel = spec("parallel_rods") + "actuated: [rod0_angle]\n";
+    for text in [without, parallel] {
+        let words = ["leave it out", "`branch: parallel`"];
+        refused_text(&text, "actuated-without-loops", "actuated", &words);
+    }
     let fixed = LINKS.replace(
         "frames:",
         "  - { name: cap, parent: rocker, joint: { name: cap_joint, type: fixed }, mass: 1 }

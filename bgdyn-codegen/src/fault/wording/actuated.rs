@@ -4,9 +4,9 @@ use super::{quote, quoted_list, suggestion};
 use crate::fault::{Fault, Location};
 
 pub(crate) fn actuated_without_loops(location: &Location) -> Fault {
-    let message = "`actuated` lists the joints with drives, and the mechanism has no loops, wheels or knife edges";
+    let message = "`actuated` lists the joints with drives, and here no velocity follows from others through loops, wheels or knife edges: joints of parallelograms with `branch: parallel` follow as those of gears do";
     Fault::new(location, "actuated-without-loops", message)
-        .with_help("leave it out: without them every joint that follows no other has a drive")
+        .with_help("leave it out: every joint that follows no other has a drive")
 }
 
 pub(crate) fn no_actuated_joint(location: &Location) -> Fault {
