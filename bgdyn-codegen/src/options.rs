@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt;
 
-use crate::bond_graph::{BondGraph, ClosedTree, Multibody, Site, SiteId};
+use crate::bond_graph::{BondGraph, Multibody, Site, SiteId};
 pub use crate::choice::Preference;
 use crate::fault::unknown_name;
 use crate::formulation::{self, FORMULATIONS, Formulation};
@@ -110,12 +110,8 @@ impl Options {
             }
             None => {}
         }
-        let slips = graph.closed.iter().find_map(|closed| first_slip(closed));
-        if let (true, Some(constraint)) = (self.derivatives, slips) {
-            unknown.push(no_derivatives(constraint));
-        } else if self.derivatives {
-            wanted.insert(Method::InverseDynamicsDerivatives);
-            wanted.insert(Method::ForwardDynamicsDerivatives);
+        if self.derivatives {
+            wanted.extend(Method::derivatives_of(graph));
         }
         if unknown.is_empty() {
             let all = Method::possible_of(graph).into_iter();
@@ -242,21 +238,6 @@ impl UnknownName {
             message,
         }
     }
-}
-
-/// Returns the name of the first constraint on velocities alone.
-fn first_slip(closed: &ClosedTree) -> Option<&str> {
-    let closure = &closed.closure;
-    let mut rows = closure.rows.iter();
-    let row = rows.find(|row| !row.kind.has_positions())?;
-    Some(&closure.loops[row.closes].name)
-}
-
-fn no_derivatives(constraint: &str) -> UnknownName {
-    let message = format!(
-        "no derivatives with `{constraint}`: with a constraint on velocities alone positions change in more directions          than v has entries, and derivatives along v would not be all; differentiate the other methods with dual numbers"
-    );
-    UnknownName::whole("derivatives", message)
 }
 
 fn usual(graph: &BondGraph) -> Vec<Method> {

@@ -86,6 +86,8 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             | Shape::CheckedTree
             | Shape::CheckedTreeAndRows
             | Shape::CheckedWrenches
+            | Shape::SlopesByTree
+            | Shape::CheckedSlopesByTree
             | Shape::LinkWrenches => unreachable!("these methods are generated on request only"),
             Shape::Parts | Shape::CheckedParts => unreachable!("no scene is among the specs"),
         };

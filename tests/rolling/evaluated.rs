@@ -14,7 +14,11 @@ fn model(text: &str) -> Model {
     let (mechanism, faults) = bgdyn_codegen::read(text, Some("snakeboard"));
     let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render("spec", text)));
     assert!(build(&mechanism).closed.is_some());
-    bgdyn_codegen::pipeline::model(mechanism, &Options::default()).expect("a model")
+    let options = Options {
+        derivatives: true,
+        ..Options::default()
+    };
+    bgdyn_codegen::pipeline::model(mechanism, &options).expect("a model")
 }
 
 #[test]
@@ -67,6 +71,21 @@ fn compiled_code_computes_what_the_evaluator_does() {
             "velocity_map",
             compiled.velocity_map(&q).transpose().as_slice(),
         );
+        let (by_q, by_v) = compiled.inverse_dynamics_derivatives(&q, &v, &a);
+        let both = [by_q.transpose().as_slice(), by_v.transpose().as_slice()].concat();
+        check("inverse_dynamics_derivatives", &both);
+        let (by_q, by_v, by_tau) = compiled
+            .forward_dynamics_derivatives(&q, &v, &tau)
+            .expect("regular");
+        let by_q = by_q.transpose();
+        let [by_v, by_tau] = [by_v, by_tau].map(|m| m.transpose());
+        let all = [
+            accelerations.as_slice(),
+            by_q.as_slice(),
+            by_v.as_slice(),
+            by_tau.as_slice(),
+        ];
+        check("forward_dynamics_derivatives", &all.concat());
         let rows = compiled.constraint_jacobian(&q).transpose();
         check("constraint_jacobian", rows.as_slice());
     }

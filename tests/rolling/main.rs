@@ -8,8 +8,14 @@ mod touching;
 
 bgdyn::bgdyn!("../../specs/constraints/chaplygin_sleigh.yaml");
 bgdyn::bgdyn!("../../specs/constraints/differential_drive.yaml");
-bgdyn::bgdyn!("../../specs/constraints/snakeboard.yaml");
-bgdyn::bgdyn!("../../specs/constraints/rolling_disc.yaml");
+bgdyn::bgdyn!(
+    "../../specs/constraints/snakeboard.yaml",
+    derivatives = true
+);
+bgdyn::bgdyn!(
+    "../../specs/constraints/rolling_disc.yaml",
+    derivatives = true
+);
 bgdyn::bgdyn!("../../specs/constraints/whipple_bicycle.yaml");
 bgdyn::bgdyn!("robot.yaml");
 bgdyn::bgdyn!("sleigh_run.scene.yaml");

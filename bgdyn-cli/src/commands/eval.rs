@@ -203,6 +203,12 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
             .map(|square| rows(square, nv))
             .collect()
     };
+    let slopes = |values: &[f64]| {
+        let (by_q, others) = values.split_at(nv * nt);
+        let mut all = vec![rows(by_q, nt)];
+        all.extend(squares(others));
+        json!(all)
+    };
     match shape {
         Shape::Scalar => json!(values[0]),
         Shape::Vector | Shape::CheckedVector | Shape::Spatial | Shape::Drives(_) => json!(values),
@@ -224,6 +230,8 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::RowMatrix => rows(values, nt),
         Shape::SquarePair => json!(squares(values)),
         Shape::CheckedSquares => json!(squares(&values[nv..])),
+        Shape::SlopesByTree => slopes(values),
+        Shape::CheckedSlopesByTree => slopes(&values[nv..]),
         Shape::Pose => json!({
             "rotation": rows(&values[..9], 3),
             "translation": values[9..].to_vec(),

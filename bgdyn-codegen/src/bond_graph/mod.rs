@@ -231,6 +231,31 @@ impl BondGraph {
         closed.tree.multibody.position_rates(q, &all)
     }
 
+    /// Returns the number of directions along which derivatives with respect to positions are taken: the velocities, or
+    /// those of the open tree where conditions on velocities alone leave more ways to move.
+    pub fn directions(&self) -> usize {
+        let closed = self.closed.as_ref();
+        let slips = closed.filter(|closed| closed.closure.nonholonomic());
+        slips.map_or(self.coordinates.len(), |closed| {
+            closed.tree.coordinates.len()
+        })
+    }
+
+    /// Returns the rates of the positions along these directions: q̇ = N(q) v, or along velocities of the open tree, after
+    /// the least change with which positions stay closed.
+    ///
+    /// # Panics
+    /// At a singular position of a loop.
+    pub fn rates_along(&self, q: &[Dd], direction: &[Dd]) -> Vec<Dd> {
+        let closed = self.closed.as_ref();
+        let Some(closed) = closed.filter(|closed| closed.closure.nonholonomic()) else {
+            return self.position_rates(q, direction);
+        };
+        let moved = closed.closure.closed_along(q, direction);
+        let moved = moved.expect("a regular position of the loops");
+        closed.tree.multibody.position_rates(q, &moved)
+    }
+
     /// Returns the junction of q̇_j.
     pub fn velocity(&self, j: CoordinateId) -> JunctionId {
         JunctionId(j.0)

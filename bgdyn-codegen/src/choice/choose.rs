@@ -209,12 +209,7 @@ impl<'a> Choice<'a> {
 
 /// Returns whether a method is a derivative of others.
 fn differentiates(method: Method) -> bool {
-    matches!(
-        method,
-        Method::CoriolisMatrix
-            | Method::InverseDynamicsDerivatives
-            | Method::ForwardDynamicsDerivatives
-    )
+    method == Method::CoriolisMatrix || method.differentiates_dynamics()
 }
 
 /// Returns a function whose accuracy is not checked.

@@ -48,9 +48,8 @@ fn computed(graph: &BondGraph) -> &BondGraph {
 
 fn is_affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulation) -> bool {
     let most = match method {
-        Method::CoriolisMatrix
-        | Method::InverseDynamicsDerivatives
-        | Method::ForwardDynamicsDerivatives => MAX_LITERAL_DERIVED,
+        Method::CoriolisMatrix => MAX_LITERAL_DERIVED,
+        method if method.differentiates_dynamics() => MAX_LITERAL_DERIVED,
         _ => MAX_LITERAL,
     };
     formulation.name() != LITERAL || computed(graph).coordinates.len() <= most
@@ -65,9 +64,9 @@ fn variants(
     let choice = Choice::new(graph, Some(formulation));
     let plain = match method {
         // These methods share their functions in the factored form.
-        Method::CoriolisMatrix | Method::InverseDynamicsDerivatives => {
-            choice.function(method).map(|f| (*f).clone())
-        }
+        Method::CoriolisMatrix
+        | Method::InverseDynamicsDerivatives
+        | Method::InverseDerivativesByTree => choice.function(method).map(|f| (*f).clone()),
         _ if graph.closed.is_some() => choice.function(method).map(|f| (*f).clone()),
         _ => choice.asked_plain(method),
     };

@@ -249,6 +249,23 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 ::core::result::Result::Ok([#(#squares),*])
             }
         }
+        Shape::SlopesByTree => {
+            let (by_q, by_v) = values.split_at(nv * sizes.of_tree.unwrap_or(nv));
+            let by_q = matrix(sizes.of_tree.unwrap_or(nv), by_q);
+            let by_v = square(by_v);
+            quote! { (#by_q, #by_v) }
+        }
+        Shape::CheckedSlopesByTree => {
+            let (accelerations, rest) = values.split_at(nv);
+            let (by_q, rest) = rest.split_at(nv * sizes.of_tree.unwrap_or(nv));
+            let by_q = matrix(sizes.of_tree.unwrap_or(nv), by_q);
+            let squares = squares(rest, 2);
+            let found = checked(method, &vector(accelerations), &pivots);
+            quote! {
+                #found?;
+                ::core::result::Result::Ok((#by_q, #(#squares),*))
+            }
+        }
         Shape::Pose => {
             let rotation = matrix(3, &values[..9]);
             let translation = &values[9..];

@@ -91,7 +91,7 @@ fn reduced_summary(method: Method) -> Option<String> {
         Method::Bias => {
             "Bias force: everything in the efforts along the independent velocities but M(q)·a."
         }
-        Method::InverseDynamicsDerivatives => {
+        method if method.differentiates_inverse() => {
             "Derivatives of the efforts along the independent velocities: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix."
         }
         _ => return None,

@@ -112,6 +112,14 @@ pub(super) fn return_type(shape: Shape) -> TokenStream {
         Shape::CheckedSquares => {
             quote! { ::core::result::Result<[__na::SMatrix<T, NV, NV>; 3], T::Singular<NV>> }
         }
+        Shape::SlopesByTree => {
+            quote! { (__na::SMatrix<T, NV, NT>, __na::SMatrix<T, NV, NV>) }
+        }
+        Shape::CheckedSlopesByTree => {
+            let by_q = quote! { __na::SMatrix<T, NV, NT> };
+            let square = quote! { __na::SMatrix<T, NV, NV> };
+            quote! { ::core::result::Result<(#by_q, #square, #square), T::Singular<NV>> }
+        }
         Shape::Pose => quote! { __rt::Pose<T> },
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Drives(_) => quote! { __na::SVector<T, NP> },

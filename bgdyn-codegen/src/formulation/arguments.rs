@@ -86,6 +86,8 @@ fn moves_with_base(method: Method) -> bool {
             | Method::CoriolisMatrix
             | Method::InverseDynamicsDerivatives
             | Method::ForwardDynamicsDerivatives
+            | Method::InverseDerivativesByTree
+            | Method::ForwardDerivativesByTree
             | Method::JointReactions
     )
 }

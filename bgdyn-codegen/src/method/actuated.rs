@@ -4,7 +4,7 @@ use super::Method;
 use crate::bond_graph::{ClosedTree, Site};
 
 /// The names of methods whose efforts are along the independent velocities, where other joints are actuated.
-const REDUCED: [(Method, &str); 4] = [
+const REDUCED: [(Method, &str); 6] = [
     (Method::InverseDynamics, "reduced_inverse_dynamics"),
     (Method::ForwardDynamics, "reduced_forward_dynamics"),
     (
@@ -13,6 +13,14 @@ const REDUCED: [(Method, &str); 4] = [
     ),
     (
         Method::ForwardDynamicsDerivatives,
+        "reduced_forward_dynamics_derivatives",
+    ),
+    (
+        Method::InverseDerivativesByTree,
+        "reduced_inverse_dynamics_derivatives",
+    ),
+    (
+        Method::ForwardDerivativesByTree,
         "reduced_forward_dynamics_derivatives",
     ),
 ];

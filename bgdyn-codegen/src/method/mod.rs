@@ -39,6 +39,11 @@ pub enum Method {
     ForwardDynamicsDerivatives,
     /// P_j of equation (6) at the prescribed joints; their number.
     DriveEfforts(usize),
+    /// [`Method::InverseDynamicsDerivatives`] where conditions on velocities alone leave more ways to move than velocities:
+    /// ∂/∂q has a column for each velocity of the open tree.
+    InverseDerivativesByTree,
+    /// [`Method::ForwardDynamicsDerivatives`] likewise.
+    ForwardDerivativesByTree,
     /// Pose of a site.
     Pose(SiteId),
     /// Velocity of a site.
@@ -124,6 +129,42 @@ impl Method {
         Method::Reactions,
     ];
 
+    /// Returns the two methods that are derivatives of the dynamics of a mechanism, inverse first.
+    pub fn derivatives_of(graph: &BondGraph) -> [Method; 2] {
+        let mut closed = graph.closed.iter();
+        match closed.any(|closed| closed.closure.nonholonomic()) {
+            true => [
+                Method::InverseDerivativesByTree,
+                Method::ForwardDerivativesByTree,
+            ],
+            false => [
+                Method::InverseDynamicsDerivatives,
+                Method::ForwardDynamicsDerivatives,
+            ],
+        }
+    }
+
+    /// Returns whether it is a derivative of inverse or forward dynamics.
+    pub fn differentiates_dynamics(self) -> bool {
+        self.differentiates_inverse() || self.differentiates_forward()
+    }
+
+    /// Returns whether it is a derivative of inverse dynamics.
+    pub fn differentiates_inverse(self) -> bool {
+        matches!(
+            self,
+            Method::InverseDynamicsDerivatives | Method::InverseDerivativesByTree
+        )
+    }
+
+    /// Returns whether it is a derivative of forward dynamics.
+    pub fn differentiates_forward(self) -> bool {
+        matches!(
+            self,
+            Method::ForwardDynamicsDerivatives | Method::ForwardDerivativesByTree
+        )
+    }
+
     /// Returns the methods of a mechanism with loops or contacts that all get: without those of closing if nothing closes.
     pub fn of_closed(closed: &ClosedTree) -> Vec<Method> {
         let closes = closed
@@ -154,18 +195,9 @@ impl Method {
             .into_iter()
             .partition(|method| method.site().is_none());
         let mut all: Vec<Method> = own.into_iter().chain(drives).chain(of_sites).collect();
-        // Positions change in more directions than v has entries.
-        let slips = graph
-            .closed
-            .iter()
-            .any(|closed| closed.closure.nonholonomic());
-        if slips {
-            let derivatives = [
-                Method::InverseDynamicsDerivatives,
-                Method::ForwardDynamicsDerivatives,
-            ];
-            all.retain(|method| !derivatives.contains(method));
-        }
+        let derivatives = Method::derivatives_of(graph);
+        all.retain(|method| !method.differentiates_dynamics());
+        all.extend(derivatives);
         if let Some(closed) = &graph.closed {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
@@ -256,6 +288,8 @@ impl Method {
             Method::CoriolisMatrix => "coriolis_matrix".into(),
             Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives".into(),
             Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives".into(),
+            Method::InverseDerivativesByTree => "inverse_dynamics_derivatives".into(),
+            Method::ForwardDerivativesByTree => "forward_dynamics_derivatives".into(),
             Method::DriveEfforts(_) => "drive_efforts".into(),
             Method::Pose(s) => site("pose", s),
             Method::Velocity(s) => site("velocity", s),
@@ -283,6 +317,7 @@ impl Method {
         match self {
             Method::InverseDynamics
             | Method::InverseDynamicsDerivatives
+            | Method::InverseDerivativesByTree
             | Method::ActuatedInverse(_)
             | Method::DriveEfforts(_) => &[Q, V, A],
             Method::MassMatrix | Method::Gravity | Method::PotentialEnergy => &[Q],
@@ -293,7 +328,9 @@ impl Method {
             Method::ConstraintJacobian | Method::ClosingStep => &[Q],
             Method::TreeVelocity => &[Q, V],
             Method::TreeAcceleration | Method::Multipliers | Method::JointReactions => &[Q, V, A],
-            Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
+            Method::ForwardDynamics
+            | Method::ForwardDynamicsDerivatives
+            | Method::ForwardDerivativesByTree => &[Q, V, Tau],
             Method::Reactions => &[Q, V, Tau],
             Method::ActuatedForward(_) | Method::ActuatedReactions(_) => &[Q, V, ActuatedTau],
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
@@ -336,6 +373,8 @@ impl Method {
             Method::CoriolisMatrix => Shape::Square,
             Method::InverseDynamicsDerivatives => Shape::SquarePair,
             Method::ForwardDynamicsDerivatives => Shape::CheckedSquares,
+            Method::InverseDerivativesByTree => Shape::SlopesByTree,
+            Method::ForwardDerivativesByTree => Shape::CheckedSlopesByTree,
             Method::DriveEfforts(np) => Shape::Drives(np),
             Method::Pose(_) => Shape::Pose,
             Method::Velocity(_) | Method::JacobianDotV(_) => Shape::Spatial,

@@ -20,6 +20,10 @@ pub enum Shape {
     /// NV accelerations and three NV × NV matrices, or an error with a joint; only the matrices are
     /// returned.
     CheckedSquares,
+    /// An NV × NT and an NV × NV matrix: by positions along the velocities of the open tree, by v.
+    SlopesByTree,
+    /// NV accelerations, an NV × NT and two NV × NV matrices, or an error with a joint; only the matrices are returned.
+    CheckedSlopesByTree,
     /// A rotation matrix, row by row, and a point.
     Pose,
     /// A spatial vector, angular part first.
@@ -67,6 +71,7 @@ impl Shape {
             Shape::TreeVector | Shape::TreeMatrix | Shape::RowVector | Shape::RowMatrix => 0,
             Shape::CheckedTree | Shape::CheckedTreeAndRows => 0,
             Shape::CheckedWrenches | Shape::LinkWrenches => 0,
+            Shape::SlopesByTree | Shape::CheckedSlopesByTree => 0,
             Shape::Drives(np) => np,
             Shape::CheckedActuated(na) => na,
             Shape::Parts | Shape::CheckedParts => 0,
@@ -80,6 +85,7 @@ impl Shape {
             Shape::CheckedVector
                 | Shape::CheckedActuated(_)
                 | Shape::CheckedSquares
+                | Shape::CheckedSlopesByTree
                 | Shape::CheckedTree
                 | Shape::CheckedTreeAndRows
                 | Shape::CheckedWrenches

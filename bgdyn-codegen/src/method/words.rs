@@ -32,6 +32,12 @@ impl Method {
             Method::ForwardDynamicsDerivatives => {
                 "Derivatives of the accelerations: (∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ); the last is M⁻¹.".into()
             }
+            Method::InverseDerivativesByTree => {
+                "Derivatives of the joint efforts: (∂τ/∂q, ∂τ/∂v); ∂τ/∂a is the mass matrix. ∂τ/∂q has a column for each velocity of the open tree: the position moves along it, and closes.".into()
+            }
+            Method::ForwardDerivativesByTree => {
+                "Derivatives of the accelerations: (∂q̈/∂q, ∂q̈/∂v, ∂q̈/∂τ); the last is M⁻¹. ∂q̈/∂q has a column for each velocity of the open tree: the position moves along it, and closes.".into()
+            }
             Method::DriveEfforts(_) => {
                 "Efforts of the drives that give the prescribed joints their motion, at the accelerations `a`.".into()
             }
@@ -116,8 +122,10 @@ impl Method {
             }
             Method::KineticEnergy | Method::PotentialEnergy => "J",
             Method::CoriolisMatrix => "efforts per rad/s or m/s",
-            Method::InverseDynamicsDerivatives => "efforts per rad or m, and per rad/s or m/s",
-            Method::ForwardDynamicsDerivatives => {
+            Method::InverseDynamicsDerivatives | Method::InverseDerivativesByTree => {
+                "efforts per rad or m, and per rad/s or m/s"
+            }
+            Method::ForwardDynamicsDerivatives | Method::ForwardDerivativesByTree => {
                 "accelerations per rad or m, per rad/s or m/s, per N·m or N"
             }
             Method::Pose(_) => "m; columns of the rotation are the frame's axes in the world's",

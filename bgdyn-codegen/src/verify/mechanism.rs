@@ -71,10 +71,10 @@ impl<'a> LiteralValues<'a> {
         self.inverse.evaluate(inputs).0
     }
 
-    /// Returns dP for the position that moves from q with the velocities dq, v + ε dv, a + ε da.
+    /// Returns dP for the position that moves from q with the rates q̇, v + ε dv, a + ε da.
     fn effort_rates(&self, at: &Inputs<Dd>, dq: &[Dd], dv: &[Dd], a: (&[Dd], &[Dd])) -> Vec<Dd> {
         let direction = Direction {
-            q: self.prepared.graph.position_rates(&at.q, dq),
+            q: dq.to_vec(),
             v: dv.to_vec(),
             x: vec![],
             t: Dd::ZERO,
@@ -282,8 +282,8 @@ impl Subject<'_> {
                 exact("T = ½ vᵀ M v", found, vec![energy])
             }
             Method::CoriolisMatrix => self.coriolis(state, &found),
-            Method::InverseDynamicsDerivatives => vec![self.inverse_slopes(state, &found)],
-            Method::ForwardDynamicsDerivatives => self.forward_slopes(state, &found),
+            method if method.differentiates_inverse() => vec![self.inverse_slopes(state, &found)],
+            method if method.differentiates_forward() => self.forward_slopes(state, &found),
             Method::ConstraintResidual => vec![self.open_loops(at, Dd::from_f64(0.1), EXACT)],
             // J_d of the generated code is that of closed positions.
             Method::ClosingStep => vec![self.open_loops(at, Dd::from_f64(1e-12), NEARLY_CLOSED)],
@@ -344,7 +344,8 @@ impl Subject<'_> {
             v: zero.clone(),
             ..at.clone()
         };
-        let rate = |x: &[Dd]| lit.effort_rates(&at_rest, &at.v, &zero, (x, &zero));
+        let rates = lit.prepared.graph.position_rates(&at.q, &at.v);
+        let rate = |x: &[Dd]| lit.effort_rates(&at_rest, &rates, &zero, (x, &zero));
         let along_v = minus(&rate(&at.a), &rate(&zero));
         // The motion of prescribed joints changes M as well.
         let rate = |x: &[Dd]| lit.prescribed_rates(&at_rest, x);
@@ -364,12 +365,13 @@ impl Subject<'_> {
     fn inverse_slopes(&self, state: &State, matrices: &[Dd]) -> Sides {
         let at = &state.at;
         let n = at.v.len();
-        let [along_q, along_v, _] = directions(n);
+        let [along_q, along_v, _] = directions(self.literal.prepared.graph);
         let accelerations = (&at.a[..], &state.zero()[..]);
+        let rates = self.literal.prepared.graph.rates_along(&at.q, &along_q);
         let expected = self
             .literal
-            .effort_rates(at, &along_q, &along_v, accelerations);
-        let (by_q, by_v) = matrices.split_at(n * n);
+            .effort_rates(at, &rates, &along_v, accelerations);
+        let (by_q, by_v) = matrices.split_at(n * along_q.len());
         let found = plus(&times(by_q, &along_q), &times(by_v, &along_v));
         let size = largest(&state.efforts);
         Sides::new("dτ = ∂P/∂q dq + ∂P/∂v dv", EXACT, found, expected).sized(size)
@@ -381,13 +383,15 @@ impl Subject<'_> {
         let at = &state.at;
         let n = at.v.len();
         let (accelerations, matrices) = result.split_at(n);
-        let [along_q, along_v, along_tau] = directions(n);
-        let parts = [&along_q, &along_v, &along_tau]
-            .into_iter()
-            .zip(matrices.chunks((n * n).max(1)));
+        let [along_q, along_v, along_tau] = directions(self.literal.prepared.graph);
+        let (by_q, others) = matrices.split_at(n * along_q.len());
+        let (by_v, by_tau) = others.split_at(n * n);
+        let parts = [(&along_q, by_q), (&along_v, by_v), (&along_tau, by_tau)];
+        let parts = parts.into_iter();
         let moved = parts.fold(vec![Dd::ZERO; n], |sum, (d, m)| plus(&sum, &times(m, d)));
         let solution = (accelerations, &moved[..]);
-        let found = self.literal.effort_rates(at, &along_q, &along_v, solution);
+        let rates = self.literal.prepared.graph.rates_along(&at.q, &along_q);
+        let found = self.literal.effort_rates(at, &rates, &along_v, solution);
         let size = state.size_of_product(self.literal, &moved);
         let text = "dP(q, v, q̈) = dτ with dq̈ = ∂q̈/∂q dq + ∂q̈/∂v dv + ∂q̈/∂τ dτ";
         let sides = Sides::new(text, SOLVED, found, along_tau);
@@ -398,9 +402,10 @@ impl Subject<'_> {
 }
 
 /// Returns directions of position, velocity and effort.
-fn directions(n: usize) -> [Vec<Dd>; 3] {
+fn directions(graph: &BondGraph) -> [Vec<Dd>; 3] {
     let mut random = Random(11);
-    std::array::from_fn(|_| direction(&mut random, n))
+    let n = graph.coordinates.len();
+    [graph.directions(), n, n].map(|n| direction(&mut random, n))
 }
 
 /// Returns a symmetric matrix row by row, from its lower triangle.

@@ -19,6 +19,7 @@ mod robot;
 mod turned_signs;
 
 mod counts;
+mod derivatives;
 mod faults;
 mod files;
 mod multipliers;

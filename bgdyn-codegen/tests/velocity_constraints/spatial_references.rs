@@ -181,7 +181,7 @@ fn the_bicycle_moves_as_with_multipliers() {
     }
 }
 
-type Square = [[Dd; 2]; 2];
+pub(super) type Square = [[Dd; 2]; 2];
 
 fn matrix(value: &Value) -> Square {
     let at = |i: usize, j: usize| Dd::from_f64(value[i][j].as_f64().expect("a number"));
@@ -263,11 +263,16 @@ fn polynomial([k, d]: [Square; 2], [re, im]: [f64; 2]) -> [[f64; 2]; 2] {
 #[test]
 fn the_bicycle_has_the_eigenvalues_of_the_benchmark() {
     let robot = Robot::read(&spec("whipple_bicycle"));
+    assert_equations_of_the_benchmark(|speed| linearised(&robot, speed));
+}
+
+/// Compares derivatives of the accelerations of lean and steer at a speed, by positions and by velocities.
+pub(super) fn assert_equations_of_the_benchmark(linearised: impl Fn(f64) -> [Square; 2]) {
     let json = file("tests/golden/velocity_constraints", "whipple_bicycle.json");
     let json: Value = serde_json::from_str(&json).expect("JSON");
     let linear = &json["linearised"];
     let [m, c1, k0, k2] = ["M", "C1", "K0", "K2"].map(|name| matrix(&linear[name]));
-    let found = linearised(&robot, 5.0);
+    let found = linearised(5.0);
     let (g, square): (Dd, Dd) = ("9.81".parse().expect("a number"), Dd::from_f64(25.0));
     let stiffness: Square =
         std::array::from_fn(|i| std::array::from_fn(|j| -(g * k0[i][j] + square * k2[i][j])));
@@ -283,7 +288,7 @@ fn the_bicycle_has_the_eigenvalues_of_the_benchmark() {
     assert_eq!(all.len(), 13);
     for at in all {
         let number = |x: &Value| x.as_f64().expect("a number");
-        let [k, d] = linearised(&robot, number(&at["speed"]));
+        let [k, d] = linearised(number(&at["speed"]));
         let opposite = |m: Square| m.map(|row| row.map(|x| -x));
         for value in at["eigenvalues"].as_array().expect("a list") {
             let value = [number(&value[0]), number(&value[1])];

@@ -138,26 +138,29 @@ fn rows_in_general_position_are_accepted() {
     accepted(&text.constrained(), None);
 }
 
-/// Positions have more directions than velocities: derivatives along v would be taken for all of them.
+/// Along the velocities of the open tree, with each sign of each entry turned as well.
 #[test]
-fn derivatives_are_refused() {
-    let mechanism = Robot::read(&spec("snakeboard")).mechanism;
+fn derivatives_are_accepted() {
     let derivatives = Options {
-        derivatives: true,
+        methods: Some(vec![
+            "inverse_dynamics_derivatives".into(),
+            "forward_dynamics_derivatives".into(),
+        ]),
         ..Options::default()
     };
-    let Err(refused) = model(mechanism.clone(), &derivatives) else {
-        panic!("derivatives are generated");
-    };
-    let said = format!("{refused:?}");
-    for word in ["`front`", "dual numbers"] {
-        assert!(said.contains(word), "{said}");
+    let mut random = Random(32);
+    let mut ball = Text::new(&mut random, "type: floating", 1);
+    ball.touch(&mut random, 0, Touch::Ball);
+    let texts = PLANAR.into_iter().chain(["rolling_disc"]).map(spec);
+    for text in texts.chain([ball.constrained()]) {
+        let model = model(Robot::read(&text).mechanism, &derivatives).expect("a model");
+        assert_eq!(model.functions.len(), 2);
+        match verify(&model, &derivatives) {
+            Ok(()) => assert_turned_signs_are_refused("derivatives", &model),
+            Err(Refusal::Unequal(found)) => panic!("{}\n{text}", explain(&found)),
+            Err(refusal) => panic!("{refusal:?}\n{text}"),
+        }
     }
-    let named = Options {
-        methods: Some(vec!["forward_dynamics_derivatives".into()]),
-        ..Options::default()
-    };
-    assert!(model(mechanism, &named).is_err());
 }
 
 /// Without wheels there is no position equation: nothing closes, and no method says so.

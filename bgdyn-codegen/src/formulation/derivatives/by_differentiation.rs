@@ -52,7 +52,7 @@ impl Formulation for Differentiated {
     fn reads(&self, method: Method) -> &'static [Method] {
         match method {
             Method::CoriolisMatrix => &[Method::Bias],
-            Method::InverseDynamicsDerivatives => &[Method::InverseDynamics],
+            method if method.differentiates_inverse() => &[Method::InverseDynamics],
             _ => &[],
         }
     }
@@ -113,12 +113,15 @@ impl Formulation for ForwardDynamicsDerivatives {
             Method::ForwardDynamicsDerivatives => {
                 &[Method::InverseDynamicsDerivatives, Method::ForwardDynamics]
             }
+            Method::ForwardDerivativesByTree => {
+                &[Method::InverseDerivativesByTree, Method::ForwardDynamics]
+            }
             _ => &[],
         }
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
-        let efforts = prepared.function(Method::InverseDynamicsDerivatives)?;
+        let efforts = prepared.function(*self.reads(method).first()?)?;
         let forward = prepared.candidates(Method::ForwardDynamics);
         let forward = forward.accepted.iter().chain(&forward.borderline);
         cheapest(
@@ -150,9 +153,10 @@ fn forward_derivatives(
     }
 }
 
-/// Returns columns as one matrix, row by row.
+/// Returns the matrix with these columns, row by row.
 fn rows(columns: &[Vec<Signed>]) -> Vec<Signed> {
-    (0..columns.len())
+    let rows = columns.first().map_or(0, Vec::len);
+    (0..rows)
         .flat_map(|i| columns.iter().map(move |c| c[i]))
         .collect()
 }

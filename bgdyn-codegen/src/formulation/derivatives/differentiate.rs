@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bond_graph::{BondGraph, Multibody};
+use crate::bond_graph::{BondGraph, ClosedTree, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent};
 use crate::formulation::joint_motion::{along, tangents, unit_tangents};
 use crate::formulation::loop_rows::{LoopForm, loop_rows};
@@ -35,23 +35,25 @@ pub(super) fn derivatives(
     (0..n).map(column).collect()
 }
 
-/// Returns the derivatives along the tangent: column j is d/dε x(q + ε q̇) with q̇ = N(q) e_j.
+/// Returns the derivatives along the tangent: column j is d/dε x(q + ε q̇) with q̇ = N(q) e_j. Where conditions on
+/// velocities alone leave more ways to move than velocities, there is a column for each velocity of the open tree.
 pub(super) fn position_derivatives(
     b: &Builder,
     x: &[Signed],
     graph: &BondGraph,
 ) -> Vec<Vec<Signed>> {
     let tangents = position_tangents(b, graph);
-    let column = |j: usize| {
-        let mut tangent = Tangent::new(along(tangents[j].clone()));
+    let column = |rates: &Vec<Signed>| {
+        let mut tangent = Tangent::new(along(rates.clone()));
         x.iter()
             .map(|&e| b.with_graph(|g| tangent.of(g, e)))
             .collect()
     };
-    (0..graph.coordinates.len()).map(column).collect()
+    tangents.iter().map(column).collect()
 }
 
-/// Returns, for each velocity, the rates of all positions for a unit of it.
+/// Returns the rates of all positions for a unit of each velocity: of the independent ones, or of those of the open
+/// tree where positions close along it.
 fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signed>> {
     let n = graph.coordinates.len();
     let Some(closed) = &graph.closed else {
@@ -60,6 +62,9 @@ fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signed>> {
     let q: Vec<Expr<'_>> = (0..graph.positions.len())
         .map(|p| b.leaf(Leaf::Position(p)))
         .collect();
+    if closed.closure.nonholonomic() {
+        return closed_tangents(b, closed, &q);
+    }
     let (form, closure) = (LoopForm::default(), &closed.closure);
     let rows = loop_rows(b, closure, &q, form);
     let map = VelocityMap::new(b, closure, (rows, form), None).map;
@@ -67,6 +72,28 @@ fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signed>> {
     (0..n)
         .map(|j| tangents(b, &closed.tree, &column(j)))
         .collect()
+}
+
+/// Returns, for each velocity k of the open tree, the rates of all positions along e_k − J⁺ J e_k, with the rows J of
+/// the conditions on positions and the least change J⁺ of the velocities along which they close.
+fn closed_tangents(b: &Builder, closed: &ClosedTree, q: &[Expr<'_>]) -> Vec<Vec<Signed>> {
+    let closure = &closed.closure;
+    let form = LoopForm {
+        of_plane: true,
+        by_vectors: true,
+        ..LoopForm::default()
+    };
+    let rows = loop_rows(b, closure, q, form);
+    let map = VelocityMap::new(b, closure, (rows, form), None);
+    let n = closure.positions.len();
+    let column = |k: usize| {
+        let open: Vec<Expr<'_>> = map.rates().iter().map(|row| row[k]).collect();
+        let unit = |j: usize| b.constant(if j == k { Dd::ONE } else { Dd::ZERO });
+        let closing = map.steps(&open).into_iter().enumerate();
+        let moved: Vec<Expr<'_>> = closing.map(|(j, step)| unit(j) - step).collect();
+        tangents(b, &closed.tree, &moved)
+    };
+    (0..n).map(column).collect()
 }
 
 /// Returns a function of the differentiated graph; its operations are in a fixed order if those of the

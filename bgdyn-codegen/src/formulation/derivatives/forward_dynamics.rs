@@ -13,7 +13,7 @@ use crate::bond_graph::Multibody;
 use crate::column_loop::{self, ColumnLoop, LoopedResult, ResultSource};
 use crate::expr::{Builder, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::Function;
-use crate::method::{Method, Shape};
+use crate::method::Method;
 
 /// Smallest number of columns for a loop.
 const COLUMNS: usize = 4;
@@ -29,6 +29,8 @@ pub(super) struct ForwardDerivatives {
     accelerations: Vec<Signed>,
     /// By position, then by velocity; one effort per coordinate.
     columns: Vec<Vec<Signed>>,
+    /// The number of columns by position.
+    by_position: usize,
 }
 
 impl ForwardDerivatives {
@@ -43,14 +45,19 @@ impl ForwardDerivatives {
         let results = &slopes.blocks[0].outputs;
         let slopes = builder.with_graph(|g| copy_into(g, &slopes.graph, results, placed));
         let minus = |e: Signed| (-builder.expr(e)).signed();
-        let column = |square: &[Signed], j: usize| square.chunks(n).map(|r| minus(r[j])).collect();
-        let columns = slopes.chunks((n * n).max(1));
-        let columns = columns.flat_map(|square| (0..n).map(move |j| column(square, j)));
-        let columns = columns.collect();
+        let (positions, velocities) = slopes.split_at(slopes.len() - n * n);
+        let by_position = positions.len() / n.max(1);
+        let columns = |matrix: &[Signed], width: usize| -> Vec<Vec<Signed>> {
+            let column = |j: usize| matrix.chunks(width).map(|row| minus(row[j])).collect();
+            (0..width).map(column).collect()
+        };
+        let mut all = columns(positions, by_position);
+        all.extend(columns(velocities, n));
         ForwardDerivatives {
             builder,
             accelerations,
-            columns,
+            columns: all,
+            by_position,
         }
     }
 
@@ -77,9 +84,14 @@ impl ForwardDerivatives {
     ) -> Function {
         let n = self.accelerations.len();
         let mut stage = Stage::default();
-        let mut parts = vec![ResultSource::Stage(0); Shape::CheckedSquares.len(n)];
-        // The index of row i of a column; columns of both square matrices are numbered consecutively.
-        let place = |c: usize, i: usize| n + (c / n) * n * n + i * n + c % n;
+        let by_position = self.by_position;
+        let inverse_at = n + (by_position + n) * n;
+        let mut parts = vec![ResultSource::Stage(0); inverse_at + n * n];
+        // The index of row i of a column; columns of both matrices are numbered consecutively.
+        let place = |c: usize, i: usize| match c.checked_sub(by_position) {
+            None => n + i * by_position + c,
+            Some(c) => n + by_position * n + i * n + c,
+        };
         let mut loops = Vec::new();
         let mut looped = vec![false; self.columns.len()];
         for all in groups {
@@ -107,7 +119,7 @@ impl ForwardDerivatives {
         let inverse = derivatives(&self.builder, &self.accelerations, n, Leaf::Input);
         for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
             let entry = stage.add(inverse[i.max(j)][i.min(j)]);
-            parts[n + 2 * n * n + i * n + j] = ResultSource::Stage(entry);
+            parts[inverse_at + i * n + j] = ResultSource::Stage(entry);
         }
         let made = |results| finish(graph, method, forward, self.builder, results);
         if loops.is_empty() {

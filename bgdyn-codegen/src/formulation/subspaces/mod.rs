@@ -49,12 +49,7 @@ impl Formulation for Subspaces {
     }
 
     fn knows(&self, method: Method) -> bool {
-        !matches!(
-            method,
-            Method::InverseDynamicsDerivatives
-                | Method::ForwardDynamicsDerivatives
-                | Method::Scene(_)
-        )
+        !method.differentiates_dynamics() && !matches!(method, Method::Scene(_))
     }
 
     /// For rotations and translations alone the recursion with base parameters costs less; it does not know the loads

@@ -121,6 +121,22 @@ impl Closure {
         false
     }
 
+    /// Returns the velocities of the open tree nearest to these with which the positions stay closed, where only
+    /// [`Closure::closing`] change; `None` at a singular position.
+    pub fn closed_along(&self, q: &[Dd], velocities: &[Dd]) -> Option<Vec<Dd>> {
+        let closers: Vec<usize> = self.closing().map(|j| j.0).collect();
+        let (_, jacobian) = self.values(&self.position_rows(), q);
+        let open = jacobian.iter();
+        let open: Vec<Dd> = open
+            .map(|row| dot(row.iter().copied(), velocities))
+            .collect();
+        let mut moved = velocities.to_vec();
+        for (j, step) in least_step(&jacobian, &open, &closers, 0.0)? {
+            moved[j] += step;
+        }
+        Some(moved)
+    }
+
     /// Changes the positions of these velocities as little as possible so that the loops close (Levenberg and
     /// Marquardt's method). Returns the largest residual.
     pub fn assemble(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize]) -> f64 {
