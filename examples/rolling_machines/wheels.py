@@ -40,6 +40,18 @@ def direction(spec):
     return axis(spec) if isinstance(spec, str) else spec
 
 
+def to_contact(wheel, rotation):
+    """From the centre to the lowest point, in the world: of the rim of a wheel, or of an ellipsoid."""
+    if "radii" in wheel:
+        squares = [r * r for r in wheel["radii"]]
+        scaled = [a * z for a, z in zip(squares, rotation[2])]
+        height = sqrt(dot(scaled, rotation[2]))
+        return [-x / height for x in turned(rotation, scaled)]
+    axle, radius = turned(rotation, direction(wheel["axis"])), wheel["radius"]
+    upright = sqrt(axle[0] ** 2 + axle[1] ** 2)
+    return [-radius * (z - axle[2] * n) / upright for z, n in zip(UP, axle)]
+
+
 class Machine:
     """A mechanism of a file."""
 
@@ -79,13 +91,11 @@ class Machine:
         return found
 
     def contacts(self, row):
-        """Of each wheel: the lowest point of its rim, and the velocity of the material there."""
+        """Of each wheel or ellipsoid: its lowest point, and the velocity of the material there."""
         links, found = self.links(row), {}
         for name, wheel in self.wheels.items():
             (rotation, centre), spin, speed = links[wheel["link"]]
-            axle, radius = turned(rotation, direction(wheel["axis"])), wheel["radius"]
-            upright = sqrt(axle[0] ** 2 + axle[1] ** 2)
-            arm = [-radius * (z - axle[2] * n) / upright for z, n in zip(UP, axle)]
+            arm = to_contact(wheel, rotation)
             point = [a + b for a, b in zip(centre, arm)]
             found[name] = point, [a + b for a, b in zip(speed, cross(spin, arm))]
         return found
