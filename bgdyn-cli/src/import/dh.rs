@@ -69,6 +69,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
         links: vec![base()],
         joints: Vec::new(),
         frames: Vec::new(),
+        loops: Vec::new(),
         incomplete: Vec::new(),
         warnings: Vec::new(),
     };

@@ -4,7 +4,7 @@
 //! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of a table `dh`), with planes
 //! (`planar`), followers (`mimic`), `limits` and `effects` → changes by options (`rework`: `locks`, `base`) →
 //! their order (`tree`) and names (`naming`) → YAML (`writing`). `doubts` warns about suspicious data,
-//! `placement` computes poses.
+//! `placement` computes poses; `loops` decides what closed loops need.
 
 mod attributes;
 mod base;
@@ -18,6 +18,7 @@ mod inertia;
 mod joint_type;
 mod limits;
 mod locks;
+mod loops;
 mod mimic;
 mod mjcf;
 mod model;
@@ -43,6 +44,7 @@ use naming::{free_name, identifiers, shown};
 use number::Num;
 use std::collections::HashSet;
 use tally::plural;
+use writing::Allowed;
 
 pub use base::Base;
 pub use command::{ImportArgs, run};
@@ -125,7 +127,7 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
         }
     }
 
-    let mut taken: HashSet<String> = named.joints.iter().cloned().collect();
+    let mut taken: HashSet<String> = named.joints.iter().chain(&named.loops).cloned().collect();
     let entries = entries(&model, &tree, &named, &allowed, &mut taken);
     let frames = frames(&model, &named);
     let effects = match options.no_effects {
@@ -141,11 +143,15 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
             .push("damping, friction, springs and rotors of joints are left out, as asked".into());
     }
     let snap = options.snap.map(|snap| Num::computed(snap).text);
-    let yaml = writing::head(&model, snap.as_deref())
-        + &entries.join("\n")
-        + &writing::frames(&frames)
-        + &writing::effects(&effects);
-    let (mechanism, _) = bgdyn_codegen::read(&yaml, Some("robot"));
+    let loops = loops::placed(&model, &named.links, &named.loops);
+    let text = |allowed: Allowed| {
+        writing::head(&model, snap.as_deref())
+            + &entries.join("\n")
+            + &writing::frames(&frames)
+            + &writing::loops(&loops, allowed)
+            + &writing::effects(&effects)
+    };
+    let (yaml, mechanism) = loops::accepted(text, !loops.is_empty());
     let snapped = mechanism.as_ref().and_then(|m| m.snapped());
     warnings.extend(snapped.map(|snapped| format!("snapped: {}", snapped_words(snapped))));
     let written = written(&model, &tree, &named, effects.len());
@@ -166,6 +172,7 @@ struct Identifiers {
     links: Vec<String>,
     joints: Vec<String>,
     frames: Vec<String>,
+    loops: Vec<String>,
 }
 
 impl Identifiers {
@@ -181,11 +188,14 @@ impl Identifiers {
         let mut joints = identifiers(&joints, "joint");
         let kinds = model.joints.iter().map(|joint| joint.kind.endings());
         naming::separate(&mut joints, &kinds.collect::<Vec<_>>());
+        let taken = [&links, &frames, &joints].into_iter().flatten().cloned();
+        let loops = loops::names(model, taken.collect());
         Identifiers {
             robot: naming::identifier(&model.name, "robot"),
             links,
             joints,
             frames,
+            loops,
         }
     }
 
@@ -194,11 +204,13 @@ impl Identifiers {
         let links = model.links.iter().map(|link| &link.name);
         let joints = model.joints.iter().map(|joint| &joint.name);
         let frames = model.frames.iter().map(|frame| &frame.name);
+        let loops = model.loops.iter().map(|one| &one.name);
         let notes = [
             renamed("robot", [(&model.name, &self.robot)].into_iter()),
             renamed("links", links.zip(&self.links)),
             renamed("joints", joints.zip(&self.joints)),
             renamed("frames", frames.zip(&self.frames)),
+            renamed("loops", loops.zip(&self.loops)),
         ];
         notes.into_iter().flatten().collect()
     }

@@ -20,6 +20,8 @@ pub(super) struct Model {
     pub(super) joints: Vec<Joint>,
     /// Sites on links that are no bodies.
     pub(super) frames: Vec<Frame>,
+    /// Places at which links are connected beside the joints.
+    pub(super) loops: Vec<Loop>,
     /// Links that are fixed to the world and have a part whose inertia is not known: they must not move.
     pub(super) incomplete: Vec<String>,
     pub(super) warnings: Vec<String>,
@@ -36,6 +38,22 @@ pub(super) struct Link {
 /// A named site on a link.
 pub(super) struct Frame {
     pub(super) name: String,
+    /// The name of its link; `None` for the world.
+    pub(super) link: Option<String>,
+    pub(super) place: Placement,
+}
+
+/// A closed loop: two places that meet.
+pub(super) struct Loop {
+    pub(super) name: String,
+    /// Its type in a mechanism: `point` or `weld`.
+    pub(super) kind: &'static str,
+    pub(super) a: LoopPlace,
+    pub(super) b: LoopPlace,
+}
+
+/// A place on a link.
+pub(super) struct LoopPlace {
     /// The name of its link; `None` for the world.
     pub(super) link: Option<String>,
     pub(super) place: Placement,

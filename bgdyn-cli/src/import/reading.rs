@@ -34,6 +34,7 @@ pub(super) fn read(root: &Element) -> Result<Model> {
         links,
         joints,
         frames: Vec::new(),
+        loops: Vec::new(),
         incomplete: Vec::new(),
         warnings: groups.lines().chain(ignored).collect(),
     })

@@ -1,7 +1,7 @@
 //! Changes of a robot before it is written: locked joints, an extracted chain, links turned into frames.
 
 use super::joint_type::JointType;
-use super::model::{Frame, Link, Model};
+use super::model::{Frame, Link, Loop, Model};
 use super::naming::{is_called, listed, shown};
 use super::options::{Lock, Options};
 use super::placement::Placement;
@@ -97,6 +97,20 @@ fn chain(model: &mut Model, base: &str, tip: &str) -> Result<Vec<String>> {
     model
         .frames
         .retain(|frame| frame.link.as_ref().is_none_or(stays));
+    let open = |one: &Loop| {
+        ![&one.a, &one.b]
+            .into_iter()
+            .all(|it| it.link.as_ref().is_none_or(stays))
+    };
+    let opened = model.loops.iter().filter(|one| open(one));
+    let opened: Vec<&str> = opened.map(|one| one.name.as_str()).collect();
+    if !opened.is_empty() {
+        messages.push(format!(
+            "--chain: loops with links that are left out: {}",
+            listed(opened.into_iter())
+        ));
+    }
+    model.loops.retain(|one| !open(one));
     let mut keep = kept.iter();
     model
         .links
@@ -193,13 +207,12 @@ fn frames(model: &mut Model, asked: &[String]) -> Result<()> {
         }
         (model.links[at].name.clone(), place)
     };
-    // Sites on a link that becomes a frame.
+    // Sites and ends of loops on a link that becomes a frame.
     let index = |name: &String| model.links.iter().position(|link| link.name == *name);
-    let moved: Vec<_> = model
-        .frames
-        .iter()
-        .map(|it| it.link.as_ref().and_then(index).map(found))
-        .collect();
+    let carrier = |link: &Option<String>| link.as_ref().and_then(index).map(found);
+    let moved: Vec<_> = model.frames.iter().map(|it| carrier(&it.link)).collect();
+    let ends = model.loops.iter().flat_map(|one| [&one.a, &one.b]);
+    let ends: Vec<_> = ends.map(|it| carrier(&it.link)).collect();
     let new = (0..frame.len()).filter(|i| frame[*i]).map(|i| {
         let (link, place) = found(i);
         Frame {
@@ -213,6 +226,16 @@ fn frames(model: &mut Model, asked: &[String]) -> Result<()> {
         if let Some((link, place)) = moved {
             site.place = place.then(&site.place);
             site.link = Some(link);
+        }
+    }
+    let loops = model
+        .loops
+        .iter_mut()
+        .flat_map(|one| [&mut one.a, &mut one.b]);
+    for (end, moved) in loops.zip(ends) {
+        if let Some((link, place)) = moved {
+            end.place = place.then(&end.place);
+            end.link = Some(link);
         }
     }
     model.frames.extend(new);

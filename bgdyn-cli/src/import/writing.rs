@@ -1,6 +1,6 @@
 //! Writes a robot as the YAML text of a mechanism.
 
-use super::model::{Frame, Inertial, Joint, Limits, Link, Mimic, Model};
+use super::model::{Frame, Inertial, Joint, Limits, Link, Loop, Mimic, Model};
 use super::naming::shown;
 use super::number::{Num, all_zero};
 use super::placement::Placement;
@@ -62,6 +62,46 @@ pub(super) fn frames(frames: &[(&Frame, &str, &str)]) -> String {
     match entries.as_str() {
         "" => entries,
         _ => format!("\nframes:\n{entries}"),
+    }
+}
+
+/// A loop with its name, and the names of its links.
+pub(super) type NamedLoop<'a> = (&'a Loop, &'a str, [&'a str; 2]);
+
+/// What an imported loop needs beside its places.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Allowed {
+    Nothing,
+    /// Rows that follow from others, such as those of two points on one axis.
+    Redundant,
+    /// The same, with numbers of the file that are rounded.
+    Rounded,
+}
+
+/// Returns the list of loops; empty without loops.
+pub(super) fn loops(loops: &[NamedLoop<'_>], allowed: Allowed) -> String {
+    let place = |place: &Placement, link: &str| {
+        let keys = [Some(format!("link: {}", scalar(link))), origin(place)];
+        let keys: Vec<String> = keys.into_iter().flatten().collect();
+        format!("{{ {} }}", keys.join(", "))
+    };
+    let entry = |(one, name, [a, b]): &NamedLoop<'_>| {
+        let mut lines = vec![format!("name: {}", scalar(name))];
+        lines.push(format!("type: {}", one.kind));
+        lines.push(format!("a: {}", place(&one.a.place, a)));
+        lines.push(format!("b: {}", place(&one.b.place, b)));
+        if allowed != Allowed::Nothing {
+            lines.push("redundant: allow".into());
+        }
+        if allowed == Allowed::Rounded {
+            lines.push("tolerance: 1e-9 m".into());
+        }
+        format!("  - {}\n", lines.join("\n    "))
+    };
+    let entries: Vec<String> = loops.iter().map(entry).collect();
+    match entries.is_empty() {
+        true => String::new(),
+        false => format!("\nloops:\n{}", entries.join("\n")),
     }
 }
 

@@ -3,6 +3,7 @@
 mod free;
 mod mjcf;
 mod mjcf_corners;
+mod mjcf_loops;
 mod mjcf_report;
 mod options;
 mod table;

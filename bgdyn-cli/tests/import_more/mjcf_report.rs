@@ -253,7 +253,7 @@ fn what_is_not_taken_over_is_named_with_its_count() {
           </body>
           <body name='d' mocap='true'/>
         </worldbody>
-        <equality><weld/><weld/><joint joint1='k'/><joint joint1='k' joint2='j'/></equality>
+        <equality><flex/><flex/><joint joint1='k'/><joint joint1='k' joint2='j'/></equality>
         <tendon><fixed/></tendon><actuator><motor/><motor/><position/></actuator><sensor><gyro/></sensor>
         <contact><exclude/></contact><keyframe><key/></keyframe>"
     ));
@@ -270,7 +270,7 @@ fn what_is_not_taken_over_is_named_with_its_count() {
         "not imported: `<mesh>` in `<asset>` (2 times)",
         "not imported: `<camera>` in `<body>` (1 time)",
         "not imported: `<light>` in `<worldbody>` (1 time)",
-        "not imported: `<weld>` in `<equality>` (2 times)",
+        "not imported: `<flex>` in `<equality>` (2 times)",
         "not imported: `<fixed>` in `<tendon>` (1 time)",
         "not imported: `<motor>` in `<actuator>` (2 times)",
         "not imported: `<position>` in `<actuator>` (1 time)",

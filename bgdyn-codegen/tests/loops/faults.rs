@@ -163,6 +163,36 @@ fn a_branch_needs_two_moving_links() {
     );
 }
 
+/// A constant gap of rounded numbers, below 1e-14 m or within the `tolerance`: the row is left out.
+#[test]
+fn rows_that_are_off_by_rounding_hold() {
+    let with = |off: &str, hinge: &str| {
+        let hinge = hinge.replace("0.4, 0, 0]", &format!("0.4, 0, {off}]"));
+        format!("{LINKS}loops:\n  - {hinge}\n")
+    };
+    let tolerant = HINGE.replace("type: hinge", "type: hinge, tolerance: 1e-6 m");
+    for text in [
+        with("1e-15", HINGE),
+        with("1e-12", &tolerant),
+        with("-1e-7", &tolerant),
+    ] {
+        let faults = found(&text);
+        assert!(
+            faults.0.is_empty(),
+            "{}",
+            faults.render("linkage.yaml", &text)
+        );
+    }
+    for text in [with("1e-12", HINGE), with("-2e-6", &tolerant)] {
+        let faults = found(&text);
+        let shown = faults.render("linkage.yaml", &text);
+        assert!(
+            shown.contains("[loop-never-closes]") && shown.contains("`tolerance`"),
+            "{shown}"
+        );
+    }
+}
+
 #[test]
 fn loops_that_cannot_close() {
     changed(

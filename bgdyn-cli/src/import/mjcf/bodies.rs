@@ -1,6 +1,6 @@
 //! The tree of bodies: each becomes a link, with a link without inertia for each further joint.
 
-use super::builder::{Builder, Carrier, Mount};
+use super::builder::{BodyAxes, Builder, Carrier, Mount};
 use super::content::{Content, Item};
 use super::inertial;
 use super::joints::{self, MjcfJoint};
@@ -33,13 +33,14 @@ impl Builder<'_> {
         let carrier = Carrier {
             link: None,
             place: Placement::identity(),
+            world: Placement::identity().pose(),
             moves: false,
         };
         self.sites(&content.sites, &carrier)?;
-        self.bodies(&content.bodies, &carrier)
+        self.all(&content.bodies, &carrier)
     }
 
-    fn bodies(&mut self, items: &[Item<'_>], carrier: &Carrier) -> Result<()> {
+    fn all(&mut self, items: &[Item<'_>], carrier: &Carrier) -> Result<()> {
         for item in items {
             self.body(item, carrier)?;
         }
@@ -68,20 +69,28 @@ impl Builder<'_> {
             name: &name,
             place: carrier.place.then(&place),
         };
-        let (shift, place) = self.mount(&mount, joints, carrier)?;
+        let (shift, fixed) = self.mount(&mount, joints, carrier)?;
         self.model.links.push(Link {
             name: name.clone(),
             at: element.at,
             inertial: inertial.map(|inertial| shifted(inertial, &shift)),
-            place,
+            place: fixed,
         });
+        let axes = BodyAxes {
+            name: name.clone(),
+            link: Some(name.clone()),
+            shift: shift.clone(),
+            world: carrier.world.then(&place.pose()),
+        };
         let own = Carrier {
             link: Some(name),
             place: shift,
+            world: axes.world,
             moves,
         };
+        self.bodies.push(axes);
         self.sites(&content.sites, &own)?;
-        self.bodies(&content.bodies, &own)
+        self.all(&content.bodies, &own)
     }
 
     fn body_name(&mut self, element: &Element) -> String {

@@ -22,7 +22,7 @@ pub(super) fn read(
     report: &mut Report,
 ) -> Result<()> {
     for section in root.all("equality") {
-        report.children(section, &["joint"]);
+        report.children(section, &["joint", "connect", "weld"]);
         for element in section.all("joint") {
             report.attributes(
                 element,

@@ -2,7 +2,8 @@
 //!
 //! Included files (`include`) → settings (`settings`) and default classes (`defaults`) → the tree of bodies
 //! (`builder`, `bodies`, `content`, `mount`), with poses (`pose`), joints (`joints`), inertia given
-//! (`inertial`) or that of geoms (`solids`) → followers (`equality`). `report` counts what is not imported.
+//! (`inertial`) or that of geoms (`solids`) → loops (`loops`) and followers (`equality`). `report` counts what is not
+//! imported.
 //!
 //! A body's link has its origin at the anchor of the body's last joint, since the axes of a link are those of
 //! its joint; MuJoCo's body frame may be anywhere.
@@ -16,6 +17,7 @@ mod include;
 mod inertial;
 mod joints;
 mod known;
+mod loops;
 mod mount;
 mod pose;
 mod report;
@@ -78,6 +80,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
         links: Vec::new(),
         joints: Vec::new(),
         frames: Vec::new(),
+        loops: Vec::new(),
         incomplete: Vec::new(),
         warnings: Vec::new(),
     };
@@ -89,6 +92,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
         links: HashSet::new(),
         joints: HashSet::new(),
         references: Vec::new(),
+        bodies: Vec::new(),
         count: 0,
     };
     for world in root.all("worldbody") {
@@ -98,6 +102,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
     for world in root.all("worldbody") {
         builder.world(world)?;
     }
+    builder.loops(&root)?;
     let references = builder.references;
     report.check()?;
     if let Some(total) = &settings.total_mass {

@@ -213,7 +213,7 @@ pub(crate) fn loop_row_never_holds(
         measured.trim_end()
     );
     Fault::new(location, "loop-never-closes", message)
-        .with_help("correct the places: `origin` and `axis` of `a` and `b`, or the origins of the joints in the loop")
+        .with_help("correct the places: `origin` and `axis` of `a` and `b`, or the origins of the joints in the loop; a gap of rounded lengths may be within a `tolerance`")
 }
 
 pub(crate) fn loop_not_assembled(

@@ -86,7 +86,7 @@ pub(super) fn close(
     for one in &mut closure.loops {
         axes::choose(one, &positions);
     }
-    structure::drop_rows(&mut closure, faults);
+    structure::drop_rows(&mut closure, &read, faults);
     if faults.count() > before {
         return None;
     }

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::read::ReadLoop;
 use crate::fault::{Faults, wording};
 use crate::mechanism::closure::{ClosingRow, Closure, RowAxes, RowKind};
 use crate::mechanism::joint::DoubleDouble;
@@ -9,8 +10,12 @@ use crate::mechanism::joint::DoubleDouble;
 /// A value below this is a rounding error of double-double, relative to 1 m or 1 rad.
 const ROUNDING: f64 = 1e-24;
 
-/// Drops the rows that hold at every position; reports those with a constant value that is not zero.
-pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
+/// A constant value below this is a rounding error of lengths and angles with 16 digits, m or rad.
+const ROUNDED: f64 = 1e-14;
+
+/// Drops the rows that hold at every position; reports those with a constant value that is not zero: above the rounding of
+/// the numbers of the file, or above the loop's `tolerance`.
+pub(super) fn drop_rows(closure: &mut Closure, read: &[ReadLoop], faults: &mut Faults) {
     let values: Vec<(Vec<Dd>, Vec<Vec<Dd>>)> = closure
         .open_positions()
         .iter()
@@ -43,6 +48,11 @@ pub(super) fn drop_rows(closure: &mut Closure, faults: &mut Faults) {
         }
         if spread(r) <= ROUNDING {
             let one = &closure.loops[row.closes];
+            let allowed = f64::max(ROUNDED, read[row.closes].tolerance);
+            if one.contact.is_none() && largest <= allowed {
+                dropped.push(*row);
+                continue;
+            }
             let value = values[0].0[r].to_f64();
             faults.push(match &one.contact {
                 Some(contact) => wording::wheel_never_touches(
