@@ -1,4 +1,4 @@
-//! Simulation of scenes in the evaluator, and its reports.
+//! Simulation of scenes without a compiler, and its reports.
 
 mod axis;
 pub(crate) mod batch;

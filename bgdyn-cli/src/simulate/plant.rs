@@ -1,9 +1,8 @@
-//! A scene in the evaluator as a plant, which [`bgdyn_sim::Run`] integrates without a compiler.
+//! A scene as a plant, which [`bgdyn_sim::Run`] integrates without a compiler.
 
 use std::sync::Arc;
 
-use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::function::Function;
+use bgdyn_codegen::engine::{CallArguments, Callable, Status};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
@@ -15,12 +14,14 @@ use super::undefined::{Undefined, UndefinedCause};
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
 
-/// A scene in the evaluator. Inputs that the scene does not drive are 0; run-time parameters have the
+/// A scene whose functions the engine computes. Inputs that the scene does not drive are 0; run-time parameters have the
 /// values of its files.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
     pub(super) system: &'a SceneEquations,
     parameters: Vec<f64>,
+    /// Inputs of 0.
+    no_inputs: Vec<f64>,
     pub(super) functions: Arc<SceneFunctions>,
 }
 
@@ -35,6 +36,7 @@ impl<'a> Evaluated<'a> {
         Evaluated {
             system,
             parameters: parameters(system),
+            no_inputs: vec![0.0; system.scene.layout.inputs.len()],
             functions: Arc::new(SceneFunctions::new(system, form, slopes)),
         }
     }
@@ -45,6 +47,7 @@ impl<'a> Evaluated<'a> {
         Evaluated {
             system,
             parameters: parameters(system),
+            no_inputs: vec![0.0; system.scene.layout.inputs.len()],
             functions: Arc::clone(&self.functions),
         }
     }
@@ -70,7 +73,7 @@ impl<'a> Evaluated<'a> {
             None => Ok(state.clone()),
             Some(canonical) => {
                 let at = self.arguments(t, state, modes);
-                let v = self.checked(&canonical.from, at)?;
+                let v = self.checked(&*canonical.from, &at)?;
                 Ok(self.with_velocities(state, &v))
             }
         }
@@ -81,7 +84,7 @@ impl<'a> Evaluated<'a> {
         match &self.functions.canonical {
             None => y.clone(),
             Some(canonical) => {
-                let (p, _) = canonical.to.evaluate(self.arguments(t, y, modes));
+                let (p, _) = canonical.to.value(&self.arguments(t, y, modes));
                 self.with_velocities(y, &p)
             }
         }
@@ -101,39 +104,55 @@ impl<'a> Evaluated<'a> {
 
     /// Returns the outputs of the scene at y; empty without outputs.
     pub fn output(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
-        let value = |f: &Function| f.evaluate(self.driven(t, y, modes)).0;
-        self.functions.outputs.as_ref().map_or(vec![], value)
+        match &self.functions.outputs {
+            None => vec![],
+            Some(outputs) => self.driven(t, y, modes, |at| outputs.value(at).0),
+        }
     }
 
     /// Returns the inputs at y: those that the scene drives, and 0 for the others.
     pub fn input(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
-        self.driven(t, y, modes).u
+        self.driven(t, y, modes, |at| at.u.to_vec())
     }
 
     /// Returns the arguments of functions, with all inputs 0.
-    pub(super) fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
+    pub(super) fn arguments<'b>(
+        &'b self,
+        t: f64,
+        y: &'b Numbers,
+        modes: &'b Numbers,
+    ) -> CallArguments<'b> {
         let layout = &self.system.scene.layout;
         let (nq, nv) = (layout.nq(), layout.nv());
         let y = y.as_slice();
-        Inputs {
-            q: y[..nq].to_vec(),
-            v: y[nq..nq + nv].to_vec(),
-            x: y[nq + nv..].to_vec(),
-            u: vec![0.0; layout.inputs.len()],
-            modes: modes.as_slice().to_vec(),
-            parameters: self.parameters.clone(),
+        CallArguments {
+            q: &y[..nq],
+            v: &y[nq..nq + nv],
+            x: &y[nq + nv..],
+            u: &self.no_inputs,
+            modes: modes.as_slice(),
+            parameters: &self.parameters,
             t: Some(t),
-            ..Inputs::default()
+            ..CallArguments::default()
         }
     }
 
-    /// Returns the arguments of functions, with the inputs that the scene drives.
-    fn driven(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
-        let mut at = self.arguments(t, y, modes);
-        if let Some(inputs) = &self.functions.inputs {
-            at.u = inputs.evaluate(at.clone()).0;
+    /// Calls a function with arguments in which the inputs are those that the scene drives.
+    fn driven<R>(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+        call: impl FnOnce(&CallArguments<'_>) -> R,
+    ) -> R {
+        let at = self.arguments(t, y, modes);
+        match &self.functions.inputs {
+            None => call(&at),
+            Some(inputs) => {
+                let (u, _) = inputs.value(&at);
+                call(&CallArguments { u: &u, ..at })
+            }
         }
-        at
     }
 
     /// Returns the stored energy at a state, J: the energy of its motion (which would be missing if every
@@ -144,8 +163,8 @@ impl<'a> Evaluated<'a> {
     pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<(f64, f64)> {
         let y = self.natural(t, state, modes)?;
         let energy = |y: &Numbers| -> Numbers {
-            let at = self.driven(t, y, modes);
-            self.functions.energy.evaluate(at).0.into()
+            let values = self.driven(t, y, modes, |at| self.functions.energy.value(at).0);
+            values.into()
         };
         let still = self.with_velocities(&y, &vec![0.0; self.system.scene.layout.nv()]);
         let now = energy(&y);
@@ -153,21 +172,22 @@ impl<'a> Evaluated<'a> {
         Ok((motion, now.lp_norm(1)))
     }
 
-    /// Evaluates a function that exists if the mass matrix is regular.
-    fn regular(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
-        let (values, refused) = function.evaluate(at);
-        match refused {
+    /// Computes a function that exists if the mass matrix is regular.
+    fn regular(&self, function: &dyn Callable, at: &CallArguments<'_>) -> Evaluation<Vec<f64>> {
+        let (values, status) = function.value(at);
+        match status.refused() {
             None => Ok(values),
             Some(j) => Err(self.refused(j)),
         }
     }
 
-    /// Evaluates rates, or columns of rates, which must be finite.
-    fn checked(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
-        let values = self.regular(function, at)?;
-        match values.iter().position(|x| !x.is_finite()) {
-            None => Ok(values),
-            Some(i) => Err(self.not_finite(i % self.rows())),
+    /// Computes rates, or columns of rates, which must be finite.
+    fn checked(&self, function: &dyn Callable, at: &CallArguments<'_>) -> Evaluation<Vec<f64>> {
+        let (values, status) = function.value(at);
+        match status {
+            Status::Done => Ok(values),
+            Status::Refused(j) => Err(self.refused(j)),
+            Status::NotFinite(i) => Err(self.not_finite(i % self.rows())),
         }
     }
 
@@ -209,7 +229,7 @@ impl<'a> Evaluated<'a> {
         let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
         };
-        let values = self.regular(contacts, self.driven(t, y, modes))?;
+        let values = self.driven(t, y, modes, |at| self.regular(&**contacts, at))?;
         let one = |c: &[f64]| Contact {
             slip: c[0],
             slip_rate: c[1],
@@ -246,16 +266,18 @@ impl Plant for Evaluated<'_> {
 
     fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         if let Some(canonical) = &self.functions.canonical {
-            let at = self.arguments(t, state, modes);
-            let rates = self.regular(&canonical.rates, at)?;
-            return match rates.iter().position(|x| !x.is_finite()) {
-                None => Ok(rates.into()),
+            let (rates, status) = canonical.rates.value(&self.arguments(t, state, modes));
+            return match status {
+                Status::Done => Ok(rates.into()),
+                Status::Refused(j) => Err(self.refused(j)),
                 // The error of a position's rate has the name of its coordinate.
-                Some(i) => Err(self.not_finite(i.checked_sub(self.positions()).unwrap_or(i))),
+                Status::NotFinite(i) => {
+                    Err(self.not_finite(i.checked_sub(self.positions()).unwrap_or(i)))
+                }
             };
         }
-        let at = self.driven(t, state, modes);
-        let values = self.checked(&self.functions.derivative, at)?;
+        let derivative = &*self.functions.derivative;
+        let values = self.driven(t, state, modes, |at| self.checked(derivative, at))?;
         let layout = &self.system.scene.layout;
         let (own, coupled) = values.split_at(layout.nv() + layout.nx());
         let v = &state.as_slice()[layout.nq()..];
@@ -275,7 +297,7 @@ impl Plant for Evaluated<'_> {
         modes: &Numbers,
     ) -> Option<Evaluation<Jacobian<Numbers>>> {
         let jacobian = self.functions.jacobian.as_ref()?;
-        let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
+        let values = match self.checked(&**jacobian, &self.arguments(t, y, modes)) {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
         };
@@ -323,7 +345,8 @@ impl Plant for Evaluated<'_> {
             return Ok(DVector::zeros(0));
         };
         let y = self.natural(t, state, modes)?;
-        Ok(self.regular(events, self.driven(t, &y, modes))?.into())
+        let values = self.driven(t, &y, modes, |at| self.regular(&**events, at))?;
+        Ok(values.into())
     }
 
     fn changes_mode(&self, event: usize) -> bool {
@@ -366,17 +389,15 @@ impl Plant for Evaluated<'_> {
 
     fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
-        Ok(self
-            .functions
-            .energy
-            .evaluate(self.driven(t, &y, modes))
-            .0
-            .into())
+        let energy = &self.functions.energy;
+        let (values, _) = self.driven(t, &y, modes, |at| energy.value(at));
+        Ok(values.into())
     }
 
     fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         let y = self.natural(t, state, modes)?;
-        let values = self.regular(&self.functions.power, self.driven(t, &y, modes))?;
+        let power = &*self.functions.power;
+        let values = self.driven(t, &y, modes, |at| self.regular(power, at))?;
         // Of each three numbers the first is supplied, the last dissipated power.
         let part = |k: usize| DVector::from_fn(values.len() / 3, |i, _| values[3 * i + k]);
         Ok(Power {
