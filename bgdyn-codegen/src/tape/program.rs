@@ -8,7 +8,7 @@ use bgdyn_runtime::{Dd, Scalar};
 use super::operation::Operation;
 use super::order::{OrderedRun, runs};
 use super::run::Execution;
-use super::unrolled::{ArgumentArray, Unrolled, ValueSource};
+use super::unrolled::{ArgumentArray, Instruction, Unrolled, ValueSource};
 use crate::engine::CallArguments;
 use crate::function::Function;
 
@@ -61,7 +61,7 @@ impl Program {
             let all = instructions.clone();
             all.filter(move |one| one.operation == operation)
         };
-        let sum = |one: &super::unrolled::Instruction| SineSum {
+        let sum = |one: &Instruction| SineSum {
             terms: one.operands.len() as u32,
             offset: list.offsets[one.detail],
         };
@@ -145,8 +145,11 @@ impl Program {
         let mut end = constants.len();
         values[..end].copy_from_slice(constants);
         for (array, count) in arrays.into_iter().zip(self.arguments) {
-            values[end..end + count].copy_from_slice(&array[..count]);
-            end += count;
+            // Most functions read two or three arrays.
+            if count > 0 {
+                values[end..end + count].copy_from_slice(&array[..count]);
+                end += count;
+            }
         }
         end
     }
