@@ -8,6 +8,7 @@ mod difference;
 pub(crate) mod page;
 mod panel;
 mod plant;
+mod plant_calls;
 mod plant_positions;
 pub(crate) mod plot;
 pub(crate) mod progress;

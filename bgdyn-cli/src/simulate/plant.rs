@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use bgdyn_codegen::engine::{CallArguments, Callable, Status};
+use bgdyn_codegen::engine::Status;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
 use super::scene_functions::{Form, SceneFunctions};
-use super::undefined::{Undefined, UndefinedCause};
+use super::undefined::Undefined;
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
@@ -19,9 +19,9 @@ pub type Numbers = DVector<f64>;
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
     pub(super) system: &'a SceneEquations,
-    parameters: Vec<f64>,
+    pub(super) parameters: Vec<f64>,
     /// Inputs of 0.
-    no_inputs: Vec<f64>,
+    pub(super) no_inputs: Vec<f64>,
     pub(super) functions: Arc<SceneFunctions>,
 }
 
@@ -115,46 +115,6 @@ impl<'a> Evaluated<'a> {
         self.driven(t, y, modes, |at| at.u.to_vec())
     }
 
-    /// Returns the arguments of functions, with all inputs 0.
-    pub(super) fn arguments<'b>(
-        &'b self,
-        t: f64,
-        y: &'b Numbers,
-        modes: &'b Numbers,
-    ) -> CallArguments<'b> {
-        let layout = &self.system.scene.layout;
-        let (nq, nv) = (layout.nq(), layout.nv());
-        let y = y.as_slice();
-        CallArguments {
-            q: &y[..nq],
-            v: &y[nq..nq + nv],
-            x: &y[nq + nv..],
-            u: &self.no_inputs,
-            modes: modes.as_slice(),
-            parameters: &self.parameters,
-            t: Some(t),
-            ..CallArguments::default()
-        }
-    }
-
-    /// Calls a function with arguments in which the inputs are those that the scene drives.
-    fn driven<R>(
-        &self,
-        t: f64,
-        y: &Numbers,
-        modes: &Numbers,
-        call: impl FnOnce(&CallArguments<'_>) -> R,
-    ) -> R {
-        let at = self.arguments(t, y, modes);
-        match &self.functions.inputs {
-            None => call(&at),
-            Some(inputs) => {
-                let (u, _) = inputs.value(&at);
-                call(&CallArguments { u: &u, ..at })
-            }
-        }
-    }
-
     /// Returns the stored energy at a state, J: the energy of its motion (which would be missing if every
     /// velocity were 0), and the sum of the sizes of all entries.
     ///
@@ -170,58 +130,6 @@ impl<'a> Evaluated<'a> {
         let now = energy(&y);
         let motion = (&now - energy(&still)).lp_norm(1);
         Ok((motion, now.lp_norm(1)))
-    }
-
-    /// Computes a function that exists if the mass matrix is regular.
-    fn regular(&self, function: &dyn Callable, at: &CallArguments<'_>) -> Evaluation<Vec<f64>> {
-        let (values, status) = function.value(at);
-        match status.refused() {
-            None => Ok(values),
-            Some(j) => Err(self.refused(j)),
-        }
-    }
-
-    /// Computes rates, or columns of rates, which must be finite.
-    fn checked(&self, function: &dyn Callable, at: &CallArguments<'_>) -> Evaluation<Vec<f64>> {
-        let (values, status) = function.value(at);
-        match status {
-            Status::Done => Ok(values),
-            Status::Refused(j) => Err(self.refused(j)),
-            Status::NotFinite(i) => Err(self.not_finite(i % self.rows())),
-        }
-    }
-
-    /// Returns the number of rates in the derivative, and in a column of the Jacobian.
-    fn rows(&self) -> usize {
-        let layout = &self.system.scene.layout;
-        (layout.nv() + layout.nx() + layout.coupled().len()).max(1)
-    }
-
-    /// Returns the error of a refused pivot: those of the coordinates come first, those of the loops after all
-    /// rates.
-    pub(super) fn refused(&self, i: usize) -> Undefined {
-        let layout = &self.system.scene.layout;
-        let closes = i.checked_sub(layout.nv() + layout.nx());
-        let (at, cause) = match closes {
-            Some(closes) => (&layout.loops[closes], UndefinedCause::Loop),
-            None => (&layout.coordinates[i].name, UndefinedCause::Singular),
-        };
-        let at = at.clone();
-        Undefined { at, cause }
-    }
-
-    /// Returns the error of rate `i`, which is not finite: the coordinates come first, then the first-order states,
-    /// then coupled positions.
-    fn not_finite(&self, i: usize) -> Undefined {
-        let layout = &self.system.scene.layout;
-        let own = layout.nv() + layout.nx();
-        let at = match (i.checked_sub(layout.nv()), i.checked_sub(own)) {
-            (_, Some(k)) => &layout.positions[layout.coupled()[k]].name,
-            (Some(i), None) => &layout.states[i].name,
-            (None, None) => &layout.coordinates[i].name,
-        };
-        let (at, cause) = (at.clone(), UndefinedCause::NotFinite);
-        Undefined { at, cause }
     }
 
     /// Returns the contacts that can hold a coordinate, mode by mode, at y.
@@ -276,18 +184,7 @@ impl Plant for Evaluated<'_> {
                 }
             };
         }
-        let derivative = &*self.functions.derivative;
-        let values = self.driven(t, state, modes, |at| self.checked(derivative, at))?;
-        let layout = &self.system.scene.layout;
-        let (own, coupled) = values.split_at(layout.nv() + layout.nx());
-        let v = &state.as_slice()[layout.nq()..];
-        let mut coupled = coupled.iter();
-        let rates = layout.positions.iter().map(|p| match p.coordinate {
-            Some(j) => v[j],
-            None => coupled.next().copied().unwrap_or(f64::NAN),
-        });
-        let rates: Vec<f64> = rates.chain(own.iter().copied()).collect();
-        Ok(rates.into())
+        self.natural_rates(t, state, modes)
     }
 
     fn jacobian(

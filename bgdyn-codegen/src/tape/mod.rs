@@ -5,6 +5,7 @@
 //! ([`Program`]). Signs, blocks, columns and dead nodes are resolved once, not in each call. The results have
 //! the bits of [`Function::evaluate`].
 
+mod code;
 mod operation;
 mod order;
 mod program;

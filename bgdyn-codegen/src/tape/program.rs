@@ -5,6 +5,7 @@
 
 use bgdyn_runtime::{Dd, Scalar};
 
+use super::code::{Run, SineSum, TapeCode};
 use super::operation::Operation;
 use super::order::{OrderedRun, runs};
 use super::run::Execution;
@@ -12,33 +13,10 @@ use super::unrolled::{ArgumentArray, Instruction, Unrolled, ValueSource};
 use crate::engine::CallArguments;
 use crate::function::Function;
 
-/// Consecutive instructions with the same operation, none of which reads another one.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Run {
-    pub operation: Operation,
-    /// The number of instructions.
-    pub count: u32,
-}
-
-/// The sum of angles of a sine and its cosine.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SineSum {
-    /// The number of its terms among the operands.
-    pub terms: u32,
-    /// The constant in it, rad.
-    pub offset: (f64, f64),
-}
-
 /// A function that is prepared for calls.
 #[derive(Clone, Debug)]
 pub struct Program {
-    pub(super) runs: Vec<Run>,
-    /// Indices of the operands, instruction by instruction.
-    pub(super) operands: Vec<u32>,
-    /// The sums of angles in the order of execution.
-    pub(super) sums: Vec<SineSum>,
-    /// The joints of the pivots in the order of execution.
-    pub(super) joints: Vec<usize>,
+    code: TapeCode,
     constants: Vec<Dd>,
     arguments: [usize; ArgumentArray::COUNT],
     /// The number of values.
@@ -65,14 +43,17 @@ impl Program {
             terms: one.operands.len() as u32,
             offset: list.offsets[one.detail],
         };
-        Program {
+        let code = TapeCode {
+            runs: runs.iter().map(OrderedRun::of_tape).collect(),
             operands: operands.map(|&operand| indices.of(operand)).collect(),
             sums: of(Operation::Sines).map(sum).collect(),
             joints: of(Operation::Pivot).map(|one| one.detail).collect(),
+        };
+        Program {
+            code,
             arguments: list.arguments,
             len: indices.len,
             results: list.results.iter().map(|&r| indices.of(r)).collect(),
-            runs: runs.iter().map(OrderedRun::of_tape).collect(),
             constants: list.constants,
         }
     }
@@ -105,7 +86,7 @@ impl Program {
         }
         let values = &mut values[..self.len];
         let first = self.load(constants, values, from);
-        let refused = Execution::new(self, values, first).all();
+        let refused = Execution::new(&self.code, values, first).all();
         assert_eq!(out.len(), self.results.len(), "the number of results");
         for (out, &index) in out.iter_mut().zip(&self.results) {
             *out = values[index as usize];

@@ -2,8 +2,8 @@
 
 use bgdyn_runtime::Scalar;
 
+use super::code::{Run, SineSum, TapeCode};
 use super::operation::Operation;
-use super::program::{Program, Run, SineSum};
 
 /// The largest number of sines that are computed together.
 const BATCH: usize = 8;
@@ -23,14 +23,14 @@ pub(super) struct Execution<'a, T: Scalar> {
 
 impl<'a, T: Scalar> Execution<'a, T> {
     /// Returns the tape before its first instruction; the first `done` values are known.
-    pub fn new(program: &'a Program, values: &'a mut [T], done: usize) -> Self {
+    pub fn new(code: &'a TapeCode, values: &'a mut [T], done: usize) -> Self {
         Execution {
-            runs: &program.runs,
+            runs: &code.runs,
             values,
             done,
-            operands: &program.operands,
-            sums: &program.sums,
-            joints: &program.joints,
+            operands: &code.operands,
+            sums: &code.sums,
+            joints: &code.joints,
             refused: T::none_refused(),
         }
     }
