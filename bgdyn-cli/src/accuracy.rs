@@ -1,4 +1,4 @@
-//! Accuracy studies with the evaluator: errors are measured, times are estimated from the number of calls.
+//! Accuracy studies without a compiler: errors are measured, times are estimated from the number of calls.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -18,7 +18,7 @@ use crate::timing::estimate;
 
 /// The integrator of references.
 const REFERENCE: &str = "extrapolation12";
-/// Tolerances of the reference and of the coarser one: the evaluator computes in `f64`.
+/// Tolerances of the reference and of the coarser one: functions are computed in `f64`.
 const TOLERANCES: (f64, f64) = (1e-14, 1e-12);
 
 /// The estimated time of one call of each function in compiled code, ns.
@@ -51,7 +51,7 @@ impl Calls {
     }
 }
 
-/// A scene in the evaluator that sums the estimated times of its calls.
+/// A scene that sums the estimated times of its calls.
 #[derive(Clone, Debug)]
 struct Counted {
     plant: Rc<Evaluated<'static>>,

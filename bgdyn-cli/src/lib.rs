@@ -7,6 +7,7 @@ mod accuracy;
 mod cargo_project;
 mod colour;
 mod commands;
+mod engine;
 pub mod fuzz_invariants;
 mod graph;
 pub mod import;

@@ -19,6 +19,7 @@ pub mod declaration;
 pub mod effect;
 pub mod effort_sums;
 pub mod emit;
+pub mod engine;
 pub mod expr;
 pub mod fault;
 pub mod files;
@@ -44,6 +45,7 @@ pub mod refusal;
 pub mod scene;
 mod split_blocks;
 pub mod system;
+pub mod tape;
 pub mod unit;
 pub mod verify;
 

@@ -74,7 +74,7 @@ impl Accuracy {
         }
     }
 
-    /// Runs the study with compiled code, or with the evaluator if there is no cargo.
+    /// Runs the study with compiled code, or without a compiler if there is no cargo.
     fn study(&self, system: &SceneEquations, end: Option<f64>) -> Result<Study> {
         let program = match self.compiled(system, end) {
             Ok(text) => text,
@@ -110,11 +110,11 @@ impl Accuracy {
     }
 }
 
-/// Runs the study with the evaluator.
+/// Runs the study without a compiler.
 fn evaluated(system: &SceneEquations, end: Option<f64>) -> Result<Study> {
     let test_case = crate::accuracy::test_case(system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
-    // The evaluator is slow.
+    // Functions that are not compiled are slow.
     study(&test_case, &Effort::QUICK).map_err(|e| anyhow!("{e}"))
 }
 

@@ -7,8 +7,8 @@ mod states;
 
 use anyhow::Result;
 use bgdyn_codegen::bond_graph::{BondGraph, Coordinate};
+use bgdyn_codegen::engine::{Callable, Status};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::{Mechanism, Motion};
 use bgdyn_codegen::method::{Argument, Method, Shape};
 use bgdyn_runtime::ACTUATORS;
@@ -18,6 +18,7 @@ pub(crate) use self::arguments::Eval;
 
 use self::closed::{closed, not_actuated, singular_loop};
 use self::states::{Failure, finite, parameters, plain, singular, states};
+use crate::engine::ENGINE;
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
 
@@ -38,7 +39,15 @@ impl Eval {
         let states = states(&self.states)?;
         let function = bgdyn_codegen::pipeline::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
-        let value = |state: &Value| evaluate((&mechanism, &graph), &function, &parameters, state);
+        let prepared = ENGINE.prepare(&function);
+        let call = MethodCall {
+            mechanism: &mechanism,
+            graph: &graph,
+            method,
+            prepared: &*prepared,
+            parameters: &parameters,
+        };
+        let value = |state: &Value| evaluate(&call, state);
         self.report(vec![], &states, value)
     }
 }
@@ -50,27 +59,32 @@ fn field(argument: Argument) -> &'static str {
     }
 }
 
-fn evaluate(
-    (mechanism, graph): (&Mechanism, &BondGraph),
-    function: &Function,
-    parameters: &[f64],
-    state: &Value,
-) -> Result<Value, Failure> {
+/// A method of a mechanism.
+struct MethodCall<'a> {
+    mechanism: &'a Mechanism,
+    graph: &'a BondGraph,
+    method: Method,
+    prepared: &'a dyn Callable,
+    parameters: &'a [f64],
+}
+
+fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
+    let (mechanism, graph, method) = (call.mechanism, call.graph, call.method);
     let names = |of: &[Coordinate]| of.iter().map(|c| c.name.clone()).collect::<Vec<String>>();
     let own = names(&graph.coordinates);
     // The velocities of the open tree, for mechanisms with loops.
     let closed = graph.closed.as_deref();
     let of_tree = closed.map_or_else(Vec::new, |closed| names(&closed.tree.coordinates));
-    let rates = match function.method.of_tree() {
+    let rates = match method.of_tree() {
         true => &of_tree,
         false => &own,
     };
     let drives = mechanism.actuated_names();
     let mut inputs = Inputs {
-        parameters: parameters.to_vec(),
+        parameters: call.parameters.to_vec(),
         ..Inputs::default()
     };
-    for &argument in function.method.arguments() {
+    for &argument in method.arguments() {
         let values = match argument {
             // `tau` may be the effort of the state's own motion: `tau_in` has priority.
             Argument::Q => positions(mechanism, state)?,
@@ -91,9 +105,9 @@ fn evaluate(
             _ => return Err(plain("only a scene's function has this argument".into())),
         }
     }
-    let (values, refused) = function.evaluate::<f64>(inputs);
-    if let Some(joint) = refused {
-        let results = match function.method {
+    let (values, status) = call.prepared.value(&(&inputs).into());
+    if let Status::Refused(joint) = status {
+        let results = match method {
             Method::ActuatedInverse(number) => number,
             _ => rates.len(),
         };
@@ -105,16 +119,12 @@ fn evaluate(
             (None, Some(closes)) => singular_loop(mechanism.closure(), closes),
         });
     }
-    if values.iter().any(|x| !x.is_finite()) {
+    if let Status::NotFinite(_) = status {
         return Err(plain(
             "the result is not finite: the input is too large".into(),
         ));
     }
-    Ok(shaped(
-        function.shape(),
-        (own.len(), of_tree.len()),
-        &values,
-    ))
+    Ok(shaped(method.shape(), (own.len(), of_tree.len()), &values))
 }
 
 /// Returns the positions. A quaternion whose length differs from 1 by up to [`LENGTH`] is scaled to

@@ -1,4 +1,4 @@
-//! `bgdyn simulate`: runs a scene in the evaluator and writes a table, plots and a page.
+//! `bgdyn simulate`: runs a scene without a compiler and writes a table, plots and a page.
 
 mod many;
 

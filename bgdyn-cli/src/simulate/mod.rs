@@ -1,4 +1,4 @@
-//! Simulation of scenes in the evaluator, and its reports.
+//! Simulation of scenes without a compiler, and its reports.
 
 mod axis;
 pub(crate) mod batch;
@@ -8,6 +8,7 @@ mod difference;
 pub(crate) mod page;
 mod panel;
 mod plant;
+mod plant_calls;
 mod plant_positions;
 pub(crate) mod plot;
 pub(crate) mod progress;

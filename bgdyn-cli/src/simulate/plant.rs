@@ -1,26 +1,27 @@
-//! A scene in the evaluator as a plant, which [`bgdyn_sim::Run`] integrates without a compiler.
+//! A scene as a plant, which [`bgdyn_sim::Run`] integrates without a compiler.
 
 use std::sync::Arc;
 
-use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::function::Function;
+use bgdyn_codegen::engine::Status;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
 use super::scene_functions::{Form, SceneFunctions};
-use super::undefined::{Undefined, UndefinedCause};
+use super::undefined::Undefined;
 
 /// A vector of numbers in SI units: states, modes, inputs, entries of the balance of power.
 pub type Numbers = DVector<f64>;
 
-/// A scene in the evaluator. Inputs that the scene does not drive are 0; run-time parameters have the
+/// A scene whose functions the engine computes. Inputs that the scene does not drive are 0; run-time parameters have the
 /// values of its files.
 #[derive(Clone, Debug)]
 pub struct Evaluated<'a> {
     pub(super) system: &'a SceneEquations,
-    parameters: Vec<f64>,
+    pub(super) parameters: Vec<f64>,
+    /// Inputs of 0.
+    pub(super) no_inputs: Vec<f64>,
     pub(super) functions: Arc<SceneFunctions>,
 }
 
@@ -35,6 +36,7 @@ impl<'a> Evaluated<'a> {
         Evaluated {
             system,
             parameters: parameters(system),
+            no_inputs: vec![0.0; system.scene.layout.inputs.len()],
             functions: Arc::new(SceneFunctions::new(system, form, slopes)),
         }
     }
@@ -45,6 +47,7 @@ impl<'a> Evaluated<'a> {
         Evaluated {
             system,
             parameters: parameters(system),
+            no_inputs: vec![0.0; system.scene.layout.inputs.len()],
             functions: Arc::clone(&self.functions),
         }
     }
@@ -70,7 +73,7 @@ impl<'a> Evaluated<'a> {
             None => Ok(state.clone()),
             Some(canonical) => {
                 let at = self.arguments(t, state, modes);
-                let v = self.checked(&canonical.from, at)?;
+                let v = self.checked(&*canonical.from, &at)?;
                 Ok(self.with_velocities(state, &v))
             }
         }
@@ -81,7 +84,7 @@ impl<'a> Evaluated<'a> {
         match &self.functions.canonical {
             None => y.clone(),
             Some(canonical) => {
-                let (p, _) = canonical.to.evaluate(self.arguments(t, y, modes));
+                let (p, _) = canonical.to.value(&self.arguments(t, y, modes));
                 self.with_velocities(y, &p)
             }
         }
@@ -101,39 +104,15 @@ impl<'a> Evaluated<'a> {
 
     /// Returns the outputs of the scene at y; empty without outputs.
     pub fn output(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
-        let value = |f: &Function| f.evaluate(self.driven(t, y, modes)).0;
-        self.functions.outputs.as_ref().map_or(vec![], value)
+        match &self.functions.outputs {
+            None => vec![],
+            Some(outputs) => self.driven(t, y, modes, |at| outputs.value(at).0),
+        }
     }
 
     /// Returns the inputs at y: those that the scene drives, and 0 for the others.
     pub fn input(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
-        self.driven(t, y, modes).u
-    }
-
-    /// Returns the arguments of functions, with all inputs 0.
-    pub(super) fn arguments(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
-        let layout = &self.system.scene.layout;
-        let (nq, nv) = (layout.nq(), layout.nv());
-        let y = y.as_slice();
-        Inputs {
-            q: y[..nq].to_vec(),
-            v: y[nq..nq + nv].to_vec(),
-            x: y[nq + nv..].to_vec(),
-            u: vec![0.0; layout.inputs.len()],
-            modes: modes.as_slice().to_vec(),
-            parameters: self.parameters.clone(),
-            t: Some(t),
-            ..Inputs::default()
-        }
-    }
-
-    /// Returns the arguments of functions, with the inputs that the scene drives.
-    fn driven(&self, t: f64, y: &Numbers, modes: &Numbers) -> Inputs<f64> {
-        let mut at = self.arguments(t, y, modes);
-        if let Some(inputs) = &self.functions.inputs {
-            at.u = inputs.evaluate(at.clone()).0;
-        }
-        at
+        self.driven(t, y, modes, |at| at.u.to_vec())
     }
 
     /// Returns the stored energy at a state, J: the energy of its motion (which would be missing if every
@@ -144,8 +123,8 @@ impl<'a> Evaluated<'a> {
     pub fn held(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<(f64, f64)> {
         let y = self.natural(t, state, modes)?;
         let energy = |y: &Numbers| -> Numbers {
-            let at = self.driven(t, y, modes);
-            self.functions.energy.evaluate(at).0.into()
+            let values = self.driven(t, y, modes, |at| self.functions.energy.value(at).0);
+            values.into()
         };
         let still = self.with_velocities(&y, &vec![0.0; self.system.scene.layout.nv()]);
         let now = energy(&y);
@@ -153,63 +132,12 @@ impl<'a> Evaluated<'a> {
         Ok((motion, now.lp_norm(1)))
     }
 
-    /// Evaluates a function that exists if the mass matrix is regular.
-    fn regular(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
-        let (values, refused) = function.evaluate(at);
-        match refused {
-            None => Ok(values),
-            Some(j) => Err(self.refused(j)),
-        }
-    }
-
-    /// Evaluates rates, or columns of rates, which must be finite.
-    fn checked(&self, function: &Function, at: Inputs<f64>) -> Evaluation<Vec<f64>> {
-        let values = self.regular(function, at)?;
-        match values.iter().position(|x| !x.is_finite()) {
-            None => Ok(values),
-            Some(i) => Err(self.not_finite(i % self.rows())),
-        }
-    }
-
-    /// Returns the number of rates in the derivative, and in a column of the Jacobian.
-    fn rows(&self) -> usize {
-        let layout = &self.system.scene.layout;
-        (layout.nv() + layout.nx() + layout.coupled().len()).max(1)
-    }
-
-    /// Returns the error of a refused pivot: those of the coordinates come first, those of the loops after all
-    /// rates.
-    pub(super) fn refused(&self, i: usize) -> Undefined {
-        let layout = &self.system.scene.layout;
-        let closes = i.checked_sub(layout.nv() + layout.nx());
-        let (at, cause) = match closes {
-            Some(closes) => (&layout.loops[closes], UndefinedCause::Loop),
-            None => (&layout.coordinates[i].name, UndefinedCause::Singular),
-        };
-        let at = at.clone();
-        Undefined { at, cause }
-    }
-
-    /// Returns the error of rate `i`, which is not finite: the coordinates come first, then the first-order states,
-    /// then coupled positions.
-    fn not_finite(&self, i: usize) -> Undefined {
-        let layout = &self.system.scene.layout;
-        let own = layout.nv() + layout.nx();
-        let at = match (i.checked_sub(layout.nv()), i.checked_sub(own)) {
-            (_, Some(k)) => &layout.positions[layout.coupled()[k]].name,
-            (Some(i), None) => &layout.states[i].name,
-            (None, None) => &layout.coordinates[i].name,
-        };
-        let (at, cause) = (at.clone(), UndefinedCause::NotFinite);
-        Undefined { at, cause }
-    }
-
     /// Returns the contacts that can hold a coordinate, mode by mode, at y.
     fn contacts(&self, t: f64, y: &Numbers, modes: &Numbers) -> ContactsOf {
         let Some(contacts) = &self.functions.contacts else {
             return Ok(vec![]);
         };
-        let values = self.regular(contacts, self.driven(t, y, modes))?;
+        let values = self.driven(t, y, modes, |at| self.regular(&**contacts, at))?;
         let one = |c: &[f64]| Contact {
             slip: c[0],
             slip_rate: c[1],
@@ -246,26 +174,17 @@ impl Plant for Evaluated<'_> {
 
     fn rates(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         if let Some(canonical) = &self.functions.canonical {
-            let at = self.arguments(t, state, modes);
-            let rates = self.regular(&canonical.rates, at)?;
-            return match rates.iter().position(|x| !x.is_finite()) {
-                None => Ok(rates.into()),
+            let (rates, status) = canonical.rates.value(&self.arguments(t, state, modes));
+            return match status {
+                Status::Done => Ok(rates.into()),
+                Status::Refused(j) => Err(self.refused(j)),
                 // The error of a position's rate has the name of its coordinate.
-                Some(i) => Err(self.not_finite(i.checked_sub(self.positions()).unwrap_or(i))),
+                Status::NotFinite(i) => {
+                    Err(self.not_finite(i.checked_sub(self.positions()).unwrap_or(i)))
+                }
             };
         }
-        let at = self.driven(t, state, modes);
-        let values = self.checked(&self.functions.derivative, at)?;
-        let layout = &self.system.scene.layout;
-        let (own, coupled) = values.split_at(layout.nv() + layout.nx());
-        let v = &state.as_slice()[layout.nq()..];
-        let mut coupled = coupled.iter();
-        let rates = layout.positions.iter().map(|p| match p.coordinate {
-            Some(j) => v[j],
-            None => coupled.next().copied().unwrap_or(f64::NAN),
-        });
-        let rates: Vec<f64> = rates.chain(own.iter().copied()).collect();
-        Ok(rates.into())
+        self.natural_rates(t, state, modes)
     }
 
     fn jacobian(
@@ -275,7 +194,7 @@ impl Plant for Evaluated<'_> {
         modes: &Numbers,
     ) -> Option<Evaluation<Jacobian<Numbers>>> {
         let jacobian = self.functions.jacobian.as_ref()?;
-        let values = match self.checked(jacobian, self.arguments(t, y, modes)) {
+        let values = match self.checked(&**jacobian, &self.arguments(t, y, modes)) {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
         };
@@ -323,7 +242,8 @@ impl Plant for Evaluated<'_> {
             return Ok(DVector::zeros(0));
         };
         let y = self.natural(t, state, modes)?;
-        Ok(self.regular(events, self.driven(t, &y, modes))?.into())
+        let values = self.driven(t, &y, modes, |at| self.regular(&**events, at))?;
+        Ok(values.into())
     }
 
     fn changes_mode(&self, event: usize) -> bool {
@@ -366,17 +286,15 @@ impl Plant for Evaluated<'_> {
 
     fn energy(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let y = self.natural(t, state, modes)?;
-        Ok(self
-            .functions
-            .energy
-            .evaluate(self.driven(t, &y, modes))
-            .0
-            .into())
+        let energy = &self.functions.energy;
+        let (values, _) = self.driven(t, &y, modes, |at| energy.value(at));
+        Ok(values.into())
     }
 
     fn power(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Power<Numbers>> {
         let y = self.natural(t, state, modes)?;
-        let values = self.regular(&self.functions.power, self.driven(t, &y, modes))?;
+        let power = &*self.functions.power;
+        let values = self.driven(t, &y, modes, |at| self.regular(power, at))?;
         // Of each three numbers the first is supplied, the last dissipated power.
         let part = |k: usize| DVector::from_fn(values.len() / 3, |i, _| values[3 * i + k]);
         Ok(Power {

@@ -1,4 +1,4 @@
-//! Positions of a scene in the evaluator: their rates, their change in a step, and the way back to valid ones, with unit
+//! Positions of a scene: their rates, their change in a step, and the way back to valid ones, with unit
 //! quaternions and closed loops.
 
 use bgdyn_runtime::closure::close_from;
@@ -67,7 +67,7 @@ impl Evaluated<'_> {
     /// Returns the rates of all positions of a scene with constraints; `None` for other scenes.
     fn own_position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Option<Vec<f64>> {
         let rates = self.functions.position_rates.as_ref()?;
-        Some(rates.evaluate(self.arguments(t, y, modes)).0)
+        Some(rates.value(&self.arguments(t, y, modes)).0)
     }
 
     /// Closes the loops in a state. Returns whether there are loops.
@@ -78,11 +78,8 @@ impl Evaluated<'_> {
         let layout = &self.system.scene.layout;
         let modes = DVector::zeros(layout.modes.len());
         let step = |y: &Numbers| -> Numbers {
-            closing
-                .step
-                .evaluate(self.arguments(0.0, y, &modes))
-                .0
-                .into()
+            let (step, _) = closing.step.value(&self.arguments(0.0, y, &modes));
+            step.into()
         };
         let first = layout.nv() + layout.nx();
         let closed = close_from(y.clone(), &closing.dependents, first, step);

@@ -1,10 +1,12 @@
-//! The functions of a scene that a run in the evaluator calls.
+//! The functions of a scene that a run calls, prepared by the engine.
 
-use bgdyn_codegen::function::Function;
+use bgdyn_codegen::engine::Callable;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::QuasiJoint;
 use bgdyn_runtime::closure::Dependent;
+
+use crate::engine::ENGINE;
 
 /// The variables in which a scene is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,17 +20,17 @@ pub enum Form {
 /// The functions of a scene, the same for every start.
 #[derive(Debug)]
 pub(super) struct SceneFunctions {
-    pub(super) derivative: Function,
-    pub(super) inputs: Option<Function>,
-    pub(super) events: Option<Function>,
-    pub(super) contacts: Option<Function>,
-    pub(super) outputs: Option<Function>,
-    pub(super) power: Function,
-    pub(super) energy: Function,
-    pub(super) jacobian: Option<Function>,
+    pub(super) derivative: Box<dyn Callable>,
+    pub(super) inputs: Option<Box<dyn Callable>>,
+    pub(super) events: Option<Box<dyn Callable>>,
+    pub(super) contacts: Option<Box<dyn Callable>>,
+    pub(super) outputs: Option<Box<dyn Callable>>,
+    pub(super) power: Box<dyn Callable>,
+    pub(super) energy: Box<dyn Callable>,
+    pub(super) jacobian: Option<Box<dyn Callable>>,
     pub(super) canonical: Option<Canonical>,
     /// Rates of all positions, in scenes with constraints.
-    pub(super) position_rates: Option<Function>,
+    pub(super) position_rates: Option<Box<dyn Callable>>,
     pub(super) closing: Option<ClosedLoops>,
     pub(super) event_modes: Vec<Option<usize>>,
     /// The component of the state that is the velocity of each mode's coordinate.
@@ -42,16 +44,16 @@ pub(super) struct SceneFunctions {
 /// The closing of loops.
 #[derive(Debug)]
 pub(super) struct ClosedLoops {
-    pub(super) step: Function,
+    pub(super) step: Box<dyn Callable>,
     pub(super) dependents: Vec<Dependent>,
 }
 
 /// The functions of the canonical form.
 #[derive(Debug)]
 pub(super) struct Canonical {
-    pub(super) to: Function,
-    pub(super) from: Function,
-    pub(super) rates: Function,
+    pub(super) to: Box<dyn Callable>,
+    pub(super) from: Box<dyn Callable>,
+    pub(super) rates: Box<dyn Callable>,
 }
 
 impl SceneFunctions {
@@ -59,26 +61,26 @@ impl SceneFunctions {
     /// rates.
     pub(super) fn new(system: &SceneEquations, form: Form, slopes: bool) -> Self {
         let roles = system.roles();
-        let if_there = |role| roles.contains(&role).then(|| system.function(role));
+        let prepare = |role| ENGINE.prepare(&system.function(role));
+        let if_there = |role| roles.contains(&role).then(|| prepare(role));
         let canonical = || Canonical {
-            to: system.function(SceneFunction::ToCanonical),
-            from: system.function(SceneFunction::FromCanonical),
-            rates: system.function(SceneFunction::CanonicalRates),
+            to: prepare(SceneFunction::ToCanonical),
+            from: prepare(SceneFunction::FromCanonical),
+            rates: prepare(SceneFunction::CanonicalRates),
         };
         let layout = &system.scene.layout;
         let coordinates = system.mode_coordinates().into_iter();
         let mode_velocities = coordinates.map(|j| layout.nq() + j);
         SceneFunctions {
-            derivative: system.function(SceneFunction::Derivative),
+            derivative: prepare(SceneFunction::Derivative),
             inputs: if_there(SceneFunction::Inputs),
             events: if_there(SceneFunction::Events),
             contacts: if_there(SceneFunction::Contacts),
             outputs: if_there(SceneFunction::Outputs),
-            power: system.function(SceneFunction::Power),
-            energy: system.function(SceneFunction::Energy),
+            power: prepare(SceneFunction::Power),
+            energy: prepare(SceneFunction::Energy),
             // In canonical form the slopes are not available: stages are then solved without them.
-            jacobian: (slopes && form == Form::Natural)
-                .then(|| system.function(SceneFunction::Jacobian)),
+            jacobian: (slopes && form == Form::Natural).then(|| prepare(SceneFunction::Jacobian)),
             canonical: (form == Form::Canonical).then(canonical),
             position_rates: if_there(SceneFunction::PositionRates),
             closing: if_there(SceneFunction::ClosingStep).map(|step| ClosedLoops {

@@ -4,8 +4,8 @@
 //! are those of the scene's start, or 0 without one.
 
 use anyhow::Result;
+use bgdyn_codegen::engine::{Callable, Status};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::options::Preference;
@@ -17,6 +17,7 @@ use serde_json::{Value, json};
 use super::arguments::Eval;
 use super::closed::{closed, singular_loop};
 use super::states::{Failure, finite, parameters, plain, singular, states};
+use crate::engine::ENGINE;
 use crate::usage::Usage;
 
 impl Eval {
@@ -39,10 +40,10 @@ impl Eval {
             system,
             role,
             parameters: parameters(&system.scene.parameters, &self.parameters)?,
-            function: system.function(role),
+            function: ENGINE.prepare(&system.function(role)),
             inputs: roles
                 .contains(&SceneFunction::Inputs)
-                .then(|| system.function(SceneFunction::Inputs)),
+                .then(|| ENGINE.prepare(&system.function(SceneFunction::Inputs))),
             names: SceneNames::of(system),
         };
         let states = states(&self.states)?;
@@ -77,9 +78,9 @@ struct SceneCall<'a> {
     system: &'a SceneEquations,
     role: SceneFunction,
     parameters: Vec<f64>,
-    function: Function,
+    function: Box<dyn Callable>,
     /// The inputs that the scene drives, if it has inputs.
-    inputs: Option<Function>,
+    inputs: Option<Box<dyn Callable>>,
     names: SceneNames,
 }
 
@@ -112,20 +113,20 @@ impl SceneCall<'_> {
 
     fn value(&self, state: &Value) -> Result<Value, Failure> {
         let at = self.arguments(state)?;
-        let (values, refused) = self.function.evaluate(at.clone());
-        if let Some(j) = refused {
-            let layout = &self.system.scene.layout;
-            return Err(match j.checked_sub(layout.nv() + layout.nx()) {
-                None => singular(&self.names.coordinates[j]),
-                Some(closes) => singular_loop(self.system.scene.mechanism.closure(), closes),
-            });
-        }
-        if values.iter().any(|x| !x.is_finite()) {
-            return Err(plain(
+        let (values, status) = self.function.value(&(&at).into());
+        match status {
+            Status::Done => Ok(self.shaped(&at, &values)),
+            Status::Refused(j) => {
+                let layout = &self.system.scene.layout;
+                Err(match j.checked_sub(layout.nv() + layout.nx()) {
+                    None => singular(&self.names.coordinates[j]),
+                    Some(closes) => singular_loop(self.system.scene.mechanism.closure(), closes),
+                })
+            }
+            Status::NotFinite(_) => Err(plain(
                 "the result is not finite: the input is too large, or outside of what the scene can be in".into(),
-            ));
+            )),
         }
-        Ok(self.shaped(&at, &values))
     }
 
     fn arguments(&self, state: &Value) -> Result<Inputs<f64>, Failure> {
@@ -181,7 +182,7 @@ impl SceneCall<'_> {
             let none = vec![0.0; layout.inputs.len()];
             at.u = vector(state, "input", &self.names.inputs, none)?;
         } else if let (false, Some(inputs)) = (canonical, &self.inputs) {
-            at.u = inputs.evaluate(at.clone()).0;
+            at.u = inputs.value(&(&at).into()).0;
         }
         Ok(at)
     }

@@ -1,6 +1,7 @@
 //! The poses of links at the rows of a page.
 
 use bgdyn_codegen::bond_graph::SiteId;
+use bgdyn_codegen::engine::CallArguments;
 use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_codegen::mechanism::Motion;
 use bgdyn_codegen::method::Method;
@@ -12,6 +13,7 @@ use bgdyn_runtime::manifold::quaternion_of;
 use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::body::Placed;
+use crate::engine::ENGINE;
 use crate::simulate::run_table::Row;
 
 /// Scale of a quaternion's components.
@@ -28,15 +30,15 @@ pub(super) fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<
     // Hidden links are no sites.
     let before = links[..link].iter().filter(|l| !l.hidden).count();
     let pose = function(mechanism, Method::Pose(SiteId(before)), &Options::default());
-    let pose = pose.expect("every formulation knows poses");
+    let pose = ENGINE.prepare(&pose.expect("every formulation knows poses"));
     let mut last = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let at = |row: &&Row| {
-        let inputs = bgdyn_codegen::expr::Inputs {
-            q: row.y.as_slice()[..mechanism.nq()].to_vec(),
-            parameters: parameters(system, row),
-            ..Default::default()
-        };
-        let (values, _) = pose.evaluate::<f64>(inputs);
+        let parameters = parameters(system, row);
+        let (values, _) = pose.value(&CallArguments {
+            q: &row.y.as_slice()[..mechanism.nq()],
+            parameters: &parameters,
+            ..CallArguments::default()
+        });
         if values.iter().all(|x| x.is_finite() && x.abs() < 1e9) {
             last.copy_from_slice(&values);
         }
