@@ -1,0 +1,237 @@
+//! Planar loops in closed form: dependent positions by one root and one or two arc tangents for each loop.
+//!
+//! Generated code calls these functions; the vector D of the known arc of a loop, from pin to pin, and the rigid arcs
+//! are vectors in its plane.
+
+use nalgebra::SVector;
+
+use super::{Closing, closed};
+use crate::Scalar;
+
+/// A constant in two words.
+pub type Constant = (f64, f64);
+
+/// A vector in the plane of a loop.
+pub type PlaneVector<T> = [T; 2];
+
+/// The sine of the angle to a singular position, in units of the largest last step of Newton's method, below which the
+/// sign of the root is a rounding error of the angles.
+const FLAT: f64 = 1e-2;
+
+/// Coefficients of atan x / x in powers of x² for x in 0 … 1, to 1e-5 (Abramowitz and Stegun 1964, 4.4.49).
+const ARC_TANGENT: [f64; 5] = [0.999_866, -0.330_299_5, 0.180_141, -0.085_133, 0.020_835_1];
+
+fn number<T: Scalar>((hi, lo): Constant) -> T {
+    T::from_parts(hi, lo)
+}
+
+/// Returns a constant vector.
+#[inline]
+pub fn constant<T: Scalar>(v: [Constant; 2]) -> PlaneVector<T> {
+    v.map(number)
+}
+
+/// Returns a vector that turned by the angle with this sine and cosine.
+#[inline]
+pub fn turned<T: Scalar>((sin, cos): (T, T), v: [Constant; 2]) -> PlaneVector<T> {
+    let [x, y]: [T; 2] = constant(v);
+    match v {
+        [_, (0.0, _)] => [x * cos, x * sin],
+        [(0.0, _), _] => [-(y * sin), y * cos],
+        _ => [x * cos - y * sin, x * sin + y * cos],
+    }
+}
+
+/// Returns a vector times a number.
+#[inline]
+pub fn scaled<T: Scalar>([x, y]: PlaneVector<T>, k: T) -> PlaneVector<T> {
+    [x * k, y * k]
+}
+
+/// Returns the sum of vectors.
+#[inline]
+pub fn sum<T: Scalar, const N: usize>(all: [PlaneVector<T>; N]) -> PlaneVector<T> {
+    let plus = |[x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>| [x + u, y + v];
+    let zero = T::from_f64(0.0);
+    all.into_iter().reduce(plus).unwrap_or([zero; 2])
+}
+
+fn dot<T: Scalar>([x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>) -> T {
+    x * u + y * v
+}
+
+fn cross<T: Scalar>([x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>) -> T {
+    x * v - y * u
+}
+
+/// Loops that are closed one after the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Polygons<T: Scalar> {
+    /// The first loop that does not close.
+    refused: T::Refused,
+    /// 1 where all loops close.
+    closes: T,
+}
+
+/// The branch of a loop.
+#[derive(Clone, Copy, Debug)]
+pub struct PolygonBranch {
+    /// Whether the root is positive on the branch of the mechanism.
+    pub positive: bool,
+    /// The index of the loop among the causes.
+    pub place: usize,
+}
+
+impl<T: Scalar> Default for Polygons<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: Scalar> Polygons<T> {
+    /// Returns the value before any loop is closed.
+    #[inline]
+    pub fn new() -> Self {
+        Polygons {
+            refused: T::none_refused(),
+            closes: T::from_f64(1.0),
+        }
+    }
+
+    /// Refuses a loop where a number is negative, NaN or infinite.
+    #[inline]
+    fn check(&mut self, x: T, place: usize) {
+        let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+        // 1, −1 or NaN.
+        let holds = T::select(x.less(zero), -one, one + (x - x));
+        holds.checked_pivot(zero, place, &mut self.refused);
+        self.closes = T::select(zero.less(holds), self.closes, zero);
+    }
+
+    /// Returns the root of a number with the sign of `side`, a sine or cosine; with that of the mechanism where it is
+    /// too small to tell. The loop is out of reach where the number is negative.
+    #[inline]
+    fn root(&mut self, square: T, side: T, branch: PolygonBranch) -> T {
+        let zero = T::from_f64(0.0);
+        self.check(square, branch.place);
+        let root = T::select(square.less(zero), zero, square).sqrt();
+        let flat = closed::<T>() * T::from_f64(FLAT);
+        match branch.positive {
+            true => T::select(side.less(-flat), -root, root),
+            false => T::select(flat.less(side), root, -root),
+        }
+    }
+
+    /// Closes a loop of three pins, with the rigid arcs r₁ from the beginning of D and r₂ from its end to the third
+    /// pin: L² = D·D, 2H = ±√[((a + b)² − L²)(L² − (a − b)²)], r₁ = ((L² + a² − b²) D + 2H D⊥)/2L², r₂ = r₁ − D.
+    ///
+    /// `lengths` are a² + b² + 2ab, a² + b² − 2ab, a² − b² and 1/ab; `arms` are r₁ and r₂ at the position that tells
+    /// the branch. Returns r₁ and r₂.
+    #[inline]
+    pub fn triangle(
+        &mut self,
+        known: PlaneVector<T>,
+        lengths: [Constant; 4],
+        arms: [PlaneVector<T>; 2],
+        branch: PolygonBranch,
+    ) -> [PlaneVector<T>; 2] {
+        let [outer, inner, difference, inverse] = lengths.map(number::<T>);
+        let squared = dot(known, known);
+        let [first, second] = arms;
+        let side = cross(first, second) * inverse;
+        let root = self.root((outer - squared) * (squared - inner), side, branch);
+        let half = T::from_f64(0.5) / squared;
+        let (along, across) = ((squared + difference) * half, root * half);
+        let [x, y] = known;
+        let first = [x * along - y * across, y * along + x * across];
+        [first, [first[0] - x, first[1] - y]]
+    }
+
+    /// Closes a loop of two pins and a slide beside D, in the direction t: e = t × D, y = ±√(a² − e²),
+    /// r = y t + e t⊥, x = y − D·t.
+    ///
+    /// `lengths` are a² and 1/a; `arm` and `direction` are r and t at the position that tells the branch. Returns r and
+    /// x.
+    #[inline]
+    pub fn slider(
+        &mut self,
+        (known, along): (PlaneVector<T>, PlaneVector<T>),
+        lengths: [Constant; 2],
+        (arm, direction): (PlaneVector<T>, PlaneVector<T>),
+        branch: PolygonBranch,
+    ) -> (PlaneVector<T>, T) {
+        let [length, inverse] = lengths.map(number::<T>);
+        let off = cross(along, known);
+        let side = dot(arm, direction) * inverse;
+        let y = self.root(length - off * off, side, branch);
+        let [u, v] = along;
+        let arm = [u * y - v * off, v * y + u * off];
+        (arm, y - dot(known, along))
+    }
+
+    /// Closes a loop of two pins and a slide opposite D, with the distances of the pins `start` along it at displacement
+    /// zero and e across it: y = ±√(L² − e²), t = D (y − i e)/L², x = y − start.
+    ///
+    /// `lengths` are `start` and e; `from` is the displacement at the position that tells the branch. Returns t and x.
+    #[inline]
+    pub fn cylinder(
+        &mut self,
+        known: PlaneVector<T>,
+        lengths: [Constant; 2],
+        from: T,
+        branch: PolygonBranch,
+    ) -> (PlaneVector<T>, T) {
+        let [start, across] = lengths.map(number::<T>);
+        let squared = dot(known, known);
+        let y = self.root(squared - across * across, from + start, branch);
+        let inverse = T::from_f64(1.0) / squared;
+        let [u, v] = known;
+        let along = [(u * y + v * across) * inverse, (v * y - u * across) * inverse];
+        (along, y - start)
+    }
+
+    /// Returns the angle from one vector to another, to 1e-5 rad, in −π … π.
+    #[inline]
+    pub fn turn(&self, from: PlaneVector<T>, to: PlaneVector<T>) -> T {
+        let (x, y) = (dot(from, to), cross(from, to));
+        let (wide, high) = (x.abs(), y.abs());
+        let t = wide.min(high) / wide.max(high);
+        let square = t * t;
+        let series = ARC_TANGENT.into_iter().rev().map(T::from_f64);
+        let series = series.reduce(|sum, c| sum * square + c);
+        let small = series.map_or(t, |series| series * t);
+        let [right, straight] = [core::f64::consts::FRAC_PI_2, core::f64::consts::PI];
+        let acute = T::select(wide.less(high), T::from_f64(right) - small, small);
+        let zero = T::from_f64(0.0);
+        let angle = T::select(x.less(zero), T::from_f64(straight) - acute, acute);
+        T::select(y.less(zero), -angle, angle)
+    }
+
+    /// Returns the angle from one vector to another, below 1e-4 rad, to rounding: atan t = t − t³/3 + t⁵/5.
+    #[inline]
+    pub fn small_turn(&self, from: PlaneVector<T>, to: PlaneVector<T>) -> T {
+        let t = cross(from, to) / dot(from, to);
+        let square = t * t;
+        let [third, fifth] = [3.0, 5.0].map(|n| T::from_f64(1.0) / T::from_f64(n));
+        t + t * square * (square * fifth - third)
+    }
+
+    /// Refuses a loop where one of its angles is no number, or so large that its rounding opens the loop.
+    #[inline]
+    pub fn check_angle(&mut self, q: T, place: usize) {
+        let (zero, step) = (T::from_f64(0.0), closed::<T>());
+        let kept = (q.abs() + step) - q.abs();
+        self.check(T::select(zero.less(kept), q * q, -step), place);
+    }
+
+    /// Returns the closed positions.
+    #[inline]
+    pub fn finish<const NQ: usize>(self, q: [T; NQ]) -> Closing<SVector<T, NQ>> {
+        let [zero, one] = [0.0, 1.0].map(T::from_f64);
+        Closing {
+            q: SVector::from(q),
+            last: T::select(zero.less(self.closes), zero, one),
+            refused: self.refused,
+        }
+    }
+}
