@@ -45,6 +45,9 @@ const CLOSED: f64 = 1e-8;
 /// The same in scalars that do not tell 1 + [`CLOSED`] from 1.
 const CLOSED_COARSELY: f64 = 1e-4;
 
+/// A number that scalars with the digits of `f64` do not add to 1.
+const MORE_DIGITS: f64 = 1e-20;
+
 /// Returns the step after which one more is exact to rounding.
 #[inline]
 fn closed<T: Scalar>() -> T {
@@ -52,6 +55,13 @@ fn closed<T: Scalar>() -> T {
     let kept = (one + fine) - one;
     let coarse = kept.less(fine * T::from_f64(0.5));
     T::select(coarse, T::from_f64(CLOSED_COARSELY), fine)
+}
+
+/// Returns whether a number is positive in every lane.
+fn all_positive<T: Scalar>(x: T) -> bool {
+    let (zero, mut refused) = (T::from_f64(0.0), T::none_refused());
+    x.checked_pivot(zero, 0, &mut refused);
+    T::succeeded(&SVector::<T, 1>::from_element(zero), refused)
 }
 
 /// Changes the dependent positions so that all loops close. `step` returns J_d⁻¹ c(q), the Newton step of the
@@ -203,6 +213,29 @@ impl<Y: StateVector> Closing<Y> {
         move_by(&mut q, dependents, &change, one);
         let last = last.max(self.last);
         Closing { q, last, refused }
+    }
+
+    /// Brings positions in closed form to the constants of `step`, which are `f64` numbers, in scalars that have more
+    /// digits: two steps of Newton's method. There they are 1e-17 apart.
+    #[inline]
+    pub fn refined<Z: StateVector<Scalar = Y::Scalar>>(
+        mut self,
+        dependents: &[Dependent],
+        step: impl Fn(&Y) -> Z,
+    ) -> Closing<Y> {
+        let [zero, one] = [0.0, 1.0].map(Y::Scalar::from_f64);
+        if !all_positive(Y::Scalar::from_parts(1.0, MORE_DIGITS) - one) {
+            return self;
+        }
+        for _ in 0..2 {
+            let mut change = step(&self.q);
+            // At a singular position there is no step.
+            for x in change.entries_mut() {
+                *x = Y::Scalar::select(x.abs().less(closed()), *x, zero);
+            }
+            move_by(&mut self.q, dependents, &change, one);
+        }
+        self
     }
 
     /// Returns the positions; where a loop does not close, the dependent ones are NaN, and those with the indices

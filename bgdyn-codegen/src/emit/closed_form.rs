@@ -1,7 +1,7 @@
 //! Emits the dependent positions of planar loops in closed form, one loop after the other.
 
 use bgdyn_runtime::Dd;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 use super::constants::size;
@@ -31,17 +31,19 @@ pub(super) fn closed_form(closed: &ClosedTree) -> Option<ClosedForm> {
     });
     let closings: Vec<TokenStream> = closings.collect();
     let function = quote! {
-        /// Returns positions with those of planar loops in closed form: one root a loop, on the branch of the positions
-        /// `branch` or, without them, of `q`; angles with the whole turns nearest to those in `q`.
+        /// Returns positions with those of planar loops in closed form, one root a loop: on the branch of the closed
+        /// positions `branch`, without them on the branch that is nearer to `q`; angles with the whole turns nearest to
+        /// those in `q`.
         fn close_polygons(
             &self,
             q: &__na::SVector<T, NQ>,
             branch: ::core::option::Option<&__na::SVector<T, NQ>>,
         ) -> __rt::closure::Closing<__na::SVector<T, NQ>> {
+            use __rt::closure::polygon as plane;
             let [mut q] = q.data.0;
-            let mut loops = __rt::closure::polygon::Polygons::new();
+            let mut loops = plane::Polygons::new();
             #(#closings)*
-            loops.finish(q)
+            loops.finish(q).refined(&DEPENDENTS, |q| self.closing_step(q))
         }
     };
     (!polygons.is_empty()).then_some(ClosedForm { function, others })
@@ -58,7 +60,7 @@ impl Angles {
     fn turned(&mut self, prefix: &str, turned: &TurnedVector) -> TokenStream {
         let vector = constant_vector(turned.vector);
         if turned.angle.is_empty() {
-            return quote! { __rt::closure::polygon::constant(#vector) };
+            return quote! { plane::constant(#vector) };
         }
         let known = self.all.iter().position(|angle| *angle == turned.angle);
         let k = known.unwrap_or_else(|| {
@@ -66,7 +68,7 @@ impl Angles {
             self.all.len() - 1
         });
         let sine = format_ident!("{prefix}{k}");
-        quote! { __rt::closure::polygon::turned(#sine, #vector) }
+        quote! { plane::turned(#sine, #vector) }
     }
 
     /// Returns the call, at the positions of this name.
@@ -120,7 +122,7 @@ impl PolygonText<'_> {
     /// Returns the branch as the run-time library has it.
     fn branch(&self) -> TokenStream {
         let (positive, place) = (self.polygon.positive, self.place());
-        quote! { __rt::closure::polygon::PolygonBranch { positive: #positive, place: #place } }
+        quote! { plane::PolygonBranch { positive: #positive, place: #place } }
     }
 
     fn place(&self) -> TokenStream {
@@ -142,12 +144,12 @@ impl PolygonText<'_> {
                 None => turned,
                 Some(joint) => {
                     let x = position(&q, joint);
-                    quote! { __rt::closure::polygon::scaled(#turned, #x) }
+                    quote! { plane::scaled(#turned, #x) }
                 }
             }
         };
         let sides: Vec<TokenStream> = self.polygon.known.iter().map(side).collect();
-        quote! { __rt::closure::polygon::sum([#(#sides),*]) }
+        quote! { plane::sum([#(#sides),*]) }
     }
 
     fn triangle(&self, arms: [&TurnedVector; 2]) -> TokenStream {
@@ -158,21 +160,19 @@ impl PolygonText<'_> {
         let (there, sines_there) = turned_vectors("f", "from", &arms);
         let [a, b] = arms.map(|arm| length(arm.vector));
         let [outer, inner] = [a + b, a - b].map(|x| x * x);
-        let lengths = [outer, inner, a * a - b * b, Dd::ONE / (a * b)].map(constant);
-        let branch = self.branch();
+        let lengths = [outer, inner, a * a - b * b].map(constant);
+        let unit = constant(Dd::ONE / (a * b));
+        let (branch, positive) = (self.branch(), self.polygon.positive);
         let turning = self.turning(&arms);
         quote! {
             #sines
             let here = [#(#here),*];
-            let there = match branch {
-                ::core::option::Option::None => here,
-                ::core::option::Option::Some(from) => {
-                    let [from] = from.data.0;
-                    #sines_there
-                    [#(#there),*]
-                }
-            };
-            let wanted = loops.triangle(#known, [#(#lengths),*], there, #branch);
+            let found = loops.triangle(#known, [#(#lengths),*], #branch);
+            let side = branch.map(|from| {
+                let [from] = from.data.0;
+                #sines_there
+                plane::is_other(plane::cross(#(#there),*), #unit, #positive)
+            });
             #turning
         }
     }
@@ -184,24 +184,22 @@ impl PolygonText<'_> {
         let sines = angles.call("k", "q");
         let (there, sines_there) = turned_vectors("f", "from", &[arm, along]);
         let a = length(arm.vector);
-        let lengths = [a * a, Dd::ONE / a].map(constant);
-        let (branch, x) = (self.branch(), position(&format_ident!("q"), slide));
+        let [square, unit] = [a * a, Dd::ONE / a].map(constant);
+        let (branch, positive) = (self.branch(), self.polygon.positive);
+        let x = position(&format_ident!("q"), slide);
         let turning = self.turning(&[arm]);
         quote! {
             #sines
             let (here, along) = ([#here], #direction);
-            let there = match branch {
-                ::core::option::Option::None => (here[0], along),
-                ::core::option::Option::Some(from) => {
-                    let [from] = from.data.0;
-                    #sines_there
-                    (#(#there),*)
-                }
-            };
-            let (arm, x) = loops.slider((#known, along), [#(#lengths),*], there, #branch);
-            let wanted = [arm];
-            #x = x;
+            let [own, opposite] = loops.slider((#known, along), #square, #branch);
+            let found = [[own.0], [opposite.0]];
+            let side = branch.map(|from| {
+                let [from] = from.data.0;
+                #sines_there
+                plane::is_other(plane::dot(#(#there),*), #unit, #positive)
+            });
             #turning
+            #x = T::select(other, opposite.1, own.1);
         }
     }
 
@@ -210,37 +208,34 @@ impl PolygonText<'_> {
         let known = self.known(&mut angles);
         let here = angles.turned("k", along);
         let sines = angles.call("k", "q");
-        let [start, across] = snapped(lengths);
-        let lengths = [start, across].map(constant);
-        let [x, from] = ["q", "from"].map(|q| position(&format_ident!("{q}"), slide));
-        let branch = self.branch();
+        let [start, across] = snapped(lengths).map(constant);
+        let [x, there] = ["q", "from"].map(|q| position(&format_ident!("{q}"), slide));
+        let (branch, positive) = (self.branch(), self.polygon.positive);
         let turning = self.turning(&[along]);
         quote! {
             #sines
             let here = [#here];
-            let there = match branch {
-                ::core::option::Option::None => #x,
-                ::core::option::Option::Some(from) => {
-                    let [from] = from.data.0;
-                    #from
-                }
-            };
-            let (along, x) = loops.cylinder(#known, [#(#lengths),*], there, #branch);
-            let wanted = [along];
-            #x = x;
+            let [own, opposite] = loops.cylinder(#known, [#start, #across], #branch);
+            let found = [[own.0], [opposite.0]];
+            let [from] = branch.map_or([q], |from| from.data.0);
+            let length = #there + plane::number(#start);
+            let side = ::core::option::Option::Some(plane::is_other(length, (1.0, 0.0), #positive));
             #turning
+            #x = T::select(other, opposite.1, own.1);
         }
     }
 
-    /// Returns the statements that turn links from the directions `here` to those `wanted`, by their dependent joints:
-    /// first nearly, then to rounding.
+    /// Returns the statements that turn links from the directions `here` to those `found` on either branch, by their
+    /// dependent joints: first nearly, then to rounding.
     fn turning(&self, links: &[&TurnedVector]) -> TokenStream {
         let count = links.len();
+        let number = size(count);
         let turns: Vec<_> = (0..count).map(|k| format_ident!("turn{k}")).collect();
-        let (places, place): (Vec<_>, _) = ((0..count).map(size).collect(), self.place());
+        let vectors: Vec<_> = (0..count).map(|k| format_ident!("to{k}")).collect();
+        let places: Vec<_> = (0..count).map(size).collect();
+        let place = self.place();
         let joints = self.turned_joints(links);
-        let moved = joints.iter().map(|(joint, terms)| {
-            let x = position(&format_ident!("q"), *joint);
+        let changes = joints.iter().map(|(_, terms)| {
             let terms = terms.iter().map(|&(k, negative)| {
                 let turn = &turns[k];
                 if negative {
@@ -249,22 +244,37 @@ impl PolygonText<'_> {
                     quote! { + #turn }
                 }
             });
-            quote! { #x = #x #(#terms)*; }
+            let sum: TokenStream = terms.collect();
+            plain_sum(sum)
         });
-        let moved: Vec<TokenStream> = moved.collect();
-        let checked = joints.iter().map(|(joint, _)| {
-            let x = position(&format_ident!("q"), *joint);
-            quote! { loops.check_angle(#x, #place); }
-        });
+        let changes: Vec<TokenStream> = changes.collect();
+        let own: Vec<TokenStream> = (joints.iter())
+            .map(|(joint, _)| position(&format_ident!("q"), *joint))
+            .collect();
         let (near, sines) = turned_vectors("n", "q", links);
         quote! {
-            #(let #turns = loops.turn(here[#places], wanted[#places]);)*
-            #(#moved)*
-            #sines
-            let here = [#(#near),*];
-            #(let #turns = loops.small_turn(here[#places], wanted[#places]);)*
-            #(#moved)*
-            #(#checked)*
+            let moved = |[#(#turns),*]: [T; #number]| [#(#changes),*];
+            let turns = |[#(#vectors),*]: [_; #number]| [#(plane::turn(here[#places], #vectors)),*];
+            let (other, turns) = match side {
+                ::core::option::Option::Some(other) => {
+                    (other, turns([#(plane::chosen(other, [found[0][#places], found[1][#places]])),*]))
+                }
+                ::core::option::Option::None => {
+                    let turns = found.map(turns);
+                    let other = plane::is_nearer(turns.map(moved));
+                    (other, plane::chosen(other, turns))
+                }
+            };
+            #(#own = #own + moved(turns)[#places];)*
+            if !plane::are_exact(turns) {
+                #sines
+                let here = [#(#near),*];
+                let found = [#(plane::chosen(other, [found[0][#places], found[1][#places]])),*];
+                let left = [#(plane::small_turn(here[#places], found[#places])),*];
+                let turns = plane::rest(turns, left);
+                #(#own = #own + moved(turns)[#places];)*
+            }
+            #(loops.check_angle(#own, #place);)*
         }
     }
 
@@ -315,6 +325,16 @@ fn turned_vectors(
 fn position(q: &Ident, joint: PlaneJoint) -> TokenStream {
     let p = size(joint.position.0);
     quote! { #q[#p] }
+}
+
+/// Returns a sum without a plus sign before its first term.
+fn plain_sum(sum: TokenStream) -> TokenStream {
+    let mut tokens = sum.into_iter().peekable();
+    let plus = |token: &TokenTree| matches!(token, TokenTree::Punct(sign) if sign.as_char() == '+');
+    if tokens.peek().is_some_and(plus) {
+        tokens.next();
+    }
+    tokens.collect()
 }
 
 /// Returns a number in two words.

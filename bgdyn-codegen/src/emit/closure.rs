@@ -78,12 +78,12 @@ fn closing_docs(form: Option<&ClosedForm>) -> &'static [&'static str] {
             " steps of at most 0.5 rad or m, from the dependent positions in `q`.",
         ],
         Some(form) if form.others.is_empty() => &[
-            " Returns `q` with the dependent positions changed so that all loops close: in closed form, on the branch of",
-            " the dependent positions in `q`, angles with the whole turns nearest to those in `q`.",
+            " Returns `q` with the dependent positions changed so that all loops close: in closed form, on the branch that",
+            " is nearer to the dependent positions in `q`, angles with the whole turns nearest to those in `q`.",
         ],
         Some(_) => &[
             " Returns `q` with the dependent positions changed so that all loops close: planar loops in closed form, on the",
-            " branch of the dependent positions in `q`, angles with the whole turns nearest to those in `q`; the others by",
+            " branch that is nearer to those in `q`, angles with the whole turns nearest to those in `q`; the others by",
             " Newton's method, at most 11 steps of at most 0.5 rad or m.",
         ],
     }

@@ -5,7 +5,7 @@
 
 use nalgebra::SVector;
 
-use super::{Closing, closed};
+use super::{Closing, all_positive, closed};
 use crate::Scalar;
 
 /// A constant in two words.
@@ -21,7 +21,13 @@ const FLAT: f64 = 1e-2;
 /// Coefficients of atan x / x in powers of x² for x in 0 … 1, to 1e-5 (Abramowitz and Stegun 1964, 4.4.49).
 const ARC_TANGENT: [f64; 5] = [0.999_866, -0.330_299_5, 0.180_141, -0.085_133, 0.020_835_1];
 
-fn number<T: Scalar>((hi, lo): Constant) -> T {
+/// The tangent below which t − t³/3 + t⁵/5 is atan t to rounding, in scalars with the digits of `f64`; in those with
+/// fewer.
+const NEAR: [f64; 2] = [5e-3, 0.05];
+
+/// Returns a constant in the scalar.
+#[inline]
+pub fn number<T: Scalar>((hi, lo): Constant) -> T {
     T::from_parts(hi, lo)
 }
 
@@ -56,12 +62,104 @@ pub fn sum<T: Scalar, const N: usize>(all: [PlaneVector<T>; N]) -> PlaneVector<T
     all.into_iter().reduce(plus).unwrap_or([zero; 2])
 }
 
-fn dot<T: Scalar>([x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>) -> T {
+/// Returns the scalar product of two vectors.
+#[inline]
+pub fn dot<T: Scalar>([x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>) -> T {
     x * u + y * v
 }
 
-fn cross<T: Scalar>([x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>) -> T {
+/// Returns the component of a vector product along the axis of the plane.
+#[inline]
+pub fn cross<T: Scalar>([x, y]: PlaneVector<T>, [u, v]: PlaneVector<T>) -> T {
     x * v - y * u
+}
+
+/// Returns whether a sine or cosine, in these units, has the sign of the other branch than that of the mechanism, where
+/// it is `positive`. Where it is too small to tell, it has not.
+#[inline]
+pub fn is_other<T: Scalar>(x: T, unit: Constant, positive: bool) -> T::Mask {
+    let flat = closed::<T>() * T::from_f64(FLAT);
+    let x = x * number(unit);
+    match positive {
+        true => x.less(-flat),
+        false => flat.less(x),
+    }
+}
+
+/// Returns whether the second one of two changes of positions is the shorter one.
+#[inline]
+pub fn is_nearer<T: Scalar, const N: usize>(changes: [[T; N]; 2]) -> T::Mask {
+    let zero = T::from_f64(0.0);
+    let [own, other] = changes.map(|x| x.into_iter().fold(zero, |sum, x| sum + x * x));
+    other.less(own)
+}
+
+/// Returns the second numbers where the mask is true, else the first ones.
+#[inline]
+pub fn chosen<T: Scalar, const N: usize>(other: T::Mask, [a, b]: [[T; N]; 2]) -> [T; N] {
+    let mut found = a;
+    for (x, y) in found.iter_mut().zip(b) {
+        *x = T::select(other, y, *x);
+    }
+    found
+}
+
+/// Returns the angle from one vector to another in −π … π: below [`NEAR`] to rounding, beyond to 1e-5 rad.
+#[inline]
+pub fn turn<T: Scalar>(from: PlaneVector<T>, to: PlaneVector<T>) -> T {
+    let (x, y) = (dot(from, to), cross(from, to));
+    let (wide, high) = (x.abs(), y.abs());
+    let t = wide.min(high) / wide.max(high);
+    let square = t * t;
+    let series = ARC_TANGENT.into_iter().rev().map(T::from_f64);
+    let series = series.reduce(|sum, c| sum * square + c);
+    let small = series.map_or(t, |series| series * t);
+    let [right, straight] = [core::f64::consts::FRAC_PI_2, core::f64::consts::PI];
+    let small = T::select(t.less(near()), arc_tangent(t), small);
+    let acute = T::select(wide.less(high), T::from_f64(right) - small, small);
+    let zero = T::from_f64(0.0);
+    let angle = T::select(x.less(zero), T::from_f64(straight) - acute, acute);
+    T::select(y.less(zero), -angle, angle)
+}
+
+/// Returns the angle from one vector to another, below [`NEAR`], to rounding.
+#[inline]
+pub fn small_turn<T: Scalar>(from: PlaneVector<T>, to: PlaneVector<T>) -> T {
+    arc_tangent(cross(from, to) / dot(from, to))
+}
+
+/// Returns the arc tangent of a number below [`NEAR`]: t − t³/3 + t⁵/5.
+#[inline]
+fn arc_tangent<T: Scalar>(t: T) -> T {
+    let square = t * t;
+    let [third, fifth] = [1.0 / 3.0, 1.0 / 5.0].map(T::from_f64);
+    t + t * square * (square * fifth - third)
+}
+
+/// Returns a positive number where all these angles are [`turn`]s to rounding.
+#[inline]
+fn exactness<T: Scalar, const N: usize>(turns: [T; N]) -> T {
+    let zero = T::from_f64(0.0);
+    let most = turns.into_iter().fold(zero, |most, x| most.max(x.abs()));
+    near::<T>() * T::from_f64(0.9) - most
+}
+
+/// Returns whether all these angles, in all lanes, are [`turn`]s to rounding.
+#[inline]
+pub fn are_exact<T: Scalar, const N: usize>(turns: [T; N]) -> bool {
+    all_positive(exactness(turns))
+}
+
+/// Returns what is left to turn after `turns`: nothing in lanes in which they are exact.
+#[inline]
+pub fn rest<T: Scalar, const N: usize>(turns: [T; N], left: [T; N]) -> [T; N] {
+    let zero = T::from_f64(0.0);
+    chosen(zero.less(exactness(turns)), [left, [zero; N]])
+}
+
+fn near<T: Scalar>() -> T {
+    let [fine, coarse] = NEAR.map(T::from_f64);
+    T::select(closed::<T>().less(T::from_f64(1e-6)), fine, coarse)
 }
 
 /// Loops that are closed one after the other.
@@ -108,112 +206,83 @@ impl<T: Scalar> Polygons<T> {
         self.closes = T::select(zero.less(holds), self.closes, zero);
     }
 
-    /// Returns the root of a number with the sign of `side`, a sine or cosine; with that of the mechanism where it is
-    /// too small to tell. The loop is out of reach where the number is negative.
+    /// Returns the root of a number, with the sign of the branch of the mechanism. The loop is out of reach where the
+    /// number is negative.
     #[inline]
-    fn root(&mut self, square: T, side: T, branch: PolygonBranch) -> T {
+    fn root(&mut self, square: T, branch: PolygonBranch) -> T {
         let zero = T::from_f64(0.0);
         self.check(square, branch.place);
         let root = T::select(square.less(zero), zero, square).sqrt();
-        let flat = closed::<T>() * T::from_f64(FLAT);
-        match branch.positive {
-            true => T::select(side.less(-flat), -root, root),
-            false => T::select(flat.less(side), root, -root),
-        }
+        if branch.positive { root } else { -root }
     }
 
     /// Closes a loop of three pins, with the rigid arcs r₁ from the beginning of D and r₂ from its end to the third
     /// pin: L² = D·D, 2H = ±√[((a + b)² − L²)(L² − (a − b)²)], r₁ = ((L² + a² − b²) D + 2H D⊥)/2L², r₂ = r₁ − D.
     ///
-    /// `lengths` are a² + b² + 2ab, a² + b² − 2ab, a² − b² and 1/ab; `arms` are r₁ and r₂ at the position that tells
-    /// the branch. Returns r₁ and r₂.
+    /// `lengths` are (a + b)², (a − b)² and a² − b². Returns r₁ and r₂ on the branch of the mechanism, and on the other
+    /// one.
     #[inline]
     pub fn triangle(
         &mut self,
         known: PlaneVector<T>,
-        lengths: [Constant; 4],
-        arms: [PlaneVector<T>; 2],
+        lengths: [Constant; 3],
         branch: PolygonBranch,
-    ) -> [PlaneVector<T>; 2] {
-        let [outer, inner, difference, inverse] = lengths.map(number::<T>);
+    ) -> [[PlaneVector<T>; 2]; 2] {
+        let [outer, inner, difference] = lengths.map(number::<T>);
         let squared = dot(known, known);
-        let [first, second] = arms;
-        let side = cross(first, second) * inverse;
-        let root = self.root((outer - squared) * (squared - inner), side, branch);
+        let root = self.root((outer - squared) * (squared - inner), branch);
         let half = T::from_f64(0.5) / squared;
         let (along, across) = ((squared + difference) * half, root * half);
         let [x, y] = known;
-        let first = [x * along - y * across, y * along + x * across];
-        [first, [first[0] - x, first[1] - y]]
+        [across, -across].map(|across| {
+            let first = [x * along - y * across, y * along + x * across];
+            [first, [first[0] - x, first[1] - y]]
+        })
     }
 
     /// Closes a loop of two pins and a slide beside D, in the direction t: e = t × D, y = ±√(a² − e²),
     /// r = y t + e t⊥, x = y − D·t.
     ///
-    /// `lengths` are a² and 1/a; `arm` and `direction` are r and t at the position that tells the branch. Returns r and
-    /// x.
+    /// Returns r and x on the branch of the mechanism, and on the other one.
     #[inline]
     pub fn slider(
         &mut self,
         (known, along): (PlaneVector<T>, PlaneVector<T>),
-        lengths: [Constant; 2],
-        (arm, direction): (PlaneVector<T>, PlaneVector<T>),
+        square_of_arm: Constant,
         branch: PolygonBranch,
-    ) -> (PlaneVector<T>, T) {
-        let [length, inverse] = lengths.map(number::<T>);
+    ) -> [(PlaneVector<T>, T); 2] {
         let off = cross(along, known);
-        let side = dot(arm, direction) * inverse;
-        let y = self.root(length - off * off, side, branch);
+        let y = self.root(number::<T>(square_of_arm) - off * off, branch);
         let [u, v] = along;
-        let arm = [u * y - v * off, v * y + u * off];
-        (arm, y - dot(known, along))
+        [y, -y].map(|y| {
+            let arm = [u * y - v * off, v * y + u * off];
+            (arm, y - dot(known, along))
+        })
     }
 
     /// Closes a loop of two pins and a slide opposite D, with the distances of the pins `start` along it at displacement
     /// zero and e across it: y = ±√(L² − e²), t = D (y − i e)/L², x = y − start.
     ///
-    /// `lengths` are `start` and e; `from` is the displacement at the position that tells the branch. Returns t and x.
+    /// `lengths` are `start` and e. Returns t and x on the branch of the mechanism, and on the other one.
     #[inline]
     pub fn cylinder(
         &mut self,
         known: PlaneVector<T>,
         lengths: [Constant; 2],
-        from: T,
         branch: PolygonBranch,
-    ) -> (PlaneVector<T>, T) {
+    ) -> [(PlaneVector<T>, T); 2] {
         let [start, across] = lengths.map(number::<T>);
         let squared = dot(known, known);
-        let y = self.root(squared - across * across, from + start, branch);
+        let y = self.root(squared - across * across, branch);
         let inverse = T::from_f64(1.0) / squared;
         let [u, v] = known;
-        let along = [(u * y + v * across) * inverse, (v * y - u * across) * inverse];
-        (along, y - start)
-    }
-
-    /// Returns the angle from one vector to another, to 1e-5 rad, in −π … π.
-    #[inline]
-    pub fn turn(&self, from: PlaneVector<T>, to: PlaneVector<T>) -> T {
-        let (x, y) = (dot(from, to), cross(from, to));
-        let (wide, high) = (x.abs(), y.abs());
-        let t = wide.min(high) / wide.max(high);
-        let square = t * t;
-        let series = ARC_TANGENT.into_iter().rev().map(T::from_f64);
-        let series = series.reduce(|sum, c| sum * square + c);
-        let small = series.map_or(t, |series| series * t);
-        let [right, straight] = [core::f64::consts::FRAC_PI_2, core::f64::consts::PI];
-        let acute = T::select(wide.less(high), T::from_f64(right) - small, small);
-        let zero = T::from_f64(0.0);
-        let angle = T::select(x.less(zero), T::from_f64(straight) - acute, acute);
-        T::select(y.less(zero), -angle, angle)
-    }
-
-    /// Returns the angle from one vector to another, below 1e-4 rad, to rounding: atan t = t − t³/3 + t⁵/5.
-    #[inline]
-    pub fn small_turn(&self, from: PlaneVector<T>, to: PlaneVector<T>) -> T {
-        let t = cross(from, to) / dot(from, to);
-        let square = t * t;
-        let [third, fifth] = [3.0, 5.0].map(|n| T::from_f64(1.0) / T::from_f64(n));
-        t + t * square * (square * fifth - third)
+        [y, -y].map(|y| {
+            let along = [
+                (u * y + v * across) * inverse,
+                (v * y - u * across) * inverse,
+            ];
+            (along, y - start)
+        })
     }
 
     /// Refuses a loop where one of its angles is no number, or so large that its rounding opens the loop.
