@@ -87,7 +87,10 @@ closes! {
 macro_rules! for_each {
     ($check:ident) => {
         $check(&FiveBar::<f64>::default(), &FiveBar::<Dd>::default());
-        $check(&SliderCrank::<f64>::default(), &SliderCrank::<Dd>::default());
+        $check(
+            &SliderCrank::<f64>::default(),
+            &SliderCrank::<Dd>::default(),
+        );
         $check(
             &SliderCrankNearSingular::<f64>::default(),
             &SliderCrankNearSingular::<Dd>::default(),
@@ -110,7 +113,9 @@ fn open<M: Closes<Dd, NQ, NV>, const NQ: usize, const NV: usize>(
     q: &SVector<f64, NQ>,
 ) -> f64 {
     let rows = exact.residual(&exactly(q));
-    let most = rows.iter().fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
+    let most = rows
+        .iter()
+        .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
     most / f64::EPSILON
 }
 
@@ -160,7 +165,10 @@ where
         let steep = steep.fold(1.0, |most: f64, s| most.max(s.abs()));
         for (p, (&found, wanted)) in found.iter().zip(reference.iter()).enumerate() {
             let off = (Dd::from_f64(found) - *wanted).to_f64().abs();
-            assert!(off < 64.0 * f64::EPSILON * steep, "{p}: {off:e}, {steep}, at {q}");
+            assert!(
+                off < 64.0 * f64::EPSILON * steep,
+                "{p}: {off:e}, {steep}, at {q}"
+            );
             if M::dependents().iter().all(|d| d.position != p) {
                 assert_eq!(found.to_bits(), q[p].to_bits());
             }
@@ -326,7 +334,9 @@ fn the_end_of_the_reach_is_exact() {
                         panic!("refused {d:e} inside");
                     };
                     let found = exact.residual(&found.map(|x| Dd::from_f64(to_f64(x))));
-                    let most = found.iter().fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
+                    let most = found
+                        .iter()
+                        .fold(0.0, |most: f64, x| most.max(x.to_f64().abs()));
                     assert!(most < 4.0 * ulp, "{most:e}");
                 }
             }

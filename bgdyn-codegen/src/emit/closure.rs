@@ -6,11 +6,11 @@
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use super::closed_form::{ClosedForm, closed_form};
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
 use super::joint_segments::{JointSegment, joint_by_joint, segments};
+use super::polygon_closing::{PolygonClosing, polygon_closing};
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::method::Method;
 
@@ -44,7 +44,7 @@ pub(super) fn closure_access(
         /// Positions of the independent joints in loops.
         const INDEPENDENT_POSITIONS: [usize; #nf] = [#(#free),*];
     };
-    let form = closed_form(closed);
+    let form = polygon_closing(closed);
     let close = present.contains(&Method::ClosingStep).then(|| {
         let docs = closing_docs(form.as_ref());
         let closing = match &form {
@@ -71,7 +71,7 @@ pub(super) fn closure_access(
 }
 
 /// Returns the lines about the way in which `close` closes.
-fn closing_docs(form: Option<&ClosedForm>) -> &'static [&'static str] {
+fn closing_docs(form: Option<&PolygonClosing>) -> &'static [&'static str] {
     match form {
         None => &[
             " Returns `q` with the dependent positions changed so that all loops close: Newton's method, at most 11",
@@ -94,7 +94,11 @@ fn none() -> TokenStream {
 }
 
 /// Returns the closing of positions, and of the branch that they are on.
-fn in_closed_form(closed: &ClosedTree, form: &ClosedForm, arguments: &[TokenStream; 2]) -> TokenStream {
+fn in_closed_form(
+    closed: &ClosedTree,
+    form: &PolygonClosing,
+    arguments: &[TokenStream; 2],
+) -> TokenStream {
     let [q, branch] = arguments;
     let polygons = quote! { self.close_polygons(#q, #branch) };
     if form.others.is_empty() {
@@ -130,7 +134,7 @@ pub(super) fn position_body(
         }
         "integrate" => {
             let body = joint_by_joint(&of_tree, name, &tree_arguments, true);
-            let Some(form) = closed_form(closed) else {
+            let Some(form) = polygon_closing(closed) else {
                 return quote! {
                     let moved = self.tree_velocity(q, dv);
                     let q = { #body };

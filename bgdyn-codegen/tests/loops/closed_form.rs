@@ -343,16 +343,3 @@ fn digits_are_not_lost_against_elimination() {
         }
     }
 }
-#[test]
-fn tmp_print() {
-    std::fs::create_dir_all("/tmp/dyads").unwrap();
-    for (k, kind) in KINDS.into_iter().enumerate() {
-        for seed in 1..4u64 {
-            let around = Surroundings { root: ["fixed", "floating", "continuous"][(k + seed as usize) % 3], gravity: true, parameters: false, exchanged: seed % 2 == 0 };
-            let text = draw(kind, 100 + 10 * k as u64 + seed, &around);
-            let (m, _) = bgdyn_codegen::read(&text, Some("x"));
-            let n = m.and_then(|m| m.closure().map(|c| (polygons(c).map(|p| p.len()), c.loops.len())));
-            std::fs::write(format!("/tmp/dyads/{kind}_{seed}.yaml"), format!("# {n:?}\n{text}")).unwrap();
-        }
-    }
-}

@@ -41,7 +41,11 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let source = out.join(format!("loop_{name}.rs"));
         let own = struct_ident(model.mechanism.name());
         fs::write(&source, source_text(module(&model, &place))).unwrap();
-        writeln!(includes, "include!({source:?});\nclosed!({name}, {own}, {whole});").unwrap();
+        writeln!(
+            includes,
+            "include!({source:?});\nclosed!({name}, {own}, {whole});"
+        )
+        .unwrap();
         writeln!(
             models,
             "{name:?} => Some(Box::new(Erased::<_, {{ {name}::NQ }}, {{ {name}::NV }}>({name}::{own}::<T>::default()))),"
