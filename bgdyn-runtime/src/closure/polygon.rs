@@ -108,18 +108,21 @@ pub fn chosen<T: Scalar, const N: usize>(other: T::Mask, [a, b]: [[T; N]; 2]) ->
 #[inline]
 pub fn turn<T: Scalar>(from: PlaneVector<T>, to: PlaneVector<T>) -> T {
     let (x, y) = (dot(from, to), cross(from, to));
-    let (wide, high) = (x.abs(), y.abs());
-    let t = wide.min(high) / wide.max(high);
+    let zero = T::from_f64(0.0);
+    let steep = x.abs().less(y.abs());
+    // Without absolute values: these have no derivatives at zero.
+    let t = T::select(steep, x, y) / T::select(steep, y, x);
     let square = t * t;
     let series = ARC_TANGENT.into_iter().rev().map(T::from_f64);
     let series = series.reduce(|sum, c| sum * square + c);
-    let small = series.map_or(t, |series| series * t);
-    let [right, straight] = [core::f64::consts::FRAC_PI_2, core::f64::consts::PI];
-    let small = T::select(t.less(near()), arc_tangent(t), small);
-    let acute = T::select(wide.less(high), T::from_f64(right) - small, small);
-    let zero = T::from_f64(0.0);
-    let angle = T::select(x.less(zero), T::from_f64(straight) - acute, acute);
-    T::select(y.less(zero), -angle, angle)
+    let rough = series.map_or(t, |series| series * t);
+    let arc = T::select(t.abs().less(near()), arc_tangent(t), rough);
+    let [right, straight] = [core::f64::consts::FRAC_PI_2, core::f64::consts::PI].map(|angle| {
+        let angle = T::from_f64(angle);
+        T::select(y.less(zero), -angle, angle)
+    });
+    let back = T::select(x.less(zero), straight, zero);
+    T::select(steep, right - arc, arc + back)
 }
 
 /// Returns the angle from one vector to another, below [`NEAR`], to rounding.
