@@ -7,6 +7,7 @@ use nalgebra::SVector;
 
 use super::{Closing, all_positive, closed};
 use crate::Scalar;
+use crate::singular::zero_if_finite;
 
 /// A constant in two words.
 pub type Constant = (f64, f64);
@@ -204,7 +205,7 @@ impl<T: Scalar> Polygons<T> {
     fn check(&mut self, x: T, place: usize) {
         let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
         // 1, −1 or NaN.
-        let holds = T::select(x.less(zero), -one, one + (x - x));
+        let holds = T::select(x.less(zero), -one, one + zero_if_finite(x));
         holds.checked_pivot(zero, place, &mut self.refused);
         self.closes = T::select(zero.less(holds), self.closes, zero);
     }
