@@ -1,6 +1,8 @@
-//! Newton's method for the dependent positions of kinematic loops, and ways along velocities that constraints allow.
+//! The dependent positions of kinematic loops by Newton's method or in closed form, and ways along velocities that
+//! constraints allow.
 
 mod assembly;
+pub mod polygon;
 
 use nalgebra::SVector;
 
@@ -43,6 +45,9 @@ const CLOSED: f64 = 1e-8;
 /// The same in scalars that do not tell 1 + [`CLOSED`] from 1.
 const CLOSED_COARSELY: f64 = 1e-4;
 
+/// A number that scalars with the digits of `f64` do not add to 1.
+const MORE_DIGITS: f64 = 1e-20;
+
 /// Returns the step after which one more is exact to rounding.
 #[inline]
 fn closed<T: Scalar>() -> T {
@@ -50,6 +55,13 @@ fn closed<T: Scalar>() -> T {
     let kept = (one + fine) - one;
     let coarse = kept.less(fine * T::from_f64(0.5));
     T::select(coarse, T::from_f64(CLOSED_COARSELY), fine)
+}
+
+/// Returns whether a number is positive in every lane.
+fn all_positive<T: Scalar>(x: T) -> bool {
+    let (zero, mut refused) = (T::from_f64(0.0), T::none_refused());
+    x.checked_pivot(zero, 0, &mut refused);
+    T::succeeded(&SVector::<T, 1>::from_element(zero), refused)
 }
 
 /// Changes the dependent positions so that all loops close. `step` returns J_d⁻¹ c(q), the Newton step of the
@@ -86,27 +98,17 @@ pub fn close_state<T: Scalar, const N: usize, const NQ: usize, const M: usize>(
 /// Does the same as [`close`] for vectors of any kind; the loops have the indices from `first` on.
 #[inline]
 pub fn close_from<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
-    mut q: Y,
+    q: Y,
     dependents: &[Dependent],
     first: usize,
     step: impl Fn(&Y) -> Z,
 ) -> Closing<Y> {
-    let number = <Y::Scalar as Scalar>::from_f64;
-    let (zero, one) = (number(0.0), number(1.0));
-    let (mut refused, mut last) = (Y::Scalar::none_refused(), zero);
-    for _ in 0..STEPS {
-        let change = step(&q);
-        (last, refused) = largest(&change, dependents, first);
-        let large = number(LARGEST).less(last);
-        let scale = Y::Scalar::select(large, number(LARGEST) / last, one);
-        move_by(&mut q, dependents, &change, scale);
-        if Y::Scalar::succeeded(&SVector::<Y::Scalar, 1>::from_element(zero), refused) {
-            break;
-        }
-    }
-    let change = step(&q);
-    move_by(&mut q, dependents, &change, one);
-    Closing { q, last, refused }
+    let before = Closing {
+        q,
+        last: Y::Scalar::from_f64(0.0),
+        refused: Y::Scalar::none_refused(),
+    };
+    before.then(dependents, first, step)
 }
 
 /// Changes positions so that wheels touch and loops close, where joints of several degrees of freedom are among those
@@ -123,7 +125,7 @@ pub fn close_along<T: Scalar, const NQ: usize, const NT: usize>(
     let (mut refused, mut last) = (T::none_refused(), zero);
     for _ in 0..STEPS {
         let change = step(&q);
-        (last, refused) = largest(&change, dependents, NQ);
+        (last, refused) = largest(&change, dependents, NQ, T::none_refused());
         let large = T::from_f64(LARGEST).less(last);
         let scale = T::select(large, T::from_f64(LARGEST) / last, one);
         q = moved(&q, &change.map(|x| -(x * scale)));
@@ -137,14 +139,15 @@ pub fn close_along<T: Scalar, const NQ: usize, const NT: usize>(
 }
 
 /// Returns the largest step of the dependent velocities, and the first loop with one that is not small, at `first` +
-/// its index.
+/// its index, unless one is `refused` before.
 fn largest<Z: StateVector>(
     change: &Z,
     dependents: &[Dependent],
     first: usize,
+    mut refused: <Z::Scalar as Scalar>::Refused,
 ) -> (Z::Scalar, <Z::Scalar as Scalar>::Refused) {
     let zero = Z::Scalar::from_f64(0.0);
-    let (mut last, mut refused) = (zero, Z::Scalar::none_refused());
+    let mut last = zero;
     for d in dependents {
         if let Some(&x) = change.entries().get(d.velocity) {
             last = last.max(x.abs());
@@ -185,6 +188,56 @@ impl<T: Scalar, const NQ: usize> Closing<SVector<T, NQ>> {
 }
 
 impl<Y: StateVector> Closing<Y> {
+    /// Closes the loops that are left as [`close_from`] does; `dependents` are theirs.
+    #[inline]
+    pub fn then<Z: StateVector<Scalar = Y::Scalar>>(
+        self,
+        dependents: &[Dependent],
+        first: usize,
+        step: impl Fn(&Y) -> Z,
+    ) -> Closing<Y> {
+        let number = <Y::Scalar as Scalar>::from_f64;
+        let (zero, one) = (number(0.0), number(1.0));
+        let (mut q, mut refused, mut last) = (self.q, self.refused, self.last);
+        for _ in 0..STEPS {
+            let change = step(&q);
+            (last, refused) = largest(&change, dependents, first, self.refused);
+            let large = number(LARGEST).less(last);
+            let scale = Y::Scalar::select(large, number(LARGEST) / last, one);
+            move_by(&mut q, dependents, &change, scale);
+            if Y::Scalar::succeeded(&SVector::<Y::Scalar, 1>::from_element(zero), refused) {
+                break;
+            }
+        }
+        let change = step(&q);
+        move_by(&mut q, dependents, &change, one);
+        let last = last.max(self.last);
+        Closing { q, last, refused }
+    }
+
+    /// Brings positions in closed form to the constants of `step`, which are `f64` numbers, in scalars that have more
+    /// digits: two steps of Newton's method. There they are 1e-17 apart.
+    #[inline]
+    pub fn refined<Z: StateVector<Scalar = Y::Scalar>>(
+        mut self,
+        dependents: &[Dependent],
+        step: impl Fn(&Y) -> Z,
+    ) -> Closing<Y> {
+        let [zero, one] = [0.0, 1.0].map(Y::Scalar::from_f64);
+        if !all_positive(Y::Scalar::from_parts(1.0, MORE_DIGITS) - one) {
+            return self;
+        }
+        for _ in 0..2 {
+            let mut change = step(&self.q);
+            // At a singular position there is no step.
+            for x in change.entries_mut() {
+                *x = Y::Scalar::select(x.abs().less(closed()), *x, zero);
+            }
+            move_by(&mut self.q, dependents, &change, one);
+        }
+        self
+    }
+
     /// Returns the positions; where a loop does not close, the dependent ones are NaN, and those with the indices
     /// `others`: functions that read no dependent position shall not take them for closed ones either.
     #[inline]

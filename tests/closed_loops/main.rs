@@ -1,5 +1,6 @@
 //! Mechanisms with loops in compiled code, in every scalar: closing, integration, laws, motions, errors.
 
+mod closing;
 mod laws;
 mod motions;
 mod reach;
@@ -10,6 +11,8 @@ bgdyn::bgdyn!("../../specs/loops/slider_crank.yaml");
 bgdyn::bgdyn!("../../specs/loops/slider_crank_near_singular.yaml");
 bgdyn::bgdyn!("../../specs/loops/delta_robot.yaml");
 bgdyn::bgdyn!("excavator_bucket.yaml");
+bgdyn::bgdyn!("linkages.yaml");
+bgdyn::bgdyn!("short_rod.yaml", module = test_rod);
 bgdyn::bgdyn!("andrews_run.scene.yaml");
 bgdyn::bgdyn!("crank_run.scene.yaml");
 bgdyn::bgdyn!("five_bar_run.scene.yaml");

@@ -10,6 +10,7 @@ use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
 use super::joint_segments::{JointSegment, joint_by_joint, segments};
+use super::polygon_closing::{PolygonClosing, polygon_closing};
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::method::Method;
 
@@ -43,10 +44,17 @@ pub(super) fn closure_access(
         /// Positions of the independent joints in loops.
         const INDEPENDENT_POSITIONS: [usize; #nf] = [#(#free),*];
     };
+    let form = polygon_closing(closed);
     let close = present.contains(&Method::ClosingStep).then(|| {
+        let docs = closing_docs(form.as_ref());
+        let closing = match &form {
+            None => {
+                quote! { __rt::closure::close(*q, &DEPENDENTS, |q| self.closing_step(q)) }
+            }
+            Some(form) => in_closed_form(closed, form, &[quote! { q }, none()]),
+        };
         quote! {
-            /// Returns `q` with the dependent positions changed so that all loops close: Newton's method, at most 11
-            /// steps of at most 0.5 rad or m, from the dependent positions in `q`.
+            #(#[doc = #docs])*
             ///
             /// # Errors
             /// Names the first loop that does not close: it is out of reach, or at a singular position.
@@ -54,11 +62,50 @@ pub(super) fn closure_access(
                 &self,
                 q: &__na::SVector<T, NQ>,
             ) -> ::core::result::Result<__na::SVector<T, NQ>, T::Singular<NQ>> {
-                __rt::closure::close(*q, &DEPENDENTS, |q| self.closing_step(q)).finish(&CLOSING_NAMES)
+                #closing.finish(&CLOSING_NAMES)
             }
         }
     });
-    (constants, quote! { #close })
+    let function = form.map(|form| form.function);
+    (constants, quote! { #close #function })
+}
+
+/// Returns the lines about the way in which `close` closes.
+fn closing_docs(form: Option<&PolygonClosing>) -> &'static [&'static str] {
+    match form {
+        None => &[
+            " Returns `q` with the dependent positions changed so that all loops close: Newton's method, at most 11",
+            " steps of at most 0.5 rad or m, from the dependent positions in `q`.",
+        ],
+        Some(form) if form.others.is_empty() => &[
+            " Returns `q` with the dependent positions changed so that all loops close: in closed form, on the branch that",
+            " is nearer to the dependent positions in `q`, angles with the whole turns nearest to those in `q`.",
+        ],
+        Some(_) => &[
+            " Returns `q` with the dependent positions changed so that all loops close: planar loops in closed form, on the",
+            " branch that is nearer to those in `q`, angles with the whole turns nearest to those in `q`; the others by",
+            " Newton's method, at most 11 steps of at most 0.5 rad or m.",
+        ],
+    }
+}
+
+fn none() -> TokenStream {
+    quote! { ::core::option::Option::None }
+}
+
+/// Returns the closing of positions, and of the branch that they are on.
+fn in_closed_form(
+    closed: &ClosedTree,
+    form: &PolygonClosing,
+    arguments: &[TokenStream; 2],
+) -> TokenStream {
+    let [q, branch] = arguments;
+    let polygons = quote! { self.close_polygons(#q, #branch) };
+    if form.others.is_empty() {
+        return polygons;
+    }
+    let others = form.others.iter().map(|&j| dependent(closed, j));
+    quote! { #polygons.then(&[#(#others),*], NQ, |q| self.closing_step(q)) }
 }
 
 /// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint; the arguments are
@@ -87,11 +134,20 @@ pub(super) fn position_body(
         }
         "integrate" => {
             let body = joint_by_joint(&of_tree, name, &tree_arguments, true);
+            let Some(form) = polygon_closing(closed) else {
+                return quote! {
+                    let moved = self.tree_velocity(q, dv);
+                    let q = { #body };
+                    __rt::closure::close(q, &DEPENDENTS, |q| self.closing_step(q))
+                        .or_nan(&DEPENDENTS, &INDEPENDENT_POSITIONS)
+                };
+            };
+            let branch = quote! { ::core::option::Option::Some(q) };
+            let closing = in_closed_form(closed, &form, &[quote! { &moved }, branch]);
             quote! {
                 let moved = self.tree_velocity(q, dv);
-                let q = { #body };
-                __rt::closure::close(q, &DEPENDENTS, |q| self.closing_step(q))
-                    .or_nan(&DEPENDENTS, &INDEPENDENT_POSITIONS)
+                let moved = { #body };
+                #closing.or_nan(&DEPENDENTS, &INDEPENDENT_POSITIONS)
             }
         }
         "sample" => {

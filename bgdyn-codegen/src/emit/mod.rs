@@ -21,6 +21,7 @@ mod named_constants;
 mod names;
 mod order;
 mod output_options;
+mod polygon_closing;
 mod prescribed;
 mod reactions;
 mod scene;

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::{Closing, LARGEST};
+use super::{Closing, LARGEST, all_positive};
 use crate::Scalar;
 use crate::singular::BRANCHES;
 
@@ -107,13 +107,6 @@ where
         last: zero,
         refused,
     }
-}
-
-/// Returns whether a number is positive in every lane.
-fn all_positive<T: Scalar>(x: T) -> bool {
-    let (zero, mut refused) = (T::from_f64(0.0), T::none_refused());
-    x.checked_pivot(zero, 0, &mut refused);
-    T::succeeded(&SVector::<T, 1>::from_element(zero), refused)
 }
 
 /// Calls `see` with a number for each row and then for each block of the branch, which is positive where the row holds

@@ -136,41 +136,34 @@ pub struct Topic {
 pub const MISSED: &[(&str, &str)] = &[
     ("body_tumbling", "velocities, orientation; dop853 at 1e-13"),
     ("slider_crank_near_singular", "forward dynamics"),
-    // The closed form does not read the rounded dependent positions that the residual is taken at.
+    // The root of the closed form loses digits; as many are missing at the positions that close exactly.
     ("slider_crank_near_singular", "M q̈ + h = P + Bᵀλ"),
     ("slider_crank_near_singular", "M q̈ + h = P + Bᵀλ, f32"),
+    (
+        "slider_crank_near_singular",
+        "M q̈ + h = P + Bᵀλ, where the loops close exactly",
+    ),
+    (
+        "slider_crank_near_singular",
+        "M q̈ + h = P + Bᵀλ, where the loops close exactly, f32",
+    ),
     // At positions that are open forward dynamics in closed form succeeds, because it reads the independent ones alone.
     (
         "8 mechanisms with loops",
-        "no error to return, not finite beside accelerations",
+        "no error to return, not finite beside accelerations; loops open",
     ),
     (
         "8 mechanisms with loops",
-        "no error to return, not finite beside accelerations, f32",
+        "no error to return, not finite beside accelerations; loops open, f32",
     ),
-    ("excavator", "Newton steps to 8 eps; 0.1 rad away"),
     (
         "excavator",
         "not closed, or on another branch; 0.5 rad away",
     ),
-    ("five_bar", "Newton steps to 8 eps; 0.1 rad away"),
     ("five_bar", "not closed, or on another branch; 0.5 rad away"),
-    ("four_bar", "not closed, or on another branch; 0.5 rad away"),
-    (
-        "slider_crank_near_singular",
-        "Newton steps to 8 eps; 0.1 rad away",
-    ),
     (
         "slider_crank_near_singular",
         "not closed, or on another branch; 0.5 rad away",
-    ),
-    (
-        "short_rod",
-        "refused within reach, from 0.01 rad inside, in ulp",
-    ),
-    (
-        "five_bar",
-        "refused within reach, from 0.01 rad inside, in ulp",
     ),
 ];
 

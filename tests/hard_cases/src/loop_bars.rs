@@ -5,8 +5,8 @@ use bgdyn_runtime::Dd;
 use hard_cases_compiled::loops::Closed;
 
 use crate::bars::{Digits, Found, norm, off, part, rounded};
-use crate::loop_exact::{Arguments, Exact, rounding, times, transposed};
-use crate::loop_tree::Tree;
+use crate::loop_exact::{Arguments, Exact, rounding, solve, times, transposed};
+use crate::loop_tree::{At, Tree};
 use crate::subject::{narrow, wide};
 
 /// Returns Σ_j |a_j||x_j|.
@@ -65,6 +65,25 @@ fn sizes(exact: &Exact, x: &[Dd], second: Option<&[Dd]>) -> Vec<Dd> {
     let own = |j: usize| second.map_or(0.0, |z| z[j].to_f64().abs());
     let row = |(j, row): (usize, &Vec<Dd>)| Dd::from_f64(weighed(row, x) + own(j));
     exact.map.iter().enumerate().map(row).collect()
+}
+
+/// Returns for each joint of the tree by how much M q̈ + h = P + Bᵀλ does not hold, and its limits as asked and as read:
+/// a `share` of the magnitudes of its terms, with q̈ and with the terms of q̈.
+fn balances(
+    at: &At,
+    across: &[Vec<Dd>],
+    (accelerations, terms): (&[Dd], &[Dd]),
+    (drives, multipliers): (&[Dd], &[Dd]),
+    share: f64,
+) -> Vec<(f64, f64, f64)> {
+    let (inertia, loops) = (times(&at.mass, accelerations), times(across, multipliers));
+    let row = |i: usize| {
+        let left = inertia[i] + at.bias[i] - drives[i] - loops[i];
+        let others = at.bias_size[i] + drives[i].to_f64().abs() + weighed(&across[i], multipliers);
+        let size = |q: &[Dd]| share * (weighed(&at.mass[i], q) + others);
+        (left.to_f64().abs(), size(accelerations), size(terms))
+    };
+    (0..drives.len()).map(row).collect()
 }
 
 impl Arguments {
@@ -126,6 +145,9 @@ impl<T: Digits> Subject<'_, T> {
         };
         all.push(self.forward(&s, &exact, &computed));
         all.extend(self.backward(&s, &exact, &computed));
+        if self.model.closes_at_once() {
+            all.push(self.backward_where_closed(&s, &computed));
+        }
         all.push(self.power(&s, loads, &computed));
         all
     }
@@ -185,24 +207,15 @@ impl<T: Digits> Subject<'_, T> {
             sizes(exact, &s.u, None),
             sizes(exact, &exactly(&computed.a), Some(&exact.second)),
         );
-        let mut drives = vec![Dd::ZERO; n];
-        for (&i, &tau) in self.tree.independents.iter().zip(&s.tau) {
-            drives[i] = tau;
-        }
+        let drives = self.drives(s);
         let given = narrow::<T>(&rounded(&s.q));
         let jacobian = exactly(&wide(self.model.constraint_jacobian(&given)));
         let rows: Vec<Vec<Dd>> = jacobian.chunks(n).map(<[Dd]>::to_vec).collect();
         let across = transposed(&rows, n);
-        let (inertia, loops) = (times(&at.mass, accelerations), times(&across, multipliers));
-        let efforts = (0..n).map(|i| {
-            let left = inertia[i] + at.bias[i] - drives[i] - loops[i];
-            let others =
-                at.bias_size[i] + drives[i].to_f64().abs() + weighed(&across[i], multipliers);
-            let size = |q: &[Dd]| share * (weighed(&at.mass[i], q) + others);
-            (left.to_f64().abs(), size(accelerations), size(&terms))
-        });
+        let moved = (accelerations.as_slice(), terms.as_slice());
+        let efforts = balances(&at, &across, moved, (&drives, multipliers), share);
         let a = exactly(&computed.a);
-        let efforts = read("C1", "M q̈ + h = P + Bᵀλ", efforts);
+        let efforts = read("C1", "M q̈ + h = P + Bᵀλ", efforts.into_iter());
         let efforts = or_rounded::<T>(efforts, s, |s| {
             let exact = Exact::new(self.tree, &s.q, &s.u);
             exact.efforts(&exact.accelerations(&a))
@@ -249,6 +262,37 @@ impl<T: Digits> Subject<'_, T> {
         let entry = (power.to_f64().abs(), limit(&own), limit(&of_loops));
         let none = read("C6", "λᵀ B q̇ = 0", std::iter::once(entry));
         vec![efforts, held, jacobian, closed, none]
+    }
+
+    /// Returns the efforts on all joints of the tree.
+    fn drives(&self, s: &Arguments) -> Vec<Dd> {
+        let mut drives = vec![Dd::ZERO; self.tree.len()];
+        for (&i, &tau) in self.tree.independents.iter().zip(&s.tau) {
+            drives[i] = tau;
+        }
+        drives
+    }
+
+    /// C1 for accelerations in closed form, which follow from the independent positions alone: at the positions that
+    /// close for these to the last digit, with q̈ and λ that follow from the accelerations there.
+    fn backward_where_closed(&self, s: &Arguments, computed: &Computed) -> Found {
+        let s = self.tree.closed(s);
+        let exact = Exact::new(self.tree, &s.q, &s.u);
+        let a = exactly(&computed.a);
+        let accelerations = exact.accelerations(&a);
+        let terms = sizes(&exact, &a, Some(&exact.second));
+        let n = self.tree.len();
+        let across = transposed(&exact.tree.rows, n);
+        let efforts = exact.efforts(&accelerations);
+        let dependents = self.tree.dependents.iter();
+        let (rows, sides) = dependents.map(|&j| (across[j].clone(), efforts[j])).unzip();
+        let multipliers = solve(rows, vec![sides]).remove(0);
+        let share = 16.0 * n as f64 * T::EPS;
+        let moved = (accelerations.as_slice(), terms.as_slice());
+        let loads = (self.drives(&s), multipliers);
+        let entries = balances(&exact.tree, &across, moved, (&loads.0, &loads.1), share);
+        let what = "M q̈ + h = P + Bᵀλ, where the loops close exactly";
+        read("C1", what, entries.into_iter())
     }
 
     /// Returns for each row the length of the sizes of all rows of its loop.

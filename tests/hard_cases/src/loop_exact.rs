@@ -99,6 +99,22 @@ fn condition(a: &[Vec<Dd>]) -> f64 {
     values.max() / values.min()
 }
 
+impl Tree {
+    /// Returns the arguments with the dependent positions at which the loops close in double-double, by Newton's method.
+    pub fn closed(&self, s: &Arguments) -> Arguments {
+        let mut s = s.clone();
+        for _ in 0..6 {
+            let at = self.at(&s.q, &vec![Dd::ZERO; self.len()]);
+            let row = |row: &Vec<Dd>| self.dependents.iter().map(|&j| row[j]).collect();
+            let step = solve(at.rows.iter().map(row).collect(), vec![at.open]).remove(0);
+            for (&j, step) in self.dependents.iter().zip(step) {
+                s.q[j] -= step;
+            }
+        }
+        s
+    }
+}
+
 impl Exact {
     /// Returns everything at a position and independent velocities.
     pub fn new(tree: &Tree, q: &[Dd], u: &[Dd]) -> Exact {

@@ -30,8 +30,11 @@ fn apart(p: &[f64], q: &[f64]) -> f64 {
 }
 
 /// Returns the number of Newton steps after which the loops are open by no more than 8 eps of their size; 30 at
-/// the most.
+/// the most. None in closed form.
 fn needed(model: &dyn Closed<f64>, tree: &Tree, from: &[f64]) -> usize {
+    if model.closes_at_once() {
+        return 0;
+    }
     let mut q = from.to_vec();
     for count in 0..30 {
         if open(tree, &q) <= 8.0 {

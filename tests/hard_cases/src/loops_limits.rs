@@ -42,11 +42,18 @@ pub(crate) fn sweep(extent: Extent) -> Vec<Outcome> {
     ]
 }
 
+/// Results of methods without an error that are not finite: beside accelerations and where these are refused, at
+/// positions at which the loops close to 1 µm, and at others.
+const BESIDE: usize = 2;
+const ALONE: usize = 3;
+const BESIDE_OPEN: usize = 4;
+const ALONE_OPEN: usize = 5;
+
 /// Counts of faults, with the first occurrence of each.
 #[derive(Default)]
 struct Count {
-    counts: [usize; 4],
-    first: [String; 4],
+    counts: [usize; 6],
+    first: [String; 6],
 }
 
 impl Count {
@@ -103,10 +110,18 @@ fn try_state<T: Range>(name: &str, model: &dyn Closed<T>, rng: &mut Rng, count: 
         ("constraint_residual", model.constraint_residual(&q)),
         ("constraint_jacobian", model.constraint_jacobian(&q)),
     ];
-    let finite_forward = forward.is_ok_and(|a| finite(&a));
+    let beside = forward.is_ok_and(|a| finite(&a));
+    let residual = model.constraint_residual(&q);
+    let closed = residual.iter().all(|x| x.to_f64().abs() < 1e-6);
     for (method, found) in others {
         if !finite(&found) {
-            count.note(if finite_forward { 2 } else { 3 }, || at(method));
+            let fault = match (beside, closed) {
+                (true, true) => BESIDE,
+                (true, false) => BESIDE_OPEN,
+                (false, true) => ALONE,
+                (false, false) => ALONE_OPEN,
+            };
+            count.note(fault, || at(method));
         }
     }
 }
@@ -174,20 +189,20 @@ fn of_scalar<T: Range + CompiledLoops>(states: usize) -> Vec<Outcome> {
         Outcome::new(case, "C12", quantity, measured, 0.0).at(&count.first[fault])
     };
     let case = "8 mechanisms with loops";
-    let mut without = row(
-        case,
-        "no error to return, not finite beside accelerations",
-        &all,
-        2,
-    );
-    if all.counts[3] > 0 {
-        // As asked, never; these have no error to return.
-        without.asked = f64::INFINITY;
-    }
+    let without_error = |ending: &str, beside: usize, alone: usize| {
+        let what = format!("no error to return, not finite beside accelerations; loops {ending}");
+        let mut found = row(case, &what, &all, beside);
+        if all.counts[alone] > 0 {
+            // As asked, never; these have no error to return.
+            found.asked = f64::INFINITY;
+        }
+        found
+    };
     vec![
         row(case, "neither finite nor refused", &all, 0),
         row(case, "integrate: not closed, and not refused next", &all, 1),
-        without,
+        without_error("closed", BESIDE, ALONE),
+        without_error("open", BESIDE_OPEN, ALONE_OPEN),
         row(
             "4 scenes with loops",
             "derivative neither finite nor refused",

@@ -5,7 +5,7 @@ use std::ops::{Add, Sub};
 use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr};
-use crate::mechanism::closure::PlaneVector;
+use crate::mechanism::closure::{PlaneVector, snapped};
 
 /// A vector in the plane of a loop; also cosine and sine of an angle.
 #[derive(Clone, Copy, Debug)]
@@ -77,22 +77,4 @@ impl Sub for InPlane<'_> {
 pub(super) fn direction(angle: Dd) -> PlaneVector {
     let (sin, cos) = angle.sin_cos();
     snapped([cos, sin])
-}
-
-/// Returns the vector with components that are rounding errors of the other one set to zero.
-pub(super) fn snapped([x, y]: PlaneVector) -> PlaneVector {
-    let (wide, high) = (x.to_f64().abs(), y.to_f64().abs());
-    let unit = |x: Dd| {
-        let one = if x < Dd::ZERO { -Dd::ONE } else { Dd::ONE };
-        if (x - one).to_f64().abs() < 1e-28 {
-            one
-        } else {
-            x
-        }
-    };
-    match (wide < 1e-28 * high, high < 1e-28 * wide) {
-        (true, _) => [Dd::ZERO, unit(y)],
-        (_, true) => [unit(x), Dd::ZERO],
-        _ => [x, y],
-    }
 }

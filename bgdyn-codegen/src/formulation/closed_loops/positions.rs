@@ -12,13 +12,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::plane::{InPlane, direction, snapped};
+use super::plane::{InPlane, direction};
 use super::sums::{JointSum, JointSums, unknown};
 use crate::expr::{AngleSum, Builder, Expr, Leaf};
 use crate::formulation::elimination::at;
 use crate::formulation::velocity_map::FirstPivot;
 use crate::mechanism::closure::{
-    Closure, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector,
+    Closure, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector, snapped,
 };
 
 /// A way to write the positions.

@@ -55,7 +55,8 @@ pub use contact_shape::{
 };
 pub use contact_types::{DISC, ELLIPSOID, KNIFE_EDGE, SPHERE};
 pub use polygon::{
-    AngleTerm, PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector, polygons,
+    AngleTerm, PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector,
+    closing_polygons, polygons, snapped,
 };
 pub use ranges::{ClosedRange, RangeEnd, TreeLimits};
 pub use reach::Unreached;

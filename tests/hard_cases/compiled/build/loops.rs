@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use bgdyn_codegen::emit::{OutputOptions, module, source_text, struct_ident};
 use bgdyn_codegen::files::stem;
+use bgdyn_codegen::mechanism::closure::polygons;
 use bgdyn_codegen::options::Options;
 
 /// Returns the files of the specs.
@@ -26,9 +27,10 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&name));
         let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&name, &text)));
         // Joints that follow close parallel branches without rows.
-        if mechanism.closure().is_none() {
+        let Some(closure) = mechanism.closure() else {
             continue;
-        }
+        };
+        let whole = polygons(closure).is_some();
         let options = Options {
             frames: Some(vec![]),
             ..Options::default()
@@ -39,7 +41,11 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
         let source = out.join(format!("loop_{name}.rs"));
         let own = struct_ident(model.mechanism.name());
         fs::write(&source, source_text(module(&model, &place))).unwrap();
-        writeln!(includes, "include!({source:?});\nclosed!({name}, {own});").unwrap();
+        writeln!(
+            includes,
+            "include!({source:?});\nclosed!({name}, {own}, {whole});"
+        )
+        .unwrap();
         writeln!(
             models,
             "{name:?} => Some(Box::new(Erased::<_, {{ {name}::NQ }}, {{ {name}::NV }}>({name}::{own}::<T>::default()))),"

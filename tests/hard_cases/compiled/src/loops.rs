@@ -1,9 +1,7 @@
 //! The mechanisms with loops by name, for any size.
 
-use std::cell::Cell;
-
 use bgdyn::Scalar;
-use bgdyn::runtime::closure::{Dependent, close};
+use bgdyn::runtime::closure::Dependent;
 
 use crate::{Erased, Model, list, vector};
 
@@ -24,8 +22,8 @@ pub trait Closed<T>: Model<T> {
     /// # Errors
     /// If a loop does not close.
     fn close(&self, q: &[T]) -> Result<Vec<T>, String>;
-    /// Returns the number of Newton steps that closing takes from here, and the positions after the last one.
-    fn count_steps(&self, q: &[T]) -> (usize, Vec<T>);
+    /// Returns whether `close` takes no steps: all loops are planar polygons, whose positions have a closed form.
+    fn closes_at_once(&self) -> bool;
     /// One Newton step, of the velocities of the open tree.
     fn closing_step(&self, q: &[T]) -> Vec<T>;
     /// S v
@@ -43,7 +41,7 @@ pub trait Closed<T>: Model<T> {
 }
 
 macro_rules! closed {
-    ($module:ident, $model:ident) => {
+    ($module:ident, $model:ident, $whole:literal) => {
         impl<T: Scalar> Closed<T> for Erased<$module::$model<T>, { $module::NQ }, { $module::NV }> {
             fn nt(&self) -> usize {
                 $module::NT
@@ -74,14 +72,8 @@ macro_rules! closed {
                 closed.map(|q| list(&q)).map_err(|e| format!("{e:?}"))
             }
 
-            fn count_steps(&self, q: &[T]) -> (usize, Vec<T>) {
-                let count = Cell::new(0);
-                let step = |q: &_| {
-                    count.set(count.get() + 1);
-                    self.0.closing_step(q)
-                };
-                let closing = close(vector(q), &$module::DEPENDENTS, step);
-                (count.get(), list(&closing.q))
+            fn closes_at_once(&self) -> bool {
+                $whole
             }
 
             fn closing_step(&self, q: &[T]) -> Vec<T> {

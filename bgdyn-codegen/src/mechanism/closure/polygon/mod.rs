@@ -25,26 +25,35 @@ use plane_chain::PlaneChain;
 pub use shape::{AngleTerm, PlaneJoint, Polygon, PolygonForm, PolygonSide, TurnedVector};
 use shape::{LEAST, merged, opposite};
 use unknown_joints::{FoundForm, form};
-pub use vectors::PlaneVector;
+pub use vectors::{PlaneVector, snapped};
 
 /// Returns the loops of a mechanism as polygons, each after those that it depends on; `None` if a dependent velocity
 /// does not follow from one.
 pub fn polygons(closure: &Closure) -> Option<Vec<Polygon>> {
-    if !closure.combined.is_empty() || !closure.compounds.is_empty() || closure.nonholonomic() {
-        return None;
-    }
+    let (found, unsolved) = closing_polygons(closure);
+    (unsolved.is_empty() && !found.is_empty()).then_some(found)
+}
+
+/// Returns the loops of a mechanism that are polygons, each after those that it depends on, and the dependent
+/// velocities that do not follow from them.
+pub fn closing_polygons(closure: &Closure) -> (Vec<Polygon>, Vec<CoordinateId>) {
     let mut unsolved: Vec<CoordinateId> = closure.dependents().collect();
     let mut found: Vec<Polygon> = Vec::new();
-    while !unsolved.is_empty() {
+    if !closure.combined.is_empty() || !closure.compounds.is_empty() || closure.nonholonomic() {
+        return (found, unsolved);
+    }
+    loop {
         let open = (0..closure.loops.len()).filter(|l| found.iter().all(|one| one.closes != *l));
         let next = open
             .filter_map(|closes| polygon(closure, closes, &unsolved))
-            .next()?;
+            .next();
+        let Some(next) = next else {
+            return (found, unsolved);
+        };
         let solved = next.dependents().map(|joint| joint.velocity);
         unsolved.retain(|j| !solved.contains(j));
         found.push(next);
     }
-    (!found.is_empty()).then_some(found)
 }
 
 /// Returns a loop as a polygon if two of the `unsolved` velocities are its unknown joints.
