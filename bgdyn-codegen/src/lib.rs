@@ -8,6 +8,8 @@
 //! `docs/extending.md` describes how to add a joint, an effect, a formulation or a backend.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "source")]
+pub mod backend;
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;

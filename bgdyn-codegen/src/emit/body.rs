@@ -16,7 +16,7 @@ use crate::plan::{BlockPlan, FunctionPlan, Listing, Place, PlanLimits, Tail, blo
 
 /// What the plans of Rust functions keep to: the lanes of the widest register, and results that are so small that
 /// storing their entries early gains nothing.
-const LIMITS: PlanLimits = PlanLimits {
+pub const LIMITS: PlanLimits = PlanLimits {
     sines: 8,
     store_from: 16,
 };

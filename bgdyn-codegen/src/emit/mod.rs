@@ -32,6 +32,7 @@ mod tokens;
 mod traits;
 mod writer;
 
+pub use body::LIMITS;
 pub use module::module;
 pub use output_options::OutputOptions;
 pub use scene::{scene_module, scene_stub};
