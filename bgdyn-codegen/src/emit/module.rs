@@ -8,7 +8,7 @@ use super::base_access::base_access;
 use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
-use super::prescribed::{joint_list, prescribed_docs, summary_of};
+use super::prescribed::{joint_list, prescribed_docs};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{assembly, body, closure, code, constants, explain, joint_segments, traits};
@@ -17,7 +17,7 @@ use crate::function::Function;
 use crate::mechanism::Motion;
 use crate::method::Method;
 use crate::model::Model;
-use crate::plan::{Naming, matrix_places, reads_dependents, unread};
+use crate::plan::{Naming, matrix_places, reads_dependents, summary_of, unread};
 
 /// Returns the module of a model.
 pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {

@@ -93,6 +93,12 @@ impl<'a> Listing<'a> {
     pub fn name(&self, id: NodeId) -> Option<&str> {
         self.names[id.place()].as_deref()
     }
+
+    /// Returns all names in the listing, for code that is within that of the block.
+    pub fn all_names(&self) -> impl Iterator<Item = &str> {
+        let constants = self.constants.iter().map(|c| c.identifier.as_str());
+        constants.chain(self.names.iter().flatten().map(String::as_str))
+    }
 }
 
 /// The state of naming a block.

@@ -18,6 +18,7 @@ mod places;
 mod products;
 mod reads;
 mod sines;
+mod summary;
 
 pub use block::{BlockPlan, BlockStep};
 pub use columns::ColumnPlan;
@@ -31,3 +32,4 @@ pub use places::{Place, elements, matrix_places};
 pub use products::{ProductPlan, ProductTable};
 pub use reads::{is_part, leaves, leaves_of, reads_dependents, unread};
 pub use sines::AnglePair;
+pub use summary::summary_of;

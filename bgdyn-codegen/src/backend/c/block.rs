@@ -26,8 +26,20 @@ impl<'a> BlockText<'a> {
         style: &'a Style,
         naming: &'a Naming<'a>,
     ) -> Self {
+        BlockText::within(block, function, style, naming, &[])
+    }
+
+    /// Returns a block within code that has these names.
+    pub(super) fn within(
+        block: &'a BlockPlan<'a>,
+        function: &Function,
+        style: &'a Style,
+        naming: &'a Naming<'a>,
+        outer: &[&str],
+    ) -> Self {
+        let reserved: Vec<&str> = RESERVED.iter().chain(outer).copied().collect();
         BlockText {
-            listing: Listing::new(block, function, naming, &RESERVED),
+            listing: Listing::new(block, function, naming, &reserved),
             style,
             naming,
             separate: false,

@@ -5,7 +5,7 @@ use super::context::FunctionContext;
 use super::parameters::{CParameter, block_parameters, parameters};
 use super::result::FlatResult;
 use super::style::Style;
-use super::tail;
+use super::tail::{self, Stage};
 use crate::function::Function;
 use crate::plan::{BlockPlan, FunctionPlan, PlanLimits, Tail, block_name};
 
@@ -88,7 +88,12 @@ fn whole(
     let outputs = block.listing.block.outputs.iter();
     let stage: Vec<String> = outputs.map(|&e| block.value(e)).collect();
     if let Tail::Columns(loops) = &plan.tail {
-        lines.extend(tail::columns(plan.function, loops, &stage, flat, context));
+        let outer: Vec<&str> = block.listing.all_names().collect();
+        let stage = Stage {
+            values: &stage,
+            names: &outer,
+        };
+        lines.extend(tail::columns(plan.function, loops, stage, flat, context));
     } else {
         lines.extend(tail::checked(&stage, flat, context.style));
     }
@@ -106,7 +111,13 @@ fn after_blocks(
     let stage: Vec<String> = (0..count).map(|k| format!("{last}[{k}]")).collect();
     match &plan.tail {
         Tail::Products(products) => tail::products(plan.function, products, context),
-        Tail::Columns(loops) => tail::columns(plan.function, loops, &stage, flat, context),
+        Tail::Columns(loops) => {
+            let stage = Stage {
+                values: &stage,
+                names: &[],
+            };
+            tail::columns(plan.function, loops, stage, flat, context)
+        }
         Tail::Nothing => {
             let mut lines = tail::stores(&stage, flat);
             lines.extend(tail::checked(&stage, flat, context.style));

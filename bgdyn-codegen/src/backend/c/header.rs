@@ -6,7 +6,7 @@ use super::style::Style;
 use super::words::{field, in_comment};
 use crate::function::Function;
 use crate::model::Model;
-use crate::plan::{Naming, unread};
+use crate::plan::{Naming, summary_of, unread};
 
 /// Returns the text of the header.
 pub(super) fn header(model: &Model, style: &Style) -> String {
@@ -120,7 +120,7 @@ fn parameters(model: &Model, style: &Style) -> Vec<String> {
 pub(super) fn documentation(function: &Function, model: &Model) -> Vec<String> {
     let method = function.method;
     let mut lines = vec![
-        method.summary(&model.bond_graph.sites),
+        summary_of(method, model),
         format!("Units: {}.", method.units()),
         format!(
             "Operations: {} ({}).",

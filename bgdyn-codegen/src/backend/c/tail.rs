@@ -9,6 +9,15 @@ use crate::expr::Signed;
 use crate::function::Function;
 use crate::plan::{ColumnPlan, LoopArrays, ProductPlan, ProductTable};
 
+/// What loops over columns read, and the code around them.
+#[derive(Clone, Copy)]
+pub(super) struct Stage<'a> {
+    /// The results of the blocks.
+    pub(super) values: &'a [String],
+    /// The names in the code around the loops.
+    pub(super) names: &'a [&'a str],
+}
+
 /// Returns the stores of values at their places.
 pub(super) fn stores(values: &[String], flat: &FlatResult) -> Vec<String> {
     let store = |(value, places): (&String, &Vec<usize>)| {
@@ -28,11 +37,11 @@ pub(super) fn checked(values: &[String], flat: &FlatResult, style: &Style) -> Ve
     vec![format!("const {real} checked[{count}] = {{{all}}};")]
 }
 
-/// Returns the loops over columns, and the stores of the result; `stage` are the results of the blocks.
+/// Returns the loops over columns, and the stores of the result.
 pub(super) fn columns(
     function: &Function,
     loops: &[ColumnPlan<'_>],
-    stage: &[String],
+    stage: Stage<'_>,
     flat: &FlatResult,
     context: &FunctionContext<'_>,
 ) -> Vec<String> {
@@ -41,7 +50,7 @@ pub(super) fn columns(
         .flat_map(|(k, plan)| column_group(function, plan, LoopArrays::of(k), stage, context))
         .collect();
     let value = |part: &ResultSource| match *part {
-        ResultSource::Stage(k) => stage[k].clone(),
+        ResultSource::Stage(k) => stage.values[k].clone(),
         ResultSource::Column { group, column, row } => {
             format!("{}[{row}][{column}]", LoopArrays::of(group).found)
         }
@@ -57,7 +66,7 @@ fn column_group(
     function: &Function,
     plan: &ColumnPlan<'_>,
     arrays: LoopArrays,
-    stage: &[String],
+    stage: Stage<'_>,
     context: &FunctionContext<'_>,
 ) -> Vec<String> {
     let (real, group) = (context.style.real(), plan.group);
@@ -65,7 +74,7 @@ fn column_group(
     let mut lines =
         vec!["/* the same for each column: row by row what it reads, and its results */".into()];
     if !group.shared.is_empty() {
-        let values = group.shared.iter().map(|&k| stage[k].clone());
+        let values = group.shared.iter().map(|&k| stage.values[k].clone());
         let values: Vec<String> = values.collect();
         let (name, values) = (&arrays.shared, braced(&values));
         lines.push(format!(
@@ -75,8 +84,13 @@ fn column_group(
     }
     let rows = plan.own_rows();
     if !rows.is_empty() {
-        let row =
-            |row: &Vec<usize>| braced(&row.iter().map(|&k| stage[k].clone()).collect::<Vec<_>>());
+        let row = |row: &Vec<usize>| {
+            braced(
+                &row.iter()
+                    .map(|&k| stage.values[k].clone())
+                    .collect::<Vec<_>>(),
+            )
+        };
         let values: Vec<String> = rows.iter().map(row).collect();
         let (name, values) = (&arrays.own, braced(&values));
         lines.push(format!(
@@ -87,7 +101,8 @@ fn column_group(
     lines.push(format!("{real} {}[{height}][{count}];", arrays.found));
     lines.push(format!("for (int c = 0; c < {count}; ++c) {{"));
     let found = arrays.found.clone();
-    let mut text = BlockText::new(&plan.column, function, context.style, context.naming);
+    let (style, naming) = (context.style, context.naming);
+    let mut text = BlockText::within(&plan.column, function, style, naming, stage.names);
     text.arrays = Some(arrays);
     lines.extend(text.lines().into_iter().map(|line| format!("    {line}")));
     for (row, &output) in plan.column.outputs.iter().enumerate() {
