@@ -5,7 +5,7 @@ use super::context::FunctionContext;
 use super::parameters::{CParameter, block_parameters, parameters};
 use super::result::FlatResult;
 use super::style::Style;
-use super::tail::{self, Stage};
+use super::tail::{self, BeforeLoops};
 use crate::function::Function;
 use crate::plan::{BlockPlan, FunctionPlan, PlanLimits, Tail, block_name};
 
@@ -89,7 +89,7 @@ fn whole(
     let stage: Vec<String> = outputs.map(|&e| block.value(e)).collect();
     if let Tail::Columns(loops) = &plan.tail {
         let outer: Vec<&str> = block.listing.all_names().collect();
-        let stage = Stage {
+        let stage = BeforeLoops {
             values: &stage,
             names: &outer,
         };
@@ -112,7 +112,7 @@ fn after_blocks(
     match &plan.tail {
         Tail::Products(products) => tail::products(plan.function, products, context),
         Tail::Columns(loops) => {
-            let stage = Stage {
+            let stage = BeforeLoops {
                 values: &stage,
                 names: &[],
             };

@@ -11,7 +11,7 @@ use crate::plan::{ColumnPlan, LoopArrays, ProductPlan, ProductTable};
 
 /// What loops over columns read, and the code around them.
 #[derive(Clone, Copy)]
-pub(super) struct Stage<'a> {
+pub(super) struct BeforeLoops<'a> {
     /// The results of the blocks.
     pub(super) values: &'a [String],
     /// The names in the code around the loops.
@@ -41,7 +41,7 @@ pub(super) fn checked(values: &[String], flat: &FlatResult, style: &Style) -> Ve
 pub(super) fn columns(
     function: &Function,
     loops: &[ColumnPlan<'_>],
-    stage: Stage<'_>,
+    stage: BeforeLoops<'_>,
     flat: &FlatResult,
     context: &FunctionContext<'_>,
 ) -> Vec<String> {
@@ -66,7 +66,7 @@ fn column_group(
     function: &Function,
     plan: &ColumnPlan<'_>,
     arrays: LoopArrays,
-    stage: Stage<'_>,
+    stage: BeforeLoops<'_>,
     context: &FunctionContext<'_>,
 ) -> Vec<String> {
     let (real, group) = (context.style.real(), plan.group);
