@@ -13,7 +13,7 @@ use crate::expr::{Leaf, Node, NodeId};
 use crate::function::Function;
 use crate::legend::LegendQuantity;
 
-/// What readers are told before a statement, in this order.
+/// Comments before a statement, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct Comments {
     /// A title for all that follows.

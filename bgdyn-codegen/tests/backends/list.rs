@@ -135,8 +135,7 @@ fn plans_compute_before_they_read() {
 }
 
 fn check(block: &BlockPlan<'_>, what: &str) {
-    let mut known: Vec<bool> = block.nodes().map(|_| false).collect();
-    known.resize(block.graph.len(), false);
+    let mut known = vec![false; block.graph.len()];
     for id in block.nodes() {
         let is_free = matches!(
             block.graph.node(id),
@@ -193,8 +192,8 @@ fn read_by(block: &BlockPlan<'_>, place: usize, known: &[bool], what: &str) {
 
 #[test]
 fn c_refuses_what_it_cannot_write() {
-    let gear = include_str!("../../../specs/constraints/gear_pair.yaml");
-    let (mechanism, _) = read(gear, Some("gear_pair"));
+    let loops = include_str!("../../../specs/loops/four_bar.yaml");
+    let (mechanism, _) = read(loops, Some("four_bar"));
     let model = pipeline::model(mechanism.expect("sound"), &Options::default());
     let backend = backend_named("c").expect("a backend");
     let given = given(backend, &[]).expect("no options");
@@ -204,7 +203,7 @@ fn c_refuses_what_it_cannot_write() {
         panic!("a mechanism with loops is refused");
     };
     assert!(
-        message.contains("gear_pair") && message.contains("`rust`"),
+        message.contains("four_bar") && message.contains("`rust`"),
         "{message}"
     );
 }

@@ -8,17 +8,27 @@ use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Scalar;
 
 /// A type of numbers that C has as well.
-pub trait CNumber: Scalar<Refused = Option<usize>> {
+pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
     /// Its name in C.
     const NAME: &'static str;
     fn bits(self) -> u64;
+    fn of_bits(bits: u64) -> Self;
     fn is_finite(self) -> bool;
+
+    /// Returns whether the other number has the same bits, or whether both are NaN: the sign of a NaN means nothing.
+    fn equals(self, other: Self) -> bool {
+        let is_nan = |x: Self| x != x;
+        self.bits() == other.bits() || is_nan(self) && is_nan(other)
+    }
 }
 
 impl CNumber for f64 {
     const NAME: &'static str = "double";
     fn bits(self) -> u64 {
         self.to_bits()
+    }
+    fn of_bits(bits: u64) -> Self {
+        f64::from_bits(bits)
     }
     fn is_finite(self) -> bool {
         f64::is_finite(self)
@@ -29,6 +39,9 @@ impl CNumber for f32 {
     const NAME: &'static str = "float";
     fn bits(self) -> u64 {
         u64::from(self.to_bits())
+    }
+    fn of_bits(bits: u64) -> Self {
+        f32::from_bits(u32::try_from(bits).expect("a word of 32 bits"))
     }
     fn is_finite(self) -> bool {
         f32::is_finite(self)
@@ -62,13 +75,13 @@ pub fn state<T: CNumber>(random: &mut Random, model: &Model, reach: f64) -> Inpu
     }
 }
 
-/// The result that C must give: what it returns, and the bits of its array.
-pub struct Expected {
+/// The result that C must give: what it returns, and its array.
+pub struct Expected<T> {
     pub status: i64,
-    pub bits: Vec<u64>,
+    pub values: Vec<T>,
 }
 
-pub fn expected<T: CNumber>(function: &Function, nv: usize, state: &Inputs<T>) -> Expected {
+pub fn expected<T: CNumber>(function: &Function, nv: usize, state: &Inputs<T>) -> Expected<T> {
     let (values, refused) = function.evaluate(state.clone());
     let checked = match function.shape() {
         Shape::CheckedVector => values.len(),
@@ -90,6 +103,6 @@ pub fn expected<T: CNumber>(function: &Function, nv: usize, state: &Inputs<T>) -
     };
     Expected {
         status,
-        bits: flat.into_iter().map(CNumber::bits).collect(),
+        values: flat,
     }
 }

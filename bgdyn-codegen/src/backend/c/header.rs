@@ -63,7 +63,7 @@ pub(super) fn beginning(model: &Model, style: &Style) -> Vec<String> {
     lines.extend(
         description
             .lines()
-            .map(|line| format!("   {}", in_comment(line.trim_end()))),
+            .map(|line| format!("   {}", in_comment(line)).trim_end().to_string()),
     );
     if let Some(last) = lines.last_mut() {
         *last += " */";

@@ -53,7 +53,6 @@ pub(super) fn source(model: &Model, style: &Style) -> String {
         "#endif".into(),
         String::new(),
     ]);
-    let positions: Vec<&str> = naming.positions.clone();
     lines.push(table(
         &style.global("joint_names"),
         &style.constant("NV"),
@@ -62,7 +61,7 @@ pub(super) fn source(model: &Model, style: &Style) -> String {
     lines.push(table(
         &style.global("position_names"),
         &style.constant("NQ"),
-        &positions,
+        &naming.positions,
     ));
     lines.extend(default_parameters(model, style));
     let head: String = lines.iter().map(|line| format!("{line}\n")).collect();

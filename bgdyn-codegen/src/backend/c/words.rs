@@ -2,7 +2,7 @@
 
 /// The keywords of C99 and C++17: the header is valid in both.
 #[rustfmt::skip]
-const KEYWORDS: [&str; 88] = [
+const KEYWORDS: [&str; 87] = [
     "alignas", "alignof", "and", "and_eq", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch",
     "char", "char16_t", "char32_t", "class", "compl", "const", "const_cast", "constexpr", "continue",
     "decltype", "default", "delete", "do", "double", "dynamic_cast", "else", "enum", "explicit", "export",
@@ -11,7 +11,7 @@ const KEYWORDS: [&str; 88] = [
     "protected", "public", "register", "reinterpret_cast", "restrict", "return", "short", "signed", "sizeof",
     "static", "static_assert", "static_cast", "struct", "switch", "template", "this", "thread_local", "throw",
     "true", "try", "typedef", "typeid", "typename", "typeof", "union", "unsigned", "using", "virtual", "void",
-    "volatile", "wchar_t", "while", "xor", "xor_eq", "asm_", "requires",
+    "volatile", "wchar_t", "while", "xor", "xor_eq", "requires",
 ];
 
 /// Names of local variables, and macros of `math.h` that a named number could have.
