@@ -122,24 +122,6 @@ impl Function {
         self.loops.as_ref().map_or(&[], |loops| &loops.groups)
     }
 
-    /// Returns one column of a loop as a function.
-    pub(crate) fn of_column(&self, columns: &ColumnLoop) -> Function {
-        Function {
-            method: self.method,
-            name: self.name.clone(),
-            formulation: self.formulation.clone(),
-            plans: Vec::new(),
-            rejected: Vec::new(),
-            ordered: self.ordered,
-            graph: columns.graph.clone(),
-            blocks: vec![Block {
-                outputs: columns.outputs.clone(),
-                products: Vec::new(),
-            }],
-            loops: None,
-        }
-    }
-
     /// Returns its name.
     pub fn name(&self) -> &str {
         &self.name

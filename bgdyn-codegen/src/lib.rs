@@ -1,13 +1,15 @@
 //! The code generator of bgdyn: converts a mechanism in YAML to Rust tokens or source text.
 //!
 //! The steps have one direction: [`mod@format`] (the parsed file) → [`mechanism`] (checked) →
-//! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) → [`emit`]
-//! (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
+//! [`bond_graph`] → [`formulation`] (equation (6) regrouped) → [`expr`] (the expression graph) → [`plan`]
+//! (statements in order) → [`emit`] (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
 //!
 //! [`bgdyn_runtime`] defines units, frames, the order of spatial vectors and the sign of gravity.
 //! `docs/extending.md` describes how to add a joint, an effect, a formulation or a backend.
 #![forbid(unsafe_code)]
 
+#[cfg(feature = "source")]
+pub mod backend;
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
@@ -39,6 +41,7 @@ pub mod name;
 pub mod options;
 pub mod passes;
 pub mod pipeline;
+pub mod plan;
 pub mod random;
 mod read;
 pub mod refusal;

@@ -115,12 +115,12 @@ mutate "derivatives" $src/expr/diff.rs \
     'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
 mutate "derivatives, solved" $src/formulation/derivatives/forward_dynamics.rs \
     '(-builder.expr(e)).signed()' 'builder.expr(e).signed()' "${codegen[@]}" motions derivatives
-mutate "generated text" $src/emit/writer.rs \
-    'quote! { #left - #right }' 'quote! { #left + #right }' "${codegen[@]}" text
-mutate "compiled = evaluator" $src/emit/writer.rs \
-    'quote! { #left - #right }' 'quote! { #left + #right }' -p compiled -- agreement::
-mutate "compiled = evaluator, every scalar" $src/emit/writer.rs \
-    'quote! { #left / #right }' 'quote! { #right / #left }' -p compiled -- scalars::
+mutate "generated text" $src/emit/operation.rs \
+    'if b.negative { quote!(-) }' 'if b.negative { quote!(+) }' "${codegen[@]}" text
+mutate "compiled = evaluator" $src/emit/operation.rs \
+    'if b.negative { quote!(-) }' 'if b.negative { quote!(+) }' -p compiled -- agreement::
+mutate "compiled = evaluator, every scalar" $src/emit/operation.rs \
+    '_ => quote!(/),' '_ => quote!(*),' -p compiled -- scalars::
 mutate "compiled = equation (6)" $recursion/inverse_dynamics.rs \
     'force: spin.u * h + inertia' 'force: spin.u * h - inertia' -p compiled -- literal::
 mutate "executed = counted operations" $src/expr/count.rs \

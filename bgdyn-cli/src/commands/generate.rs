@@ -1,25 +1,31 @@
-//! `bgdyn generate`: prints the source text of a module.
+//! `bgdyn generate`: prints the source text of a module, or writes the files of another backend.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::emit::{OutputOptions, source_text};
-use bgdyn_codegen::pipeline::generate_file;
+use bgdyn_codegen::backend::{Backend, BackendError, GeneratedFile, GivenOptions, backend_named};
+use bgdyn_codegen::pipeline::{FilesError, generate_files};
 use clap::Args;
 
 use crate::output::{print, tell};
 use crate::spec_file::{GeneratorArgs, SpecFile, is_stdin, read_text};
 use crate::usage::Usage;
 
-/// Write the generated Rust source
+/// Write the generated source: a Rust module, or the files of another backend
 #[derive(Args)]
 #[command(
-    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date\n  bgdyn generate specs/scara.yaml --plain   # infix formulas"
+    after_help = "Example:\n  bgdyn generate specs/scara.yaml -o scara.rs\n  bgdyn generate specs/scara.yaml -o scara.rs --check   # exit 1 if scara.rs is not up to date\n  bgdyn generate specs/scara.yaml --plain   # infix formulas\n  bgdyn generate specs/scara.yaml --backend c -o src --option prefix=arm   # src/scara.h, src/scara.c"
 )]
 pub(crate) struct Generate {
     /// The spec
     file: PathBuf,
-    /// Output file [default: stdout]
+    /// The backend: `rust` or `c`
+    #[arg(long, value_name = "NAME", default_value = "rust")]
+    backend: String,
+    /// An option of the backend, such as `prefix=arm`; `docs/c.md` lists those of C
+    #[arg(long = "option", value_name = "NAME=VALUE")]
+    options: Vec<String>,
+    /// Output file [default: stdout]; of a backend with several files, their folder [default: this one]
     #[arg(short, long)]
     output: Option<PathBuf>,
     /// Write nothing; fail if the output file differs from what would be written
@@ -28,12 +34,12 @@ pub(crate) struct Generate {
     /// Name of the module [default: the name of the file]
     #[arg(long, value_name = "NAME")]
     module: Option<String>,
-    /// Visibility of the module
-    #[arg(long, value_name = "RUST", default_value = "pub")]
-    visibility: String,
-    /// Path of bgdyn in the crate that includes the file
-    #[arg(long = "crate", value_name = "PATH", default_value = "::bgdyn")]
-    bgdyn: String,
+    /// Visibility of the module [default: pub]
+    #[arg(long, value_name = "RUST")]
+    visibility: Option<String>,
+    /// Path of bgdyn in the crate that includes the file [default: ::bgdyn]
+    #[arg(long = "crate", value_name = "PATH")]
+    bgdyn: Option<String>,
     /// Do not compare the functions with equation (6)
     #[arg(long)]
     no_verify: bool,
@@ -47,38 +53,66 @@ pub(crate) struct Generate {
 
 impl Generate {
     pub(crate) fn run(self) -> Result<()> {
-        let (mut options, place) = (self.asked.options()?, self.place().map_err(Usage)?);
+        let backend = backend_named(&self.backend).map_err(Usage)?;
+        let (mut options, given) = (self.asked.options()?, self.given(backend)?);
         options.verify = !self.no_verify;
         let spec = SpecFile::open(&self.file)?;
         let load = |path: &str| spec.load(path);
-        let (tokens, warnings) = generate_file(&spec.text, &spec.stem, &place, &options, load)
-            .map_err(|r| spec.refused(r))?;
+        let found = generate_files(&spec.text, &spec.stem, backend, &given, &options, load);
+        let (files, warnings) = found.map_err(|error| match error {
+            FilesError::Refused(refusal) => spec.refused(refusal),
+            FilesError::Backend(error) => of_backend(error),
+        })?;
         tell(&spec.render(&warnings));
-        let text = source_text(tokens);
-        match &self.output {
-            None => print(&text),
-            Some(path) if self.check => self.compare(path, &text),
-            Some(path) => std::fs::write(path, text)
-                .with_context(|| format!("{} cannot be written", path.display())),
+        match files.as_slice() {
+            [file] => match &self.output {
+                None => print(&file.text),
+                Some(path) => self.write(path, &file.text),
+            },
+            files => self.write_all(files),
         }
     }
 
-    fn place(&self) -> std::result::Result<OutputOptions, String> {
+    /// Writes files to the output folder.
+    fn write_all(&self, files: &[GeneratedFile]) -> Result<()> {
+        let folder = self.output.as_deref().unwrap_or(Path::new("."));
+        let mut each = files.iter();
+        each.try_for_each(|file| self.write(&folder.join(&file.name), &file.text))
+    }
+
+    /// Writes a file, or compares it.
+    fn write(&self, path: &Path, text: &str) -> Result<()> {
+        if self.check {
+            return self.compare(path, text);
+        }
+        std::fs::write(path, text).with_context(|| format!("{} cannot be written", path.display()))
+    }
+
+    /// Returns the options of the backend, and the name of the spec.
+    fn given(&self, backend: &dyn Backend) -> Result<GivenOptions> {
         let source = match is_stdin(&self.file) {
             true => "standard input".into(),
             false => self.file.file_name().unwrap_or_default().to_string_lossy(),
         };
-        let place = OutputOptions {
-            plain: self.plain,
-            ..OutputOptions::source_text(source.into_owned())
-        };
-        let place = place
-            .with_crate(&self.bgdyn)?
-            .with_visibility(&self.visibility)?;
-        match &self.module {
-            Some(module) => place.with_module(module),
-            None => Ok(place),
+        let of_rust = [
+            ("module", self.module.clone()),
+            ("visibility", self.visibility.clone()),
+            ("crate", self.bgdyn.clone()),
+            ("plain", self.plain.then(|| "yes".to_string())),
+        ];
+        let of_rust = of_rust.into_iter();
+        let mut pairs: Vec<(String, String)> = of_rust
+            .filter_map(|(name, value)| Some((name.to_string(), value?)))
+            .collect();
+        for option in &self.options {
+            let Some((name, value)) = option.split_once('=') else {
+                let message = format!("`--option {option}` has no value: write NAME=VALUE");
+                return Err(Usage(message).into());
+            };
+            pairs.push((name.to_string(), value.to_string()));
         }
+        let (name, options) = (backend.name(), backend.options());
+        GivenOptions::new(source.into_owned(), name, options, pairs).map_err(of_backend)
     }
 
     /// Fails unless the file at `path` contains `text`.
@@ -98,5 +132,13 @@ impl Generate {
             path.display(),
             self.file.display()
         ))
+    }
+}
+
+/// Returns the error of a backend: a wrong call, or something that it cannot write.
+fn of_backend(error: BackendError) -> anyhow::Error {
+    match error {
+        BackendError::Option(message) => Usage(message).into(),
+        BackendError::Unsupported(message) => anyhow!(message),
     }
 }

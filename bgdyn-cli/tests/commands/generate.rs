@@ -131,3 +131,37 @@ fn plain_text_has_the_same_statements() {
         syn::parse_file(&plain).unwrap_or_else(|e| panic!("{spec}: {e}"));
     }
 }
+
+#[test]
+fn backends_write_their_files() {
+    let header = scratch("generate_c", "scara4.h", "");
+    let folder = header.strip_suffix("/scara4.h").expect("a folder");
+    let source = format!("{folder}/scara4.c");
+    let asked = ["generate", SCARA, "--backend", "c", "-o", folder];
+    assert_eq!(bgdyn(&asked).good(), "");
+    let written = fs::read_to_string(&header).expect("the header");
+    assert!(written.contains("void scara4_inverse_dynamics(const double q[SCARA4_NQ]"));
+    let written = fs::read_to_string(&source).expect("the source");
+    assert!(written.contains("#include \"scara4.h\"") && !written.contains("sinf"));
+    let check = [&asked[..], &["--check"]].concat();
+    assert_eq!(bgdyn(&check).good(), "");
+    let single = [&check[..], &["--option", "float=float"]].concat();
+    let stderr = bgdyn(&single).bad_input();
+    assert!(stderr.contains("scara4.h:"), "{stderr}");
+}
+
+#[test]
+fn backends_and_their_options_are_checked() {
+    let c = |more: &[&str]| bgdyn(&[&["generate", SCARA, "--backend", "c"], more].concat());
+    let stderr = bgdyn(&["generate", SCARA, "--backend", "fortran"]).bad_usage();
+    assert!(stderr.contains("`rust`, `c`"), "{stderr}");
+    let stderr = c(&["--module", "arm"]).bad_usage();
+    assert!(stderr.contains("no option `module`"), "{stderr}");
+    let stderr = c(&["--option", "prefix"]).bad_usage();
+    assert!(stderr.contains("NAME=VALUE"), "{stderr}");
+    let stderr = c(&["--option", "sincos=fast"]).bad_usage();
+    assert!(stderr.contains("`own` or `libm`"), "{stderr}");
+    let scene = "specs/scenes/stick_slip.scene.yaml";
+    let stderr = bgdyn(&["generate", scene, "--backend", "c"]).bad_input();
+    assert!(stderr.contains("no scenes"), "{stderr}");
+}

@@ -22,7 +22,7 @@ use std::ops::Deref;
 use bgdyn_runtime::Dd;
 
 use crate::math::Vec3;
-use crate::mechanism::closure::Closure;
+use crate::mechanism::closure::{Actuated, Closure};
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
@@ -131,6 +131,21 @@ pub struct ClosedTree {
     pub tree: BondGraph,
     /// The loops; their coordinates are those of the tree.
     pub closure: Closure,
+}
+
+impl ClosedTree {
+    /// Returns the names of actuated joints.
+    pub fn joint_names(&self, actuated: &Actuated) -> Vec<&str> {
+        let all = &self.tree.coordinates;
+        let joints = actuated.joints.iter();
+        joints.map(|j| all[j.0].name.as_str()).collect()
+    }
+
+    /// Returns the names of the actuated joints, if they are not the independent ones; else none.
+    pub fn drive_names(&self) -> Vec<&str> {
+        let drives = self.closure.drives();
+        drives.map_or_else(Vec::new, |actuated| self.joint_names(actuated))
+    }
 }
 
 /// The mechanism in which the prescribed joints are free. It dereferences to its bond graph.

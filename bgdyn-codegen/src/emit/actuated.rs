@@ -5,20 +5,7 @@ use quote::quote;
 
 use super::constants::size;
 use crate::bond_graph::{ClosedTree, Multibody};
-use crate::mechanism::closure::Actuated;
 use crate::method::Method;
-
-fn names<'a>(closed: &'a ClosedTree, actuated: &Actuated) -> Vec<&'a str> {
-    let all = &closed.tree.coordinates;
-    let joints = actuated.joints.iter();
-    joints.map(|j| all[j.0].name.as_str()).collect()
-}
-
-/// Returns the names of the actuated joints, if they are not the independent ones; else none.
-pub(super) fn actuated_names(closed: &ClosedTree) -> Vec<&str> {
-    let drives = closed.closure.drives();
-    drives.map_or_else(Vec::new, |actuated| names(closed, actuated))
-}
 
 /// Returns the constants of the actuated joints, if the file names them.
 pub(super) fn actuated_constants(
@@ -27,7 +14,7 @@ pub(super) fn actuated_constants(
     present: &[Method],
 ) -> Option<TokenStream> {
     let actuated = closed.closure.actuated.as_ref()?;
-    let names = names(closed, actuated);
+    let names = closed.joint_names(actuated);
     let na = size(names.len());
     let inverse = |m: &Method| matches!(m, Method::ActuatedInverse(_));
     let pivots = present.iter().any(inverse).then(|| {
@@ -53,7 +40,7 @@ pub(super) fn actuated_constants(
 /// Returns the line of documentation about the actuated joints, if the file names them.
 pub(super) fn actuated_docs(closed: &ClosedTree) -> Option<String> {
     let actuated = closed.closure.actuated.as_ref()?;
-    let names = names(closed, actuated).join("`, `");
+    let names = closed.joint_names(actuated).join("`, `");
     Some(match closed.closure.drives() {
         Some(_) => format!(
             " Actuated: `{names}`. The trait `Dynamics` has the efforts along the independent velocities, as `bias` and `gravity` do."

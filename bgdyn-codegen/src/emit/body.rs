@@ -1,22 +1,25 @@
 //! Emits the body of a method: straight-line code, or calls of its blocks.
 
-use std::collections::BTreeSet;
+use proc_macro2::{Literal, TokenStream};
+use quote::{ToTokens, quote};
 
-use proc_macro2::TokenStream;
-use quote::{ToTokens, format_ident, quote};
-
-use super::code::{Naming, is_part, leaves};
+use super::code::{RESULT, Spelling};
 use super::columns::columns;
-use super::entries::{Entries, EntryTargets};
 use super::explain::checked;
-use super::loops;
+use super::products;
 use super::tokens::{argument_type, ident};
-use super::writer::Writer;
+use super::writer::{StoredResult, Writer};
 use crate::expr::Leaf;
-use crate::function::{Block, Function};
-use crate::mechanism::closure::Closure;
+use crate::function::Function;
 use crate::method::{Argument, Method, Shape};
-use crate::model::Model;
+use crate::plan::{BlockPlan, FunctionPlan, Listing, Place, PlanLimits, Tail, block_name, is_part};
+
+/// What the plans of Rust functions keep to: the lanes of the widest register, and results that are so small that
+/// storing their entries early gains nothing.
+pub const LIMITS: PlanLimits = PlanLimits {
+    sines: 8,
+    store_from: 16,
+};
 
 /// The body of a method, and the private functions of its blocks if it has several.
 pub(super) struct FunctionBody {
@@ -25,64 +28,81 @@ pub(super) struct FunctionBody {
 }
 
 /// Returns the body of a method, and its blocks. `finish` builds the result from its components; for a
-/// matrix, the targets give their positions in it.
+/// matrix, the places give their positions in it.
 pub(super) fn body(
     function: &Function,
-    naming: &Naming<'_>,
-    places: Option<EntryTargets>,
+    spelling: &Spelling<'_>,
+    places: Option<Vec<Vec<Place>>>,
     finish: impl Fn(&[TokenStream]) -> TokenStream,
 ) -> FunctionBody {
-    let shape = function.shape();
-    if let [block] = function.blocks.as_slice() {
-        let mut writer = Writer::new(function, naming, &block.outputs);
-        if let Some(places) = places.filter(|_| function.loops.is_none()) {
-            writer.entries = Entries::new(&block.outputs, places, &finish);
-        }
-        let statements = writer.block(&block.outputs, function);
-        // Only results that are returned unchecked are written entry by entry.
-        if let Some(result) = writer.stored_matrix() {
-            return FunctionBody {
-                body: quote! { #statements #result },
-                blocks: vec![],
-            };
-        }
-        let refused = shape.checked().then(|| {
-            let mutable = writer.pivots.then(|| quote! { mut });
-            quote! { let #mutable refused = T::none_refused(); }
-        });
-        let (loops, results) = with_loops(function, naming, writer.results(&block.outputs));
-        let result = finish(&results);
-        return FunctionBody {
-            body: quote! { #refused #statements #loops #result },
+    let plan = FunctionPlan::new(function, places, &LIMITS);
+    match plan.blocks.as_slice() {
+        [block] if function.blocks.len() == 1 => FunctionBody {
+            body: whole(&plan, block, spelling, &finish),
             blocks: vec![],
-        };
+        },
+        _ => in_blocks(&plan, spelling, &finish),
     }
+}
+
+/// Returns the body of a function in one block.
+fn whole(
+    plan: &FunctionPlan<'_>,
+    block: &BlockPlan<'_>,
+    spelling: &Spelling<'_>,
+    finish: &dyn Fn(&[TokenStream]) -> TokenStream,
+) -> TokenStream {
+    let (function, shape) = (plan.function, plan.function.shape());
+    let listing = Listing::new(block, function, &spelling.naming, &spelling.reserved());
+    let mut writer = Writer::new(&listing, spelling);
+    writer.target = Some(StoredResult {
+        whole: finish,
+        several: shape == Shape::SquarePair,
+    });
+    let statements = writer.statements();
+    // Only results that are returned unchecked are written entry by entry.
+    if block.begins() {
+        let result = ident(RESULT);
+        return quote! { #statements #result };
+    }
+    let refused = shape.checked().then(|| {
+        let mutable = block.refuses.then(|| quote! { mut });
+        quote! { let #mutable refused = T::none_refused(); }
+    });
+    let (loops, results) = with_loops(plan, spelling, writer.values(&block.outputs));
+    let result = finish(&results);
+    quote! { #refused #statements #loops #result }
+}
+
+/// Returns the body of a function that calls its blocks, and the blocks.
+fn in_blocks(
+    plan: &FunctionPlan<'_>,
+    spelling: &Spelling<'_>,
+    finish: &dyn Fn(&[TokenStream]) -> TokenStream,
+) -> FunctionBody {
     let mut blocks = Vec::new();
     let mut calls = TokenStream::new();
-    let last = &function.blocks[function.blocks.len() - 1];
-    let looped = !last.products.is_empty();
-    for b in 0..function.blocks.len() - usize::from(looped) {
-        let (block, call) = separate_block(function, naming, b);
-        let passed = format_ident!("p{b}");
+    for b in 0..plan.blocks.len() {
+        let (block, call) = separate_block(plan, spelling, b);
+        let passed = ident(&block_name(b));
         calls.extend(quote! { let #passed = #call; });
         blocks.push(block);
     }
-    if looped {
-        let matrix = loops::matrix(function, naming, last);
+    if let Tail::Products(products) = &plan.tail {
+        let matrix = products::matrix(plan.function, products, spelling);
         let body = quote! { #calls #matrix };
         return FunctionBody { body, blocks };
     }
-    let refused = shape
-        .checked()
-        .then(|| quote! { let mut refused = T::none_refused(); });
-    let last = format_ident!("p{}", function.blocks.len() - 1);
+    let refused = plan.function.shape().checked();
+    let refused = refused.then(|| quote! { let mut refused = T::none_refused(); });
+    let last = ident(&block_name(plan.blocks.len() - 1));
     let element = |i: usize| {
-        let i = proc_macro2::Literal::usize_unsuffixed(i);
+        let i = Literal::usize_unsuffixed(i);
         quote! { #last[#i] }
     };
-    let last_block = &function.blocks[function.blocks.len() - 1];
-    let results = (0..last_block.outputs.len()).map(element).collect();
-    let (loops, results) = with_loops(function, naming, results);
+    let count = plan.blocks.last().map_or(0, |block| block.outputs.len());
+    let results = (0..count).map(element).collect();
+    let (loops, results) = with_loops(plan, spelling, results);
     let result = finish(&results);
     FunctionBody {
         body: quote! { #refused #calls #loops #result },
@@ -92,60 +112,55 @@ pub(super) fn body(
 
 /// Adds the loops after the blocks, and the function's results, from those of the blocks.
 fn with_loops(
-    function: &Function,
-    naming: &Naming<'_>,
+    plan: &FunctionPlan<'_>,
+    spelling: &Spelling<'_>,
     results: Vec<TokenStream>,
 ) -> (TokenStream, Vec<TokenStream>) {
-    match &function.loops {
-        Some(loops) => columns(function, loops, naming, &results),
-        None => (TokenStream::new(), results),
+    match &plan.tail {
+        Tail::Columns(loops) => columns(plan.function, loops, spelling, &results),
+        _ => (TokenStream::new(), results),
     }
 }
 
 /// Emits a block as a private function, and the call of it.
 fn separate_block(
-    function: &Function,
-    naming: &Naming<'_>,
+    plan: &FunctionPlan<'_>,
+    spelling: &Spelling<'_>,
     b: usize,
 ) -> (TokenStream, TokenStream) {
-    let outputs = &function.blocks[b].outputs;
-    let mut writer = Writer::new(function, naming, outputs);
+    let (function, block) = (plan.function, &plan.blocks[b]);
+    let listing = Listing::new(block, function, &spelling.naming, &spelling.reserved());
+    let mut writer = Writer::new(&listing, spelling);
     let array = |values: &[TokenStream]| quote! { [#(#values),*] };
-    writer.entries = Entries::of_array(outputs, &array);
-    let statements = writer.block(outputs, function);
-    let result = match writer.stored_matrix() {
-        Some(result) => result.into_token_stream(),
-        None => array(&writer.results(outputs)),
+    writer.separate = true;
+    writer.target = Some(StoredResult {
+        whole: &array,
+        several: false,
+    });
+    let statements = writer.statements();
+    let result = match block.begins() {
+        true => ident(RESULT).into_token_stream(),
+        false => array(&writer.values(&block.outputs)),
     };
-    let read = leaves(&function.graph, outputs);
     let mut parameters = Vec::new();
     let mut arguments = Vec::new();
-    for &argument in function.method.arguments() {
-        let mut components = naming.components(argument).into_iter();
-        let part = |leaf: &Leaf| is_part(argument, *leaf);
-        if components.any(|(leaf, _)| read.contains(&leaf)) || read.iter().any(part) {
-            let (name, ty) = (ident(argument.name()), argument_type(argument));
-            parameters.push(quote! { #name: #ty });
-            arguments.push(quote! { #name });
-        }
+    for argument in arguments_read(function, &listing) {
+        let (name, ty) = (ident(argument.name()), argument_type(argument));
+        parameters.push(quote! { #name: #ty });
+        arguments.push(quote! { #name });
     }
-    for earlier in 0..b {
-        let reads = |l: &Leaf| matches!(l, Leaf::BlockResult { block, .. } if *block == earlier);
-        if read.iter().any(reads) {
-            let (name, n) = (
-                format_ident!("p{earlier}"),
-                function.blocks[earlier].outputs.len(),
-            );
-            parameters.push(quote! { #name: &[T; #n] });
-            arguments.push(quote! { &#name });
-        }
+    for earlier in block.blocks_read() {
+        let name = ident(&block_name(earlier));
+        let n = plan.blocks[earlier].outputs.len();
+        parameters.push(quote! { #name: &[T; #n] });
+        arguments.push(quote! { &#name });
     }
-    if writer.pivots {
+    if block.refuses {
         parameters.push(quote! { refused: &mut T::Refused });
         arguments.push(quote! { &mut refused });
     }
-    let name = format_ident!("{}_block_{b}", function.name());
-    let n = outputs.len();
+    let name = ident(&format!("{}_block_{b}", function.name()));
+    let n = block.outputs.len();
     let block = quote! {
         #[inline(never)]
         fn #name(&self, #(#parameters),*) -> [T; #n] {
@@ -156,44 +171,19 @@ fn separate_block(
     (block, quote! { self.#name(#(#arguments),*) })
 }
 
-fn leaves_of(function: &Function) -> BTreeSet<Leaf> {
-    let of_block = |b: &Block| leaves(&function.graph, &b.outputs);
-    function.blocks.iter().flat_map(of_block).collect()
-}
-
-/// Returns whether a function reads a position of a dependent joint; one in closed form does not.
-pub(super) fn reads_dependents(function: &Function, closure: &Closure) -> bool {
-    let read = leaves_of(function);
-    let mut positions = closure.dependents().filter_map(|j| closure.positions[j.0]);
-    positions.any(|p| read.contains(&Leaf::Position(p.0)))
-}
-
-/// Returns the names that a function does not read: arguments, as `q[joint]`, and run-time parameters.
-pub(super) fn unread(function: &Function, model: &Model) -> Vec<String> {
-    let read = leaves_of(function);
-    let mut unread = Vec::new();
-    let naming = Naming::of_model(model, false);
-    for argument in function.method.arguments() {
-        let components = naming.components(*argument);
-        let is_read = |j: usize| read.contains(&components[j].0);
-        let joints = match argument {
-            Argument::Q => &naming.positions,
-            Argument::TreeV | Argument::TreeTau => &naming.tree_joints,
-            Argument::ActuatedTau => &naming.actuated,
-            _ => &naming.joints,
-        };
-        let missing: Vec<_> = (0..joints.len()).filter(|&j| !is_read(j)).collect();
-        if missing.len() == joints.len() {
-            unread.push(format!("`{}`", argument.name()));
-        } else {
-            let name = |&j: &usize| format!("`{}[{j}]` ({})", argument.name(), joints[j]);
-            unread.extend(missing.iter().map(name));
-        }
-    }
-    let parameters = model.mechanism.parameters().iter().enumerate();
-    let missing = parameters.filter(|(p, _)| !read.contains(&Leaf::Parameter(*p)));
-    unread.extend(missing.map(|(_, parameter)| format!("the parameter `{}`", parameter.name)));
-    unread
+/// Returns the arguments that a block reads.
+fn arguments_read(function: &Function, listing: &Listing<'_>) -> Vec<Argument> {
+    let reads = &listing.block.reads;
+    let is_read = |argument: &Argument| {
+        let part = |leaf: &Leaf| is_part(*argument, *leaf);
+        let bound = listing
+            .arguments
+            .iter()
+            .any(|names| names.argument == *argument);
+        bound || reads.iter().any(part)
+    };
+    let arguments = function.method.arguments().iter().copied();
+    arguments.filter(is_read).collect()
 }
 
 /// The numbers of velocities of a mechanism.

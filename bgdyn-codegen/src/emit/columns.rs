@@ -3,73 +3,67 @@
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::code::{Naming, atom};
-use super::names::LoopArrays;
-use super::tokens::COMMENT;
-use super::writer::Writer;
-use crate::column_loop::{ColumnLoop, LoopedResult, OWN, ResultSource, SHARED};
-use crate::expr::{Leaf, Node, NodeId};
+use super::code::Spelling;
+use super::tokens::{comment, ident};
+use super::writer::{ColumnArrays, Writer};
+use crate::column_loop::ResultSource;
 use crate::function::Function;
+use crate::plan::{ColumnPlan, Listing, LoopArrays};
 
 /// Returns the loops, and the function's results including those of the loops; `stage` is the code of the
 /// results of the blocks.
 pub(super) fn columns(
     function: &Function,
-    loops: &LoopedResult,
-    naming: &Naming<'_>,
+    loops: &[ColumnPlan<'_>],
+    spelling: &Spelling<'_>,
     stage: &[TokenStream],
 ) -> (TokenStream, Vec<TokenStream>) {
-    let groups = loops.groups.iter().enumerate();
-    let code =
-        groups.map(|(k, group)| column_group(function, group, &LoopArrays::of(k), naming, stage));
-    let code = code.collect();
+    let groups = loops.iter().enumerate();
+    let code = groups.map(|(k, plan)| column_group(function, plan, k, spelling, stage));
     let value = |part: &ResultSource| match *part {
         ResultSource::Stage(k) => stage[k].clone(),
         ResultSource::Column { group, column, row } => {
-            let LoopArrays { found, .. } = LoopArrays::of(group);
+            let found = ident(&LoopArrays::of(group).found);
             let (row, column) = (place(row), place(column));
             quote! { #found[#row][#column] }
         }
     };
-    (code, loops.parts.iter().map(value).collect())
+    let parts = function.loops.iter().flat_map(|loops| &loops.parts);
+    (code.collect(), parts.map(value).collect())
 }
 
 fn column_group(
     function: &Function,
-    group: &ColumnLoop,
-    arrays: &LoopArrays,
-    naming: &Naming<'_>,
+    plan: &ColumnPlan<'_>,
+    group: usize,
+    spelling: &Spelling<'_>,
     stage: &[TokenStream],
 ) -> TokenStream {
-    let LoopArrays { shared, own, found } = arrays;
-    let column = function.of_column(group);
-    let mut writer = Writer::new(&column, naming, &group.outputs);
-    for i in 0..group.graph.len() {
-        writer.code[i] = match *group.graph.node(NodeId::at(i)) {
-            Node::Leaf(Leaf::BlockResult { block, index }) => {
-                let index = place(index);
-                Some(atom(match block {
-                    SHARED => quote! { #shared[#index] },
-                    OWN => quote! { #own[#index][c] },
-                    _ => unreachable!("a column reads two kinds of values"),
-                }))
-            }
-            _ => None,
-        };
-    }
-    let statements = writer.block(&group.outputs, &column);
-    let results = writer.results(&group.outputs);
+    let LoopArrays { shared, own, found } = LoopArrays::of(group);
+    let (shared, own, found) = (ident(&shared), ident(&own), ident(&found));
+    let listing = Listing::new(
+        &plan.column,
+        function,
+        &spelling.naming,
+        &spelling.reserved(),
+    );
+    let mut writer = Writer::new(&listing, spelling);
+    writer.arrays = Some(ColumnArrays {
+        shared: shared.clone(),
+        own: own.clone(),
+    });
+    let statements = writer.statements();
+    let results = writer.values(&plan.column.outputs);
     let rows = (0..results.len()).map(place);
-    let values = group.shared.iter().map(|&k| &stage[k]);
-    let own_rows = (0..group.own.first().map_or(0, Vec::len)).map(|row| {
-        let values = group.own.iter().map(|places| &stage[places[row]]);
+    let values = plan.group.shared.iter().map(|&k| &stage[k]);
+    let own_rows = plan.own_rows().into_iter().map(|row| {
+        let values = row.into_iter().map(|k| &stage[k]);
         quote! { [#(#values),*] }
     });
-    let (count, height) = (place(group.own.len()), place(results.len()));
-    let title =
-        format!("{COMMENT} the same for each column: row by row what it reads, and its results");
+    let (count, height) = (place(plan.group.own.len()), place(results.len()));
+    let title = comment("the same for each column: row by row what it reads, and its results");
     quote! {
-        #[doc = #title]
+        #title
         let #shared = [#(#values),*];
         let #own = [#(#own_rows),*];
         let mut #found = [[T::from_f64(0.0); #count]; #height];

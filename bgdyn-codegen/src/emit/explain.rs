@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::code::Naming;
 use super::tokens::{argument_type, ident};
 use crate::function::Function;
 use crate::layout::StateLayout;
 use crate::method::{Argument, Method, SceneFunction};
+use crate::plan::Naming;
 
 /// Returns the methods that the checked functions call, one for each list of arguments.
 pub(super) fn explainers(functions: &[Function], naming: &Naming<'_>) -> TokenStream {

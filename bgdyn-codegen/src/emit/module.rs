@@ -8,15 +8,16 @@ use super::base_access::base_access;
 use super::joint_access::joint_access;
 use super::legend::legend;
 use super::output_options::{OutputOptions, rebuild};
-use super::prescribed::{joint_list, prescribed_docs, summary_of};
+use super::prescribed::{joint_list, prescribed_docs};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{assembly, body, closure, code, constants, entries, explain, joint_segments, traits};
+use super::{assembly, body, closure, code, constants, explain, joint_segments, traits};
 use crate::bond_graph::{LinkFrame, PositionVariable};
 use crate::function::Function;
 use crate::mechanism::Motion;
 use crate::method::Method;
 use crate::model::Model;
+use crate::plan::{Naming, matrix_places, reads_dependents, summary_of, unread};
 
 /// Returns the module of a model.
 pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
@@ -29,7 +30,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let about = format!(" The mechanism `{}`.", model.mechanism.name());
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model, output));
-    let naming = code::Naming::of_model(model, output.plain);
+    let naming = Naming::of_model(model);
     let explainers = explain::explainers(&model.functions, &naming);
     let struct_name = struct_name(model);
     let present: Vec<Method> = model.functions.iter().map(|f| f.method).collect();
@@ -178,9 +179,9 @@ fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenSt
         of_tree: closed.map(|closed| closed.tree.coordinates.len()),
     };
     let finish = |values: &[TokenStream]| body::result(function.method, sizes, values);
-    let naming = code::Naming::of_model(model, output.plain);
-    let places = entries::places(function.shape(), model.mechanism.nv());
-    let body::FunctionBody { body, blocks } = body::body(function, &naming, places, finish);
+    let spelling = code::Spelling::of_model(model, output.plain);
+    let places = matrix_places(function.shape(), model.mechanism.nv());
+    let body::FunctionBody { body, blocks } = body::body(function, &spelling, places, finish);
     quote! {
         #(#[doc = #docs])*
         pub fn #name(&self, #(#names: #types),*) -> #result {
@@ -213,7 +214,7 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
     if inverse {
         docs.splice(1..1, inverse_docs(closed));
     }
-    let unread = body::unread(function, model);
+    let unread = unread(function, model);
     if !unread.is_empty() {
         docs.extend([
             String::new(),
@@ -240,7 +241,7 @@ fn method_docs(function: &Function, model: &Model) -> Vec<String> {
         if slips {
             docs.push(" Names the constraint at a singular position, and beyond one.".into());
         } else if let Some(closed) = closed {
-            docs.push(match body::reads_dependents(function, &closed.closure) {
+            docs.push(match reads_dependents(function, &closed.closure) {
                 true => " Names the loop at a singular position, and on another branch than that of the start.".into(),
                 false => " Names the loop at a singular position, and out of its reach; the branch is always that of the start.".into(),
             });

@@ -1,90 +1,86 @@
 //! Emits stores of the entries of a result as soon as they are computed.
+//!
+//! If a result is built at the end, all entries are stored then, with no computation left to overlap: this
+//! costs the mass matrix of a PUMA 5 %, in lanes 9 % (`docs/order.md`). The code therefore begins with a
+//! whole result and overwrites its entries. Entries that are not yet known are initialised with the first
+//! known one: compilers remove those stores, but not a call that fills memory with zeros. Large results with
+//! many zeros are filled with zeros nevertheless, which takes less time than to store the zeros one by one.
 
 use bgdyn_runtime::Dd;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
 
-use super::code::{Binding, atom};
-use super::entries::{Entries, NAME};
-use super::tokens::COMMENT;
+use super::code::{Binding, RESULT};
+use super::tokens::comment;
 use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
+use crate::plan::Place;
 
 /// Number of entries from which a result with many zeros is first filled with them.
 const LARGE: usize = 256;
 
 impl Writer<'_> {
-    /// Returns the result if it is written entry by entry; if no entry was written, all are constants.
-    pub(super) fn stored_matrix(&self) -> Option<Ident> {
-        let begun = self.entries.as_ref().is_some_and(|entries| entries.begun);
-        begun.then(|| format_ident!("{NAME}"))
-    }
-
-    /// Stores a computed node in its entries.
-    pub(super) fn store(&mut self, id: NodeId) {
-        let Some(mut entries) = self.entries.take() else {
-            return;
+    /// Initialises the whole result: constants in their entries, the first known node elsewhere.
+    pub(super) fn begin(&self, first: NodeId) -> TokenStream {
+        let Some(target) = &self.target else {
+            return TokenStream::new();
         };
-        if let Some(found) = entries.of.get(&id)
-            && self.constant(id).is_none()
-        {
-            if !entries.begun {
-                self.begin(id, &entries);
-            }
-            entries.begun = true;
-            for &k in found {
-                let value = self.operand(entries.outputs[k], Binding::Sum);
-                for place in &entries.places[k] {
-                    self.push_untitled(quote! { #place = #value; });
-                }
-            }
-        }
-        self.entries = Some(entries);
-    }
-
-    /// Initialises the whole result: constants in their entries, the first node elsewhere.
-    fn begin(&mut self, first: NodeId, entries: &Entries<'_>) {
-        if let Some(code) = &self.code[first.0 as usize]
-            && code.binding != Binding::Atom
-        {
-            let (variable, tokens) = (self.names.numbered(), code.tokens.clone());
-            self.push(first, quote! { let #variable = #tokens; });
-            self.code[first.0 as usize] = Some(atom(quote! { #variable }));
-        }
-        let other = match self.mostly_zero(entries) {
-            true => self.scalar(quote! { 0.0 }).tokens,
+        let other = match self.mostly_zero() {
+            true => self.scalar(quote! { 0.0 }),
             false => self.operand(Signed::plus(first), Binding::Sum),
         };
-        let value = |e: &Signed| match self.constant(e.node) {
-            Some(value) if e.negative => quote! { -#value },
-            Some(value) => value,
-            None => other.clone(),
+        let block = self.listing.block;
+        let value = |e: &Signed| match block.graph.node(e.node) {
+            Node::Constant(_) => self.operand(*e, Binding::Sum),
+            _ => other.clone(),
         };
-        let values: Vec<TokenStream> = entries.outputs.iter().map(value).collect();
-        let (name, whole) = (format_ident!("{NAME}"), (entries.whole)(&values));
-        let title =
-            format!("{COMMENT} placeholders but for constants: every other entry is stored below");
-        self.push_untitled(quote! { #[doc = #title] let mut #name = #whole; });
+        let values: Vec<TokenStream> = block.outputs.iter().map(value).collect();
+        let (name, whole) = (format_ident!("{RESULT}"), (target.whole)(&values));
+        let title = comment("placeholders but for constants: every other entry is stored below");
+        quote! { #title let mut #name = #whole; }
+    }
+
+    /// Stores an output at its places.
+    pub(super) fn store(&self, output: usize) -> TokenStream {
+        let block = self.listing.block;
+        let value = self.operand(block.outputs[output], Binding::Sum);
+        let places = block.places.iter().flat_map(|places| &places[output]);
+        let places = places.map(|place| self.place(place));
+        quote! { #(#places = #value;)* }
+    }
+
+    fn place(&self, place: &Place) -> TokenStream {
+        let name = format_ident!("{RESULT}");
+        match *place {
+            Place::Element(k) => {
+                let k = index(k);
+                quote! { #name[#k] }
+            }
+            Place::Entry {
+                matrix,
+                row,
+                column,
+            } => {
+                let several = self.target.as_ref().is_some_and(|target| target.several);
+                let matrix = several.then(|| index(matrix)).map(|k| quote! { [#k] });
+                let (row, column) = (index(row), index(column));
+                quote! { #name #matrix.data.0[#column][#row] }
+            }
+        }
     }
 
     /// Returns whether zeros are so many that filling the result with them takes the least time.
-    fn mostly_zero(&self, entries: &Entries<'_>) -> bool {
-        let sizes = entries.outputs.iter().zip(&entries.places);
-        let zero = |id| matches!(self.graph.node(id), Node::Constant(c) if c.value() == Dd::ZERO);
-        let zeros = sizes.filter(|(e, _)| zero(e.node));
+    fn mostly_zero(&self) -> bool {
+        let block = self.listing.block;
+        let places = || block.places.iter().flatten();
+        let zero = |e: &Signed| matches!(block.graph.node(e.node), Node::Constant(c) if c.value() == Dd::ZERO);
+        let zeros = block.outputs.iter().zip(places()).filter(|(e, _)| zero(e));
         let zeros: usize = zeros.map(|(_, places)| places.len()).sum();
-        let all: usize = entries.places.iter().map(Vec::len).sum();
+        let all: usize = places().map(Vec::len).sum();
         all >= LARGE && 4 * zeros >= all
     }
+}
 
-    /// Returns the code of a constant.
-    fn constant(&mut self, id: NodeId) -> Option<TokenStream> {
-        match self.graph.node(id) {
-            Node::Constant(c) => {
-                let value = self.number_of(c.value());
-                Some(self.scalar(value).tokens)
-            }
-            _ => None,
-        }
-    }
+fn index(k: usize) -> Literal {
+    Literal::usize_unsuffixed(k)
 }

@@ -10,6 +10,12 @@ use crate::method::{Argument, Shape};
 /// Prefix of a doc attribute's text that becomes a comment, because tokens cannot contain comments.
 pub(super) const COMMENT: &str = "//";
 
+/// Returns a comment: a doc attribute until [`super::source_text`], because tokens cannot contain comments.
+pub(super) fn comment(text: &str) -> TokenStream {
+    let text = format!("{COMMENT} {text}");
+    quote! { #[doc = #text] }
+}
+
 /// Returns an identifier; the name must be valid.
 pub(super) fn ident(name: &str) -> Ident {
     Ident::new(name, Span::call_site())

@@ -25,13 +25,23 @@ pub fn generate(
     output: &emit::OutputOptions,
     options: &Options,
 ) -> Result<(TokenStream, Faults), Refusal> {
+    let (model, findings) = checked_model(text, stem, options)?;
+    Ok((emit::module(&model, output), findings))
+}
+
+/// Converts a mechanism's text to its model, compared with equation (6), with its warnings.
+pub(super) fn checked_model(
+    text: &str,
+    stem: &str,
+    options: &Options,
+) -> Result<(Model, Faults), Refusal> {
     let (mechanism, findings) = read(text, Some(stem));
     let Some(mechanism) = mechanism else {
         return Err(Refusal::Spec(findings));
     };
     let model = model(mechanism, options).map_err(Refusal::Options)?;
     verify(&model, options)?;
-    Ok((emit::module(&model, output), findings))
+    Ok((model, findings))
 }
 
 /// Compares the model's functions with equation (6), unless the options leave that out.

@@ -19,6 +19,17 @@ pub(super) fn generate_scene(
     options: &Options,
     load: impl FnOnce(&str) -> Result<String, String>,
 ) -> Result<(TokenStream, Faults), Refusal> {
+    let (system, functions, findings) = checked_scene(text, stem, options, load)?;
+    Ok((emit::scene_module(&system, &functions, output), findings))
+}
+
+/// Converts a scene's text to its equations and functions, compared with equation (6), with its warnings.
+pub(super) fn checked_scene(
+    text: &str,
+    stem: &str,
+    options: &Options,
+    load: impl FnOnce(&str) -> Result<String, String>,
+) -> Result<(SceneEquations, Vec<Function>, Faults), Refusal> {
     let (system, findings) = read_scene(text, stem, load)?;
     let misplaced = options.misplaced_mechanism_options();
     if !misplaced.is_empty() {
@@ -31,7 +42,7 @@ pub(super) fn generate_scene(
     if options.verify {
         Refusal::unless_equal(check_scene(&system, &functions))?;
     }
-    Ok((emit::scene_module(&system, &functions, output), findings))
+    Ok((system, functions, findings))
 }
 
 /// Returns the functions of a scene: the default ones, those that its integrator needs, and those that the

@@ -12,4 +12,4 @@ mod random;
 mod render;
 
 // What files under test import from their crate.
-use bgdyn_codegen::expr;
+use bgdyn_codegen::{expr, method};

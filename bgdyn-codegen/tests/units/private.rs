@@ -4,9 +4,11 @@
 use std::fs;
 use std::path::Path;
 
+#[path = "../../src/plan/inline.rs"]
+mod inline;
 #[path = "../../src/legend.rs"]
 mod legend;
-#[path = "../../src/emit/order.rs"]
+#[path = "../../src/plan/order.rs"]
 mod order;
 #[path = "../../src/fault/suggest.rs"]
 mod suggest;
@@ -31,5 +33,5 @@ fn no_other_file_has_tests_of_its_own() {
         }
     }
     found.sort();
-    assert_eq!(found, ["emit/order.rs", "fault/suggest.rs", "legend.rs"]);
+    assert_eq!(found, ["fault/suggest.rs", "legend.rs", "plan/order.rs"]);
 }

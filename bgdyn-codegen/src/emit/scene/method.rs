@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::body::{self, vector};
-use super::super::code::Naming;
+use super::super::code::Spelling;
 use super::super::explain::checked;
 use super::super::tokens::{argument_type, ident, number};
 use super::parts::{
@@ -45,8 +45,8 @@ pub(super) fn method(function: &Function, scene: &SceneInterface, plain: bool) -
     let (_, parts) = result_of(role, scene);
     let (layout, is_checked) = (&scene.layout, function.shape().checked());
     let finish = |values: &[TokenStream]| finish(role, layout, &parts, values, is_checked);
-    let naming = Naming::of_scene(scene, plain);
-    let body::FunctionBody { body, blocks } = body::body(function, &naming, None, finish);
+    let spelling = Spelling::of_scene(scene, plain);
+    let body::FunctionBody { body, blocks } = body::body(function, &spelling, None, finish);
     let mut docs = vec![
         format!(" {}", role.summary()),
         String::new(),

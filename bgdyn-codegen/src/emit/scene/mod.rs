@@ -11,7 +11,6 @@ use proc_macro2::TokenStream;
 use quote::quote;
 pub use stub::scene_stub;
 
-use super::code::Naming;
 use super::constants::operation_counts;
 use super::explain::explainers;
 use super::legend::legend;
@@ -20,6 +19,7 @@ use super::tokens::{ident, struct_ident, structure};
 use crate::function::Function;
 use crate::interface::SceneInterface;
 use crate::method::{Method, SceneFunction};
+use crate::plan::Naming;
 use crate::system::SceneEquations;
 
 /// Returns the module of a scene with its functions.
@@ -41,7 +41,7 @@ pub fn scene_module(
     let methods = functions
         .iter()
         .map(|f| method::method(f, &interface, output.plain));
-    let naming = Naming::of_scene(&interface, output.plain);
+    let naming = Naming::of_scene(&interface);
     let explainers = explainers(functions, &naming);
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));

@@ -4,10 +4,9 @@
 //! roughly the order of the statements in long code, and stored values cost twice: by their instructions, and by
 //! code that no longer fits in the instruction cache (`docs/order.md`).
 
+use super::inline::{inline, uses};
 use crate::expr::{Graph, Node, NodeId, Signed};
 
-/// Largest number of operations in one statement, for readability.
-pub(super) const STATEMENT: usize = 6;
 /// Mean number of waiting values from which another order is looked for: in code with fewer, little is stored.
 const MANY: f64 = 40.0;
 /// Another order is taken if its mean number of waiting values is at most this part of the original one.
@@ -86,7 +85,8 @@ impl<'a> StatementBlock<'a> {
             pivots: 0,
             waits_for_end: vec![false; graph.len()],
         };
-        let is_part = parts_of_statements(graph, needed, outputs);
+        // An output is read a second time, by the result: it is a statement.
+        let is_part = inline(graph, needed, &uses(graph, needed, outputs, 2));
         let (mut is_early, mut last_pivot) = (vec![false; graph.len()], None);
         for i in (0..needed.len()).filter(|&i| needed[i]) {
             let node = graph.node(NodeId::at(i));
@@ -214,25 +214,6 @@ impl<'a> StatementBlock<'a> {
         }
         order
     }
-}
-
-/// Returns whether each operation is written in the statement of its only reader.
-fn parts_of_statements(graph: &Graph, needed: &[bool], outputs: &[Signed]) -> Vec<bool> {
-    let mut uses = vec![0; graph.len()];
-    outputs.iter().for_each(|e| uses[e.node.place()] += 2);
-    let needed = || (0..needed.len()).filter(|&i| needed[i]).map(NodeId::at);
-    needed().for_each(|id| graph.node(id).for_each_operand(|o| uses[o.place()] += 1));
-    let (mut is_part, mut sizes) = (vec![false; graph.len()], vec![0; graph.len()]);
-    for id in needed() {
-        let (node, i) = (graph.node(id), id.place());
-        if !matches!(node, Node::Add(..) | Node::Mul(..) | Node::Div(..)) {
-            continue;
-        }
-        sizes[i] = 1;
-        node.for_each_operand(|o| sizes[i] += usize::from(is_part[o.place()]) * sizes[o.place()]);
-        is_part[i] = uses[i] == 1 && sizes[i] < STATEMENT && graph.name(id).is_none();
-    }
-    is_part
 }
 
 /// Returns whether a node without operands, or with arguments as operands, takes no operation.

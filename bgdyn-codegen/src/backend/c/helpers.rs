@@ -1,0 +1,67 @@
+//! The functions that generated C calls: sines, pivots, and what C99 has no operator for.
+//!
+//! They compute what the runtime of bgdyn computes, in the same order, so that results have the same bits.
+
+use super::style::{Real, Style};
+
+/// Names of the helpers without the prefix, each after those that it calls.
+const HELPERS: [&str; 9] = [
+    "mul_add",
+    "smaller",
+    "larger",
+    "sign",
+    "checked_pivot",
+    "status",
+    "add_angle",
+    "sin_cos_near",
+    "sin_cos",
+];
+
+/// Returns the helpers that a text calls, directly or by others.
+pub(super) fn helpers(text: &str, style: &Style) -> String {
+    let mut called = text.to_string();
+    for helper in HELPERS.iter().rev() {
+        if called.contains(&format!("{}(", style.global(helper))) {
+            called = format!("{}\n{called}", written(helper, style));
+        }
+    }
+    called.truncate(called.len() - text.len());
+    called
+}
+
+/// Returns the template of a helper: `@` is the prefix, `REAL` the type; numbers and functions of libm are in
+/// backquotes.
+fn template(name: &str, style: &Style) -> &'static str {
+    match (name, style.real) {
+        ("mul_add", _) => include_str!("helpers/mul_add.h"),
+        ("smaller", _) => include_str!("helpers/smaller.h"),
+        ("larger", _) => include_str!("helpers/larger.h"),
+        ("sign", _) => include_str!("helpers/sign.h"),
+        ("checked_pivot", _) => include_str!("helpers/checked_pivot.h"),
+        ("status", _) => include_str!("helpers/status.h"),
+        ("add_angle", _) => include_str!("helpers/add_angle.h"),
+        ("sin_cos_near", Real::Double) => include_str!("helpers/sin_cos_near_double.h"),
+        ("sin_cos_near", Real::Float) => include_str!("helpers/sin_cos_near_float.h"),
+        ("sin_cos", _) if style.libm => include_str!("helpers/sin_cos_of_library.h"),
+        ("sin_cos", Real::Double) => include_str!("helpers/sin_cos_double.h"),
+        ("sin_cos", Real::Float) => include_str!("helpers/sin_cos_float.h"),
+        _ => unreachable!("the names of HELPERS"),
+    }
+}
+
+fn written(name: &str, style: &Style) -> String {
+    let (largest, floor) = match style.real {
+        Real::Double => (f64::MAX, 64.0 * f64::EPSILON),
+        Real::Float => (f64::from(f32::MAX), 64.0 * f64::from(f32::EPSILON)),
+    };
+    let text = template(name, style).replace('@', &style.prefix);
+    let text = text.replace("REAL", style.real());
+    let text = text.replace("LARGEST", &style.number(largest));
+    let text = text.replace("PIVOT_FLOOR", &style.number(floor));
+    let quoted = |(place, part): (usize, &str)| match (place % 2 == 1, part.parse::<f64>()) {
+        (false, _) => part.to_string(),
+        (true, Ok(number)) => style.number(number),
+        (true, Err(_)) => style.of_library(part),
+    };
+    text.split('`').enumerate().map(quoted).collect()
+}

@@ -1,0 +1,35 @@
+//! The order in which a function is computed, and the names of its values, in no language: what every backend reads.
+//!
+//! [`FunctionPlan`] is enough for machine code: the steps of each block, where results are stored, what is read.
+//! [`Listing`] adds what text needs: names of values, titles, comments. A language adds its syntax and its
+//! reserved words.
+
+mod block;
+mod columns;
+mod function;
+mod inline;
+mod limits;
+mod listing;
+mod named_constants;
+mod names;
+mod naming;
+mod order;
+mod places;
+mod products;
+mod reads;
+mod sines;
+mod summary;
+
+pub use block::{BlockPlan, BlockStep};
+pub use columns::ColumnPlan;
+pub use function::{FunctionPlan, Tail};
+pub use limits::PlanLimits;
+pub use listing::{Comments, ListedStep, Listing};
+pub use named_constants::NamedConstant;
+pub use names::{LoopArrays, block_name};
+pub use naming::{ArgumentNames, Naming};
+pub use places::{Place, elements, matrix_places};
+pub use products::{ProductPlan, ProductTable};
+pub use reads::{is_part, leaves, leaves_of, reads_dependents, unread};
+pub use sines::AnglePair;
+pub use summary::summary_of;

@@ -1,0 +1,133 @@
+//! The names of a function's arguments, parameters and their components.
+
+use crate::bond_graph::ClosedTree;
+use crate::expr::Leaf;
+use crate::interface::SceneInterface;
+use crate::layout::{StateLayout, Variable};
+use crate::method::Argument;
+use crate::model::Model;
+
+/// An argument with named components: of each component its leaf, and the name of its variable if it is read.
+#[derive(Clone, Debug)]
+pub struct ArgumentNames {
+    /// The argument.
+    pub argument: Argument,
+    /// Its components in order.
+    pub components: Vec<(Leaf, Option<String>)>,
+}
+
+/// The names of a function's leaves.
+pub struct Naming<'a> {
+    /// Positions.
+    pub positions: Vec<&'a str>,
+    /// Coordinates.
+    pub joints: Vec<&'a str>,
+    /// Coordinates of the open tree of a mechanism with loops.
+    pub tree_joints: Vec<&'a str>,
+    /// The actuated joints of a mechanism with loops, where they are not the independent ones.
+    pub actuated: Vec<&'a str>,
+    /// Run-time parameters.
+    pub parameters: Vec<&'a str>,
+    /// The parts of a scene's state and inputs; `None` for a mechanism.
+    pub layout: Option<&'a StateLayout>,
+}
+
+impl<'a> Naming<'a> {
+    /// Returns the names for a mechanism's functions.
+    pub fn of_model(model: &'a Model) -> Self {
+        let coordinates = model.bond_graph.coordinates.iter();
+        let parameters = model.mechanism.parameters().iter();
+        let positions = model.bond_graph.positions.iter();
+        let closed = model.bond_graph.closed.as_deref();
+        let of_tree = closed.iter().flat_map(|closed| &closed.tree.coordinates);
+        let drives = closed.map_or_else(Vec::new, ClosedTree::drive_names);
+        Naming {
+            tree_joints: of_tree.map(|c| c.name.as_str()).collect(),
+            actuated: drives,
+            positions: positions.map(|p| p.name.as_str()).collect(),
+            joints: coordinates.map(|c| c.name.as_str()).collect(),
+            parameters: parameters.map(|p| p.name.as_str()).collect(),
+            layout: None,
+        }
+    }
+
+    /// Returns the names for a scene's functions.
+    pub fn of_scene(scene: &'a SceneInterface) -> Self {
+        let layout = &scene.layout;
+        let positions = layout.positions.iter().map(|p| p.name.as_str());
+        let joints = layout.coordinates.iter().map(|c| c.name.as_str());
+        Naming {
+            positions: positions.collect(),
+            joints: joints.collect(),
+            tree_joints: Vec::new(),
+            actuated: Vec::new(),
+            parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
+            layout: Some(layout),
+        }
+    }
+
+    /// Returns the names of the components of a mechanism's argument, in order.
+    pub fn component_names(&self, argument: Argument) -> &[&'a str] {
+        match argument {
+            Argument::Q => &self.positions,
+            Argument::TreeV | Argument::TreeTau => &self.tree_joints,
+            Argument::ActuatedTau => &self.actuated,
+            _ => &self.joints,
+        }
+    }
+
+    /// Returns the leaves of an argument's components with names of variables for them; empty for an
+    /// argument with named parts.
+    pub fn components(&self, argument: Argument) -> Vec<(Leaf, String)> {
+        let leaf: fn(usize) -> Leaf = match argument {
+            Argument::Q => Leaf::Position,
+            Argument::V | Argument::TreeV => Leaf::Velocity,
+            Argument::A => Leaf::Acceleration,
+            Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => Leaf::Input,
+            _ => return self.scene_components(argument),
+        };
+        let names = self.component_names(argument).iter().enumerate();
+        let named = |(j, name): (usize, &&str)| (leaf(j), format!("{}_{name}", argument.name()));
+        names.map(named).collect()
+    }
+
+    fn scene_components(&self, argument: Argument) -> Vec<(Leaf, String)> {
+        match (argument, self.layout) {
+            (Argument::Canonical, Some(layout)) => {
+                let names = layout.coordinates.iter().map(|c| &c.name).enumerate();
+                let places = layout.positions.iter().map(|p| &p.name).enumerate();
+                let places = places.map(|(j, name)| (Leaf::Position(j), format!("q_{name}")));
+                let momenta = names.map(|(j, name)| (Leaf::Velocity(j), format!("p_{name}")));
+                let states = layout.states.iter().enumerate();
+                let states = states.map(|(i, s)| (Leaf::State(i), format!("x_{}", s.name)));
+                places.chain(momenta).chain(states).collect()
+            }
+            (Argument::Modes, Some(layout)) => {
+                let modes = layout.modes.iter().enumerate();
+                let named =
+                    |(i, m): (usize, &Variable)| (Leaf::Mode(i), format!("{}_mode", m.name));
+                modes.map(named).collect()
+            }
+            _ => vec![],
+        }
+    }
+
+    /// Returns the argument of a scene that has this leaf, and the name of its part there; no part for the time.
+    pub fn field(&self, leaf: Leaf) -> Option<(Argument, Option<String>)> {
+        let layout = self.layout?;
+        let of_state = |name: &str| (Argument::State, Some(name.to_string()));
+        Some(match leaf {
+            Leaf::Position(p) => of_state(&layout.positions[p].name),
+            Leaf::Velocity(j) => of_state(&layout.coordinates[j].rate_name),
+            Leaf::State(i) => of_state(&layout.states[i].name),
+            Leaf::Mode(i) => of_state(&format!("{}_mode", layout.modes[i].name)),
+            Leaf::Acceleration(j) => {
+                let name = layout.coordinates[j].name.clone();
+                (Argument::Accelerations, Some(name))
+            }
+            Leaf::Input(i) => (Argument::Input, Some(layout.inputs[i].name.clone())),
+            Leaf::Time => (Argument::Time, None),
+            Leaf::Parameter(_) | Leaf::BlockResult { .. } => return None,
+        })
+    }
+}

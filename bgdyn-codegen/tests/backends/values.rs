@@ -1,0 +1,108 @@
+//! States, and the values of functions at them: the evaluator's outputs in the order of a flat result.
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Shape;
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::random::Random;
+use bgdyn_runtime::Scalar;
+
+/// A type of numbers that C has as well.
+pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
+    /// Its name in C.
+    const NAME: &'static str;
+    fn bits(self) -> u64;
+    fn of_bits(bits: u64) -> Self;
+    fn is_finite(self) -> bool;
+
+    /// Returns whether the other number has the same bits, or whether both are NaN: the sign of a NaN means nothing.
+    fn equals(self, other: Self) -> bool {
+        let is_nan = |x: Self| x != x;
+        self.bits() == other.bits() || is_nan(self) && is_nan(other)
+    }
+}
+
+impl CNumber for f64 {
+    const NAME: &'static str = "double";
+    fn bits(self) -> u64 {
+        self.to_bits()
+    }
+    fn of_bits(bits: u64) -> Self {
+        f64::from_bits(bits)
+    }
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+}
+
+impl CNumber for f32 {
+    const NAME: &'static str = "float";
+    fn bits(self) -> u64 {
+        u64::from(self.to_bits())
+    }
+    fn of_bits(bits: u64) -> Self {
+        f32::from_bits(u32::try_from(bits).expect("a word of 32 bits"))
+    }
+    fn is_finite(self) -> bool {
+        f32::is_finite(self)
+    }
+}
+
+/// Random arguments of every function of a model: positions in ±`reach`.
+pub fn state<T: CNumber>(random: &mut Random, model: &Model, reach: f64) -> Inputs<T> {
+    let mut some = |count: usize, size: f64| -> Vec<T> {
+        (0..count)
+            .map(|_| T::from_f64(size * random.signed()))
+            .collect()
+    };
+    let (nq, nv) = (model.mechanism.nq(), model.mechanism.nv());
+    let (q, v, a, u) = (
+        some(nq, reach),
+        some(nv, 4.0),
+        some(nv, 9.0),
+        some(nv, 50.0),
+    );
+    let parameters = model.mechanism.parameters().iter();
+    let parameters =
+        parameters.map(|p| T::from_f64(p.default.to_f64() * (1.0 + 0.3 * random.unit())));
+    Inputs {
+        parameters: parameters.collect(),
+        q,
+        v,
+        a,
+        u,
+        ..Inputs::default()
+    }
+}
+
+/// The result that C must give: what it returns, and its array.
+pub struct Expected<T> {
+    pub status: i64,
+    pub values: Vec<T>,
+}
+
+pub fn expected<T: CNumber>(function: &Function, nv: usize, state: &Inputs<T>) -> Expected<T> {
+    let (values, refused) = function.evaluate(state.clone());
+    let checked = match function.shape() {
+        Shape::CheckedVector => values.len(),
+        Shape::CheckedSquares | Shape::CheckedWrenches => nv,
+        _ => 0,
+    };
+    let is_wild = values[..checked].iter().any(|x| !x.is_finite());
+    let status = match refused {
+        Some(joint) => joint as i64 + 1,
+        None => -i64::from(is_wild),
+    };
+    let flat: Vec<T> = match function.shape() {
+        Shape::Symmetric => {
+            let of_triangle = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
+            (0..nv * nv).map(|k| of_triangle(k / nv, k % nv)).collect()
+        }
+        Shape::CheckedSquares | Shape::CheckedWrenches => values[nv..].to_vec(),
+        _ => values,
+    };
+    Expected {
+        status,
+        values: flat,
+    }
+}
