@@ -3,14 +3,15 @@
 use std::fs;
 use std::path::Path;
 
-use bgdyn_codegen::backend::{BackendInput, GivenOptions, backend_named};
+use bgdyn_codegen::backend::{BackendInput, GeneratedFile, GivenOptions, backend_named};
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::{pipeline, read};
 
 use crate::c_program::{compile, compilers, run};
-use crate::values::{CNumber, expected, state};
+use crate::values::{CNumber, Expected, expected, state};
 
 /// States of each mechanism.
 const STATES: usize = 64;
@@ -32,51 +33,57 @@ fn selected(names: &[&str]) -> Options {
 }
 
 /// Fails unless every function of the model has the evaluator's bits, in every entry of every state.
-fn check<T: CNumber>(name: &str, model: &Model, options: &[(&str, &str)]) {
+fn check<T: CNumber>(name: &str, model: &Model) {
+    let reaches = [3.0, 3.0, 100.0, 0.0];
+    compare::<T>(name, model, &[], &reaches, &|found, value, _| {
+        found.equals(value)
+    });
+}
+
+/// Fails unless every entry of every function is the evaluator's, by `is_same` of both and of the function's largest
+/// entry. Positions reach as far as one of `reaches`.
+fn compare<T: CNumber>(
+    name: &str,
+    model: &Model,
+    options: &[(&str, &str)],
+    reaches: &[f64],
+    is_same: &dyn Fn(T, T, f64) -> bool,
+) {
     if cfg!(target_feature = "fma") {
         println!("skipped: Rust fuses products and sums in this build, C is compiled without");
         return;
     }
-    let backend = backend_named("c").expect("a backend");
-    let pairs = options
-        .iter()
-        .map(|(name, value)| (name.to_string(), value.to_string()));
-    let pairs = pairs.chain([("float".to_string(), T::NAME.to_string())]);
-    let given = GivenOptions::new("a test".into(), "c", backend.options(), pairs).expect("options");
-    let files = backend
-        .files(&BackendInput::Mechanism(model), &given)
-        .expect("files");
+    let files = files(model, &[options, &[("float", T::NAME)]].concat());
     let mut random = Random(20_261_127);
-    let reach = |k: usize| [3.0, 3.0, 100.0, 0.0][k % 4];
+    let reach = |k: usize| reaches[k % reaches.len()];
     let states: Vec<_> = (0..STATES)
         .map(|k| state::<T>(&mut random, model, reach(k)))
         .collect();
     let nv = model.mechanism.nv();
-    let sizes: Vec<usize> = model
-        .functions
-        .iter()
-        .map(|f| expected(f, nv, &states[0]).values.len())
-        .collect();
+    let functions = model.functions.iter();
+    let sizes = functions.map(|f| expected(f, nv, &states[0]).values.len());
+    let sizes: Vec<usize> = sizes.collect();
     for compiler in compilers() {
         let program = compile::<T>(compiler, name, &files, model, &sizes);
         let found = run(&program, &states);
         assert_eq!(found.len(), states.len(), "{compiler}: {name}");
         for (state, found) in states.iter().zip(found) {
+            let what = |f: &Function| format!("{compiler}: {name}: {}\n{state:?}", f.name());
             let mut found = found.into_iter();
             for function in &model.functions {
-                let expected = expected(function, nv, state);
-                let what = || format!("{compiler}: {name}: {}\n{state:?}", function.name());
-                assert_eq!(
-                    found.next(),
-                    Some(i128::from(expected.status)),
-                    "{}",
-                    what()
-                );
-                for (k, value) in expected.values.into_iter().enumerate() {
-                    let found = found.next().expect("an entry");
-                    let found = T::of_bits(u64::try_from(found).expect("a word"));
-                    let equal = found.equals(value);
-                    assert!(equal, "entry {k}: {found:?} for {value:?}, {}", what());
+                let Expected { status, values } = expected(function, nv, state);
+                let status = Some(i128::from(status));
+                assert_eq!(found.next(), status, "{}", what(function));
+                let size = values.iter().fold(0.0_f64, |size, x| size.max(x.size()));
+                for (k, value) in values.into_iter().enumerate() {
+                    let word = found.next().expect("an entry");
+                    let found = T::of_bits(u64::try_from(word).expect("a word"));
+                    let equal = is_same(found, value, size);
+                    assert!(
+                        equal,
+                        "entry {k}: {found:?} for {value:?}, {}",
+                        what(function)
+                    );
                 }
             }
             assert_eq!(found.next(), None);
@@ -84,8 +91,23 @@ fn check<T: CNumber>(name: &str, model: &Model, options: &[(&str, &str)]) {
     }
 }
 
+fn files(model: &Model, options: &[(&str, &str)]) -> Vec<GeneratedFile> {
+    let backend = backend_named("c").expect("a backend");
+    let pairs = options.iter();
+    let pairs = pairs.map(|(name, value)| (name.to_string(), value.to_string()));
+    let given = GivenOptions::new("a test".into(), "c", backend.options(), pairs);
+    let input = BackendInput::Mechanism(model);
+    let files = backend.files(&input, &given.expect("options that exist"));
+    files.expect("a mechanism that C can have")
+}
+
 /// Mechanisms with every kind of joint that a tree can have, with their derivatives where they can be written.
-const MECHANISMS: [&str; 12] = [
+const MECHANISMS: [&str; 17] = [
+    "specs/stanford.yaml",
+    "specs/constraints/gear_pair.yaml",
+    "specs/constraints/mimic_gripper.yaml",
+    "tests/golden/joints/planar_base_ur5.yaml",
+    "tests/golden/joints/satellite_arm6.yaml",
     "specs/scara.yaml",
     "specs/puma560.yaml",
     "specs/double_pendulum.yaml",
@@ -103,14 +125,14 @@ const MECHANISMS: [&str; 12] = [
 #[test]
 fn mechanisms_in_double() {
     for path in MECHANISMS {
-        check::<f64>(&name(path), &model(path, &Options::default()), &[]);
+        check::<f64>(&name(path), &model(path, &Options::default()));
     }
 }
 
 #[test]
 fn mechanisms_in_float() {
     for path in MECHANISMS {
-        check::<f32>(&name(path), &model(path, &Options::default()), &[]);
+        check::<f32>(&name(path), &model(path, &Options::default()));
     }
 }
 
@@ -132,7 +154,7 @@ fn columns() {
     for path in ["specs/scara.yaml", "specs/ur5.yaml", "specs/panda.yaml"] {
         let model = model(path, &options);
         loops += model.functions.iter().filter(|f| f.loops.is_some()).count();
-        check::<f64>(&format!("{}_derivatives", name(path)), &model, &[]);
+        check::<f64>(&format!("{}_derivatives", name(path)), &model);
     }
     assert!(loops > 0, "none of them has loops over columns");
 }
@@ -146,26 +168,37 @@ fn blocks_and_products() {
         ..selected(&["inverse_dynamics", "mass_matrix", "forward_dynamics"])
     };
     let model = model(path, &options);
-    let blocks = |f: &bgdyn_codegen::function::Function| f.blocks.len();
+    let blocks = |f: &Function| f.blocks.len();
     assert!(model.functions.iter().map(blocks).max() > Some(1));
-    let has_products = |f: &bgdyn_codegen::function::Function| {
-        f.blocks.iter().any(|block| !block.products.is_empty())
-    };
+    let has_products = |f: &Function| f.blocks.iter().any(|block| !block.products.is_empty());
     assert!(model.functions.iter().any(has_products));
-    check::<f64>("chain32", &model, &[]);
-    check::<f32>("chain32", &model, &[]);
+    check::<f64>("chain32", &model);
+    check::<f32>("chain32", &model);
 }
 
 /// Run-time parameters, which the caller sets.
 #[test]
 fn run_time_parameters() {
     for path in [
+        "specs/constraints/carousel.yaml",
         "tests/numeric/specs/puma_payload.yaml",
         "tests/scalars/specs/lifter.yaml",
     ] {
         let model = model(path, &Options::default());
         assert!(!model.mechanism.parameters().is_empty(), "{path}");
-        check::<f64>(&name(path), &model, &[]);
-        check::<f32>(&name(path), &model, &[]);
+        check::<f64>(&name(path), &model);
+        check::<f32>(&name(path), &model);
     }
+}
+
+/// Far angles, and the option `libm`: sines of libm differ in the last place.
+#[test]
+fn sines_of_libm() {
+    let arm = model("specs/scara.yaml", &Options::default());
+    let is_near = |found: f64, value: f64, size: f64| (found - value).abs() <= 1e-12 * size;
+    compare::<f64>("libm", &arm, &[("sincos", "libm")], &[3.0, 0.0], &is_near);
+    compare::<f64>("far", &arm, &[], &[3e5, 1e7], &is_near);
+    let is_near =
+        |found: f32, value: f32, size: f64| f64::from((found - value).abs()) <= 1e-4 * size;
+    compare::<f32>("libm", &arm, &[("sincos", "libm")], &[3.0, 0.0], &is_near);
 }

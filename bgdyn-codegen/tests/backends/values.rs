@@ -14,11 +14,12 @@ pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
     fn bits(self) -> u64;
     fn of_bits(bits: u64) -> Self;
     fn is_finite(self) -> bool;
+    fn is_nan(self) -> bool;
+    fn size(self) -> f64;
 
     /// Returns whether the other number has the same bits, or whether both are NaN: the sign of a NaN means nothing.
     fn equals(self, other: Self) -> bool {
-        let is_nan = |x: Self| x != x;
-        self.bits() == other.bits() || is_nan(self) && is_nan(other)
+        self.bits() == other.bits() || self.is_nan() && other.is_nan()
     }
 }
 
@@ -33,6 +34,12 @@ impl CNumber for f64 {
     fn is_finite(self) -> bool {
         f64::is_finite(self)
     }
+    fn is_nan(self) -> bool {
+        f64::is_nan(self)
+    }
+    fn size(self) -> f64 {
+        self.abs()
+    }
 }
 
 impl CNumber for f32 {
@@ -45,6 +52,12 @@ impl CNumber for f32 {
     }
     fn is_finite(self) -> bool {
         f32::is_finite(self)
+    }
+    fn is_nan(self) -> bool {
+        f32::is_nan(self)
+    }
+    fn size(self) -> f64 {
+        f64::from(self.abs())
     }
 }
 
