@@ -46,18 +46,13 @@ pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
     if graph.closed.is_some() {
         return Vec::new();
     }
-    let aligned = aligned_positions(graph);
-    let joints: Vec<usize> = (0..aligned.len())
-        .filter(|&j| aligned[j].is_some())
-        .collect();
-    let at = |j: usize, turns: f64, off: f64| {
-        aligned[j].map_or(0.0, |q: Dd| q.to_f64()) + (turns * FRAC_PI_2 + off)
-    };
+    let joints = aligned_joints(graph);
+    let at = |joint: &AlignedJoint, turns: f64, off: f64| joint.start + (turns * FRAC_PI_2 + off);
     let mut states = Vec::new();
     for seed in 0..TOGETHER {
         let mut state = random_state(graph, RANDOM + seed);
         let mut random = Random(!seed);
-        for &j in &joints {
+        for joint in &joints {
             // The first state has all normals in line, the next ones in line or folded, then any quarter
             // turn.
             let turns = match seed {
@@ -65,17 +60,17 @@ pub(crate) fn near_singular(graph: &BondGraph) -> Vec<Inputs<f64>> {
                 2 | 3 => 2.0 * random.below(2) as f64,
                 _ => random.below(4) as f64,
             };
-            state.q[j] = at(j, turns, OFF[seed as usize % OFF.len()]);
+            state.q[joint.position] = at(joint, turns, OFF[seed as usize % OFF.len()]);
         }
         states.push(state);
     }
-    let each: Vec<(f64, f64, usize)> = ONE_BY_ONE
+    let each: Vec<(f64, f64, AlignedJoint)> = ONE_BY_ONE
         .iter()
         .flat_map(|&(turns, off)| joints.iter().map(move |&j| (turns, off, j)))
         .collect();
-    for (turns, off, j) in subsample(&each, NEAR_SINGULAR - states.len()) {
+    for (turns, off, joint) in subsample(&each, NEAR_SINGULAR - states.len()) {
         let mut state = random_state(graph, 1000 + states.len() as u64);
-        state.q[j] = at(j, turns, off);
+        state.q[joint.position] = at(&joint, turns, off);
         states.push(state);
     }
     states
@@ -89,8 +84,8 @@ pub(crate) fn least_inertia<F: Fn(&Inputs<f64>) -> f64>(
     most: usize,
     moved: impl Fn(usize) -> F,
 ) -> Vec<Inputs<f64>> {
-    let aligned = aligned_positions(graph);
-    let n = aligned.len();
+    let aligned = aligned_joints(graph);
+    let n = graph.coordinates.len();
     let every = (0..n).flat_map(|i| OFF.map(|off| (i, off)));
     let kept = subsample(&every.collect::<Vec<_>>(), most);
     let mut states = Vec::new();
@@ -99,8 +94,9 @@ pub(crate) fn least_inertia<F: Fn(&Inputs<f64>) -> f64>(
         let least = least_inertia_pose(graph, &aligned, i, moved(i));
         for (_, off) in of_joint {
             let mut state = least.clone();
-            let joints = (0..n).filter(|&j| aligned[j].is_some());
-            joints.for_each(|j| state.q[j] += off);
+            for joint in &aligned {
+                state.q[joint.position] += off;
+            }
             states.push(state);
         }
     }
@@ -110,23 +106,22 @@ pub(crate) fn least_inertia<F: Fn(&Inputs<f64>) -> f64>(
 /// Returns the state in which joint i moves the least inertia, found joint by joint from the tips inboard.
 fn least_inertia_pose(
     graph: &BondGraph,
-    aligned: &[Option<Dd>],
+    aligned: &[AlignedJoint],
     i: usize,
     moved: impl Fn(&Inputs<f64>) -> f64,
 ) -> Inputs<f64> {
     let mut state = random_state(graph, 2000 + 4 * i as u64);
-    for j in (0..aligned.len()).rev() {
-        let Some(start) = aligned[j] else { continue };
-        let mut least = (f64::INFINITY, state.q[j]);
+    for &AlignedJoint { position, start } in aligned.iter().rev() {
+        let mut least = (f64::INFINITY, state.q[position]);
         for turns in 0..4 {
-            let q = start.to_f64() + f64::from(turns) * FRAC_PI_2;
-            state.q[j] = q;
+            let q = start + f64::from(turns) * FRAC_PI_2;
+            state.q[position] = q;
             let moved = moved(&state);
             if moved < least.0 {
                 least = (moved, q);
             }
         }
-        state.q[j] = least.1;
+        state.q[position] = least.1;
     }
     state
 }
@@ -219,17 +214,30 @@ pub(crate) fn normalize<T: Scalar>(graph: &Multibody, q: &mut [T]) {
     }
 }
 
+/// A joint with the position, rad, at which its axes are aligned.
+#[derive(Clone, Copy)]
+struct AlignedJoint {
+    /// The index of its position in q.
+    position: usize,
+    start: f64,
+}
+
 /// Returns, for each rotation with an inboard joint, the position at which the common normals with the
 /// axes before and after it have the same direction (θ = 0 of Denavit and Hartenberg). At this position,
 /// and at every quarter turn from it, the neighbouring axes are as close to parallel as possible, and the
-/// arm is stretched or folded. At a tip the centre of mass replaces the next axis. `None` for joints on
-/// the base: M does not depend on their positions.
-fn aligned_positions(graph: &BondGraph) -> Vec<Option<Dd>> {
+/// arm is stretched or folded. At a tip the centre of mass replaces the next axis. Not for joints on
+/// the base: M does not depend on their positions. Joints that follow others have no position of their own.
+fn aligned_joints(graph: &BondGraph) -> Vec<AlignedJoint> {
     let geometry = geometry(graph);
     let bodies = geometry.bodies.iter();
     bodies
-        .map(|body| {
+        .filter_map(|body| {
             if body.motion != Motion::Rotation || body.parent.is_none() {
+                return None;
+            }
+            let degrees = &graph.frames[body.link().0].degrees;
+            let position = degrees.positions.first()?.0;
+            if degrees.coupling.is_some() {
                 return None;
             }
             let mut start = angle_of(body.phase);
@@ -237,7 +245,9 @@ fn aligned_positions(graph: &BondGraph) -> Vec<Option<Dd>> {
                 let [x, y, _] = first_moment(graph, body).0;
                 start += Dd::from_f64(f64::atan2(y.to_f64(), x.to_f64()));
             }
-            Some(if body.opposite { start } else { -start })
+            let start = if body.opposite { start } else { -start };
+            let start = start.to_f64();
+            Some(AlignedJoint { position, start })
         })
         .collect()
 }
