@@ -32,9 +32,8 @@ pub fn read<'py>(
         false => contiguous(&array)?,
     };
     let borrowed = array.try_readonly();
-    borrowed.map_err(|_| {
-        PyValueError::new_err(format!("`{name}` is being written to by another call"))
-    })
+    borrowed
+        .map_err(|_| PyValueError::new_err(format!("`{name}` is being written to by another call")))
 }
 
 /// Returns the array for a result of this shape: a new one, or `out`.
@@ -93,6 +92,18 @@ pub fn shown(shape: &[usize]) -> String {
     }
 }
 
+/// Returns the indices of a state in a leading shape.
+pub fn unravelled(state: usize, batch: &[usize]) -> Vec<usize> {
+    let mut rest = state;
+    let mut index: Vec<usize> = Vec::new();
+    for size in batch.iter().rev() {
+        index.push(rest % size);
+        rest /= size;
+    }
+    index.reverse();
+    index
+}
+
 fn aligned(array: &Array<'_>) -> bool {
     array.data().addr().is_multiple_of(align_of::<f64>())
 }
@@ -109,7 +120,13 @@ fn doubles<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
         found = numpy.call_method1("asarray", (value,))?;
         let of_python = value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>();
         // Whole numbers in a list are as Python prints them; an array of them is a decision of its owner.
-        if of_python && found.getattr("dtype")?.getattr("kind")?.extract::<String>()? == "i" {
+        if of_python
+            && found
+                .getattr("dtype")?
+                .getattr("kind")?
+                .extract::<String>()?
+                == "i"
+        {
             found = found.call_method1("astype", ("float64",))?;
         }
     }

@@ -96,7 +96,8 @@ impl Batch<'_> {
             let pivot = match whole {
                 true => {
                     let width = results.len();
-                    self.call.call(&from, &mut out[0][k * width..(k + 1) * width])
+                    self.call
+                        .call(&from, &mut out[0][k * width..(k + 1) * width])
                 }
                 false => self.call.call(&from, &mut results),
             }

@@ -1,10 +1,13 @@
 //! Raises the exceptions that `python/bgdyn/_errors.py` defines.
 
 use bgdyn_cli::spec_file::SpecFile;
+use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::refusal::Refusal;
 use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+
+use crate::arrays::shown;
 
 /// Where a batch has no result.
 #[derive(Debug)]
@@ -20,6 +23,20 @@ pub struct Singular {
 }
 
 impl Singular {
+    /// Returns the error of the state with this index, without a cause.
+    pub fn new(index: Vec<usize>, what: &str) -> Self {
+        let message = match index[..] {
+            [] => what.to_owned(),
+            _ => format!("state {}: {what}", shown(&index)),
+        };
+        Singular {
+            message,
+            index,
+            joint: None,
+            closes: None,
+        }
+    }
+
     /// Converts it to `bgdyn.SingularError`.
     pub fn raised(&self, py: Python<'_>) -> PyErr {
         let arguments = PyTuple::new(py, &self.index)
@@ -39,10 +56,15 @@ pub fn spec_error(py: Python<'_>, text: &str) -> PyErr {
     }
 }
 
-/// Returns a `bgdyn.SpecError` with the text of `bgdyn check` for a refused file.
-pub fn refused(py: Python<'_>, file: &SpecFile, refusal: Refusal) -> PyErr {
+/// Returns a `bgdyn.SpecError` with the text of `bgdyn check` for a refused mechanism.
+pub fn refused(py: Python<'_>, file: &SpecFile, faults: &Faults) -> PyErr {
+    spec_error(py, &(file.render(faults) + &faults.tally()))
+}
+
+/// Returns the same for a refused scene.
+pub fn scene_refused(py: Python<'_>, file: &SpecFile, refusal: Refusal) -> PyErr {
     let (findings, tally) = file.refusal(refusal);
-    spec_error(py, &format!("{findings}{tally}"))
+    spec_error(py, &(findings + &tally))
 }
 
 fn raised(py: Python<'_>, class: &str, arguments: Bound<'_, PyTuple>) -> PyErr {

@@ -31,7 +31,9 @@ fn made(path: PathBuf) -> anyhow::Result<Import> {
         folder: path.parent().map(Into::into),
         ..Options::default()
     };
-    let table = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv"));
+    let table = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("csv"));
     match table {
         true => import_table(&file.text, &file.stem, None, &options),
         false => import_with(&file.text, &options),

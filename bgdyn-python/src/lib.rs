@@ -2,7 +2,7 @@
 //!
 //! A method's function is prepared as a tape (`spec.rs`), computed at many states (`batch.rs`) and its
 //! numbers put into arrays (`parts.rs`); these three know nothing of Python. `arrays.rs` reads and provides
-//! NumPy arrays, `method.rs`, `model.rs` and `scene.rs` are the classes.
+//! NumPy arrays, `results.rs` returns them; `method.rs`, `model.rs` and `scene.rs` are the classes.
 #![forbid(unsafe_code)]
 
 mod arrays;
@@ -12,6 +12,7 @@ mod imported;
 mod method;
 mod model;
 mod parts;
+mod results;
 mod scene;
 mod spec;
 

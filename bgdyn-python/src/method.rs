@@ -3,22 +3,24 @@
 use std::sync::Arc;
 
 use bgdyn_codegen::method::{Argument, Method};
-use numpy::{PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Array, read, shown, target, writable};
+use crate::arrays::{Array, read, shown, unravelled, writable};
 use crate::batch::{Batch, Given, Refusal};
 use crate::errors::Singular;
-use crate::model::Model;
-use crate::spec::{Cause, Prepared};
+use crate::results::{mask, result, targets};
+use crate::spec::{Cause, ModelData, Prepared};
 
 /// A method of a model.
 #[pyclass(frozen, module = "bgdyn", name = "Method")]
 #[derive(Debug)]
 pub struct PyMethod {
-    model: Model,
+    /// The object whose method it is.
+    model: Py<PyAny>,
+    data: ModelData,
     method: Method,
     #[pyo3(get)]
     name: String,
@@ -56,12 +58,12 @@ impl PyMethod {
         }
         let arguments = self.arguments(args, named)?;
         let prepared = self.prepared(py)?;
-        let arrays = targets(py, &prepared, &arguments.batch, out)?;
+        let arrays = targets(py, &prepared.parts, &arguments.batch, out)?;
         let refused = self.compute(py, &prepared, &arguments, &arrays, threads)?;
         if let (Some(first), OnSingular::Raise) = (refused.first(), on_singular) {
             return Err(self.singular(first, &arguments.batch).raised(py));
         }
-        let result = result(py, &prepared, arrays)?;
+        let result = result(py, &prepared.parts, arrays, out.is_some())?;
         match on_singular {
             OnSingular::Raise => Ok(result),
             OnSingular::Nan => {
@@ -81,7 +83,7 @@ impl PyMethod {
     /// What the result is.
     #[getter]
     fn summary(&self) -> String {
-        self.method.summary(&self.model.spec.graph.sites)
+        self.method.summary(&self.data.spec.graph.sites)
     }
 
     /// The units of the result.
@@ -97,43 +99,49 @@ impl PyMethod {
     }
 
     fn __repr__(&self) -> String {
-        let arguments: Vec<String> = self.method.arguments().iter().map(|a| self.typed(*a)).collect();
+        let arguments: Vec<String> = self
+            .method
+            .arguments()
+            .iter()
+            .map(|a| self.typed(*a))
+            .collect();
         format!(
             "<{}({}) of {}: {} {}>",
             self.name,
             arguments.join(", "),
-            self.model.spec.name,
+            self.data.spec.name,
             self.summary(),
             self.units()
         )
     }
 
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (Model, String))> {
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let getattr = py.import("builtins")?.getattr("getattr")?;
-        Ok((getattr, (self.model.clone(), self.name.clone())))
+        (getattr, (&self.model, &self.name)).into_pyobject(py)
     }
 
     fn __eq__(&self, other: &Self) -> bool {
-        self.name == other.name && self.model.same(&other.model)
+        self.name == other.name && self.data.same(&other.data)
     }
 }
 
 impl PyMethod {
-    /// Returns a method of a model.
-    pub fn new(model: Model, method: Method) -> Self {
+    /// Returns a method of the object `model` with this data.
+    pub fn new(model: Py<PyAny>, data: ModelData, method: Method) -> Self {
         PyMethod {
-            name: model.spec.name_of(method),
+            name: data.spec.name_of(method),
             model,
+            data,
             method,
         }
     }
 
     fn typed(&self, argument: Argument) -> String {
-        format!("{}: ({},)", argument.name(), self.model.spec.width(argument))
+        format!("{}: ({},)", argument.name(), self.data.spec.width(argument))
     }
 
     fn prepared(&self, py: Python<'_>) -> PyResult<Arc<Prepared>> {
-        let spec = &self.model.spec;
+        let spec = &self.data.spec;
         let found = py.detach(|| spec.prepared(self.method));
         found.map_err(PyValueError::new_err)
     }
@@ -160,7 +168,7 @@ impl PyMethod {
                 },
                 (None, None) => return Err(self.wrong_arguments()),
             };
-            let array = read(name, &value, self.model.spec.width(argument))?;
+            let array = read(name, &value, self.data.spec.width(argument))?;
             let leading = &array.shape()[..array.shape().len() - 1];
             if batch.is_empty() {
                 batch = leading.to_vec();
@@ -202,7 +210,7 @@ impl PyMethod {
             given.push(Given {
                 argument: *argument,
                 values: array.as_slice()?,
-                width: self.model.spec.width(*argument),
+                width: self.data.spec.width(*argument),
                 shared: array.shape().len() == 1,
             });
         }
@@ -217,7 +225,7 @@ impl PyMethod {
         let batch = Batch {
             call: &*prepared.call,
             given: &given,
-            parameters: &self.model.parameters,
+            parameters: &self.data.parameters,
             parts: &prepared.parts.arrays,
         };
         let count = arguments.batch.iter().product();
@@ -227,36 +235,34 @@ impl PyMethod {
     /// Returns the error of a refused state.
     fn singular(&self, refusal: &Refusal, batch: &[usize]) -> Singular {
         let index = unravelled(refusal.state, batch);
-        let place = match batch {
-            [] => String::new(),
-            _ => format!("state {}: ", shown(&index)),
-        };
-        let (what, joint, closes) = match self.model.spec.cause(self.method, refusal.pivot) {
-            Cause::Joint(name) => (
-                format!("singular mass matrix: joint `{name}` has no inertia left to accelerate"),
-                Some(name),
-                None,
-            ),
-            Cause::Loop(name) => (
-                format!(
-                    "the loop `{name}` is at a singular position, or on another branch than that of the start"
-                ),
-                None,
-                Some(name),
-            ),
-            Cause::NotActuated(name) => (
-                format!(
-                    "no efforts of the actuated joints: `{name}` does not follow the actuated joints here"
-                ),
-                Some(name),
-                None,
-            ),
-        };
-        Singular {
-            message: place + &what,
-            index,
-            joint,
-            closes,
+        match self.data.spec.cause(self.method, refusal.pivot) {
+            Cause::Joint(name) => Singular {
+                joint: Some(name.clone()),
+                ..Singular::new(
+                    index,
+                    &format!(
+                        "singular mass matrix: joint `{name}` has no inertia left to accelerate"
+                    ),
+                )
+            },
+            Cause::Loop(name) => Singular {
+                closes: Some(name.clone()),
+                ..Singular::new(
+                    index,
+                    &format!(
+                        "the loop `{name}` is at a singular position, or on another branch than that of the start"
+                    ),
+                )
+            },
+            Cause::NotActuated(name) => Singular {
+                joint: Some(name.clone()),
+                ..Singular::new(
+                    index,
+                    &format!(
+                        "no efforts of the actuated joints: `{name}` does not follow the actuated joints here"
+                    ),
+                )
+            },
         }
     }
 }
@@ -271,67 +277,4 @@ impl OnSingular {
             ))),
         }
     }
-}
-
-/// Returns the arrays of a result: new ones, or those of `out`.
-fn targets<'py>(
-    py: Python<'py>,
-    prepared: &Prepared,
-    batch: &[usize],
-    out: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Vec<Array<'py>>> {
-    let parts = &prepared.parts;
-    let shape = |k: usize| [batch, &parts.arrays[k].shape].concat();
-    let (Some(out), Some(class)) = (out, parts.class) else {
-        let all = 0..parts.arrays.len();
-        return all.map(|k| target(py, out, &shape(k))).collect();
-    };
-    let given = out.cast::<PyTuple>().ok();
-    let given = given.filter(|given| given.len() == parts.arrays.len());
-    let given = given.ok_or_else(|| {
-        PyTypeError::new_err(format!(
-            "`out` is a tuple of {} arrays, or a bgdyn.{class}",
-            parts.arrays.len()
-        ))
-    })?;
-    let each = given.iter().enumerate();
-    each.map(|(k, out)| target(py, Some(&out), &shape(k))).collect()
-}
-
-/// Returns what a call returns: a number, an array, or several arrays with their names.
-fn result<'py>(
-    py: Python<'py>,
-    prepared: &Prepared,
-    arrays: Vec<Array<'py>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    if let Some(class) = prepared.parts.class {
-        let class = py.import("bgdyn._results")?.getattr(class)?;
-        return class.call1(PyTuple::new(py, arrays)?);
-    }
-    let [array] = &arrays[..] else {
-        return Err(PyTypeError::new_err("several arrays without names"));
-    };
-    Ok(array.as_any().clone())
-}
-
-/// Returns where a batch is singular; one bool for a single state.
-fn mask<'py>(py: Python<'py>, refused: &[Refusal], batch: &[usize]) -> PyResult<Bound<'py, PyAny>> {
-    let mask = PyArrayDyn::<bool>::zeros(py, batch, false);
-    let mut write = mask.readwrite();
-    let entries = write.as_slice_mut()?;
-    refused.iter().for_each(|one| entries[one.state] = true);
-    drop(write);
-    Ok(mask.into_any())
-}
-
-/// Returns the indices of a state in a leading shape.
-pub fn unravelled(state: usize, batch: &[usize]) -> Vec<usize> {
-    let mut rest = state;
-    let mut index: Vec<usize> = Vec::new();
-    for size in batch.iter().rev() {
-        index.push(rest % size);
-        rest /= size;
-    }
-    index.reverse();
-    index
 }

@@ -14,19 +14,16 @@ use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Array, read, shown, writable};
+use crate::arrays::{Array, read, unravelled, writable};
 use crate::errors::{Singular, refused, spec_error};
 use crate::method::PyMethod;
-use crate::spec::Spec;
+use crate::spec::{ModelData, Spec};
 
 /// A model: a mechanism with the values of its run-time parameters. It does not change.
-#[pyclass(frozen, module = "bgdyn", name = "Model", from_py_object)]
-#[derive(Clone, Debug)]
+#[pyclass(frozen, module = "bgdyn", name = "Model")]
+#[derive(Debug)]
 pub struct Model {
-    /// The mechanism.
-    pub spec: Arc<Spec>,
-    /// The values of the run-time parameters, SI units.
-    pub parameters: Arc<[f64]>,
+    data: ModelData,
     /// Warnings of the check.
     warnings: Arc<str>,
 }
@@ -58,16 +55,21 @@ impl Model {
         };
         if let Some(fault) = file.urdf() {
             let shown = file.path.display().to_string();
-            return Err(spec_error(py, &format!("{}; or load(urdf=\"{shown}\")", fault.headline(&shown))));
+            return Err(spec_error(
+                py,
+                &format!("{}; or load(urdf=\"{shown}\")", fault.headline(&shown)),
+            ));
         }
         if file.is_scene() {
             let shown = file.path.display();
-            return Err(spec_error(py, &format!("{shown} is a scene: see bgdyn.Scene")));
+            return Err(spec_error(
+                py,
+                &format!("{shown} is a scene: see bgdyn.Scene"),
+            ));
         }
         let (mechanism, faults) = py.detach(|| file.read());
         let Some(mechanism) = mechanism else {
-            let refusal = bgdyn_codegen::refusal::Refusal::Spec(faults);
-            return Err(refused(py, &file, refusal));
+            return Err(refused(py, &file, &faults));
         };
         let warnings = file.render(&faults);
         let choice = (formulation, prefer.to_owned());
@@ -76,8 +78,10 @@ impl Model {
         let spec = Spec::new((file.text, file.stem), mechanism, choice, options);
         spec.checked().map_err(PyValueError::new_err)?;
         let model = Model {
-            spec: Arc::new(spec),
-            parameters: parameters_of_file,
+            data: ModelData {
+                spec: Arc::new(spec),
+                parameters: parameters_of_file,
+            },
             warnings: warnings.into(),
         };
         model.with_parameters(parameters)
@@ -86,8 +90,8 @@ impl Model {
     /// The model with these values of run-time parameters, SI units.
     #[pyo3(signature = (**parameters))]
     fn with_parameters(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let all = self.spec.mechanism.parameters();
-        let mut values = self.parameters.to_vec();
+        let all = self.data.spec.mechanism.parameters();
+        let mut values = self.data.parameters.to_vec();
         for (name, value) in parameters.into_iter().flatten() {
             let (name, value): (String, f64) = (name.extract()?, value.extract()?);
             let found = all.iter().position(|p| p.name == name);
@@ -104,52 +108,55 @@ impl Model {
             values[found] = value;
         }
         Ok(Model {
-            parameters: values.into(),
-            ..self.clone()
+            data: ModelData {
+                spec: Arc::clone(&self.data.spec),
+                parameters: values.into(),
+            },
+            warnings: Arc::clone(&self.warnings),
         })
     }
 
     #[getter]
     fn name(&self) -> &str {
-        &self.spec.name
+        &self.data.spec.name
     }
 
     #[getter]
     fn text(&self) -> &str {
-        &self.spec.text
+        &self.data.spec.text
     }
 
     #[getter]
     fn nq(&self) -> usize {
-        self.spec.mechanism.nq()
+        self.data.spec.mechanism.nq()
     }
 
     #[getter]
     fn nv(&self) -> usize {
-        self.spec.sizes().nv
+        self.data.spec.sizes().nv
     }
 
     #[getter]
     fn joint_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.spec.graph.coordinates.iter().map(|c| &c.name))
+        PyTuple::new(py, self.data.spec.graph.coordinates.iter().map(|c| &c.name))
     }
 
     #[getter]
     fn position_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.spec.mechanism.position_names())
+        PyTuple::new(py, self.data.spec.mechanism.position_names())
     }
 
     /// The joints of the open tree of a mechanism with loops; otherwise those of `joint_names`.
     #[getter]
     fn tree_joint_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let closed = self.spec.graph.closed.as_deref();
-        let all = closed.map_or(&self.spec.graph.coordinates, |c| &c.tree.coordinates);
+        let closed = self.data.spec.graph.closed.as_deref();
+        let all = closed.map_or(&self.data.spec.graph.coordinates, |c| &c.tree.coordinates);
         PyTuple::new(py, all.iter().map(|c| &c.name))
     }
 
     #[getter]
     fn constraint_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let closed = self.spec.graph.closed.iter();
+        let closed = self.data.spec.graph.closed.iter();
         let rows = closed.flat_map(|c| c.closure.rows.iter().map(|row| c.closure.row_name(row)));
         PyTuple::new(py, rows.collect::<Vec<_>>())
     }
@@ -157,15 +164,15 @@ impl Model {
     /// The links and frames X of `pose_X`, `velocity_X`, `jacobian_world_X`, `jacobian_dot_v_world_X`.
     #[getter]
     fn frame_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.spec.graph.sites.iter().map(|s| &s.name))
+        PyTuple::new(py, self.data.spec.graph.sites.iter().map(|s| &s.name))
     }
 
     /// The values of the run-time parameters, SI units.
     #[getter]
     fn parameters<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let found = PyDict::new(py);
-        let all = self.spec.mechanism.parameters().iter();
-        for (parameter, value) in all.zip(self.parameters.iter()) {
+        let all = self.data.spec.mechanism.parameters().iter();
+        for (parameter, value) in all.zip(self.data.parameters.iter()) {
             found.set_item(&parameter.name, value)?;
         }
         Ok(found)
@@ -185,7 +192,7 @@ impl Model {
     /// Counts of the operations of a method's function.
     fn operations<'py>(&self, py: Python<'py>, method: &str) -> PyResult<Bound<'py, PyDict>> {
         let method = self.method(method)?;
-        let prepared = py.detach(|| self.spec.prepared(method));
+        let prepared = py.detach(|| self.data.spec.prepared(method));
         let count = prepared.map_err(PyValueError::new_err)?.operations;
         let found = PyDict::new(py);
         let all = [
@@ -205,14 +212,18 @@ impl Model {
     /// The Rust source text of a module with this method.
     fn source(&self, py: Python<'_>, method: &str) -> PyResult<String> {
         let method = self.method(method)?;
-        let text = py.detach(|| self.spec.source(method));
+        let text = py.detach(|| self.data.spec.source(method));
         text.map_err(PyValueError::new_err)
     }
 
-    /// q with every coordinate zero and every quaternion (0, 0, 0, 1).
+    /// q with every coordinate zero and every quaternion (0, 0, 0, 1); with loops their closed start.
     fn neutral<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        let mut q = vec![0.0; self.spec.mechanism.nq()];
-        for joint in self.spec.mechanism.compound_joints() {
+        if let Some(closure) = self.data.spec.mechanism.closure() {
+            let start = closure.start.iter().map(|x| x.to_f64());
+            return PyArray1::from_vec(py, start.collect());
+        }
+        let mut q = vec![0.0; self.data.spec.mechanism.nq()];
+        for joint in self.data.spec.mechanism.compound_joints() {
             let Motion::Compound(motion) = joint.kind.motion else {
                 continue;
             };
@@ -225,7 +236,7 @@ impl Model {
 
     /// q with the dependent positions changed so that all loops close.
     fn close<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
-        let Some(closure) = self.spec.mechanism.closure() else {
+        let Some(closure) = self.data.spec.mechanism.closure() else {
             return Err(PyValueError::new_err("the mechanism has no loops"));
         };
         let nq = self.nq();
@@ -251,22 +262,21 @@ impl Model {
             None => Ok(closed),
             Some(k) => {
                 let batch = &from.shape()[..from.shape().len() - 1];
-                let index = crate::method::unravelled(k, batch);
-                let message = format!("state {}: the loops do not close from here", shown(&index));
-                let error = Singular {
-                    message,
-                    index,
-                    joint: None,
-                    closes: None,
-                };
+                let index = unravelled(k, batch);
+                let error = Singular::new(index, "the loops do not close from these positions");
                 Err(error.raised(py))
             }
         }
     }
 
-    fn __getattr__(&self, name: &str) -> PyResult<PyMethod> {
-        let method = Method::named(&self.spec.graph, name).map_err(PyAttributeError::new_err)?;
-        Ok(PyMethod::new(self.clone(), method))
+    fn __getattr__(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
+        let data = &slf.get().data;
+        let method = Method::named(&data.spec.graph, name).map_err(PyAttributeError::new_err)?;
+        Ok(PyMethod::new(
+            slf.as_any().clone().unbind(),
+            data.clone(),
+            method,
+        ))
     }
 
     fn __dir__(slf: &Bound<'_, Self>) -> PyResult<Vec<String>> {
@@ -276,10 +286,17 @@ impl Model {
     }
 
     fn __repr__(&self) -> String {
-        let joints: Vec<&str> = self.spec.graph.coordinates.iter().map(|c| c.name.as_str()).collect();
+        let joints: Vec<&str> = self
+            .data
+            .spec
+            .graph
+            .coordinates
+            .iter()
+            .map(|c| c.name.as_str())
+            .collect();
         format!(
             "<bgdyn.Model {}: NQ {}, NV {}: {}>",
-            self.spec.name,
+            self.data.spec.name,
             self.nq(),
             self.nv(),
             joints.join(", ")
@@ -287,12 +304,12 @@ impl Model {
     }
 
     fn _repr_html_(&self) -> String {
-        mechanism_svg(&self.spec.mechanism)
+        mechanism_svg(&self.data.spec.mechanism)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let class = py.get_type::<Model>();
-        let spec = &self.spec;
+        let spec = &self.data.spec;
         let arguments = (
             &spec.text,
             &spec.name,
@@ -313,32 +330,28 @@ impl Model {
     }
 
     fn __eq__(&self, other: &Self) -> bool {
-        self.same(other)
+        self.data.same(&other.data)
     }
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        (&self.spec.text, &self.spec.name, &self.spec.choice).hash(&mut hasher);
+        (
+            &self.data.spec.text,
+            &self.data.spec.name,
+            &self.data.spec.choice,
+        )
+            .hash(&mut hasher);
         hasher.finish()
     }
 }
 
 impl Model {
-    /// Returns whether two models compute the same from the same text.
-    pub fn same(&self, other: &Model) -> bool {
-        let of = |model: &Model| {
-            let spec = &model.spec;
-            (spec.text.clone(), spec.name.clone(), spec.choice.clone())
-        };
-        of(self) == of(other) && self.parameters == other.parameters
-    }
-
     fn method(&self, name: &str) -> PyResult<Method> {
-        Method::named(&self.spec.graph, name).map_err(PyValueError::new_err)
+        Method::named(&self.data.spec.graph, name).map_err(PyValueError::new_err)
     }
 
     fn method_names(&self) -> Vec<String> {
-        let all = Method::possible_of(&self.spec.graph);
-        all.into_iter().map(|m| self.spec.name_of(m)).collect()
+        let all = Method::possible_of(&self.data.spec.graph);
+        all.into_iter().map(|m| self.data.spec.name_of(m)).collect()
     }
 }

@@ -78,7 +78,9 @@ impl Parts {
         let square = |k: usize, first: usize| Part::run(first + k * nv * nv, &[nv, nv]);
         let wrenches = |first: usize| {
             let number = (results - first) / 6;
-            [0, 3].map(|at| Part::of_wrenches(first, number, at)).to_vec()
+            [0, 3]
+                .map(|at| Part::of_wrenches(first, number, at))
+                .to_vec()
         };
         let (class, arrays) = match method.shape() {
             Shape::Scalar => (None, vec![Part::run(0, &[])]),
@@ -87,10 +89,7 @@ impl Parts {
             Shape::Jacobian => (None, vec![Part::run(0, &[6, nv])]),
             Shape::TreeMatrix => (None, vec![Part::run(0, &[nt, nv])]),
             Shape::RowMatrix => (None, vec![Part::run(0, &[nc, nt])]),
-            Shape::SquarePair => (
-                Some("InverseDerivatives"),
-                vec![square(0, 0), square(1, 0)],
-            ),
+            Shape::SquarePair => (Some("InverseDerivatives"), vec![square(0, 0), square(1, 0)]),
             Shape::CheckedSquares => (
                 Some("ForwardDerivatives"),
                 (0..3).map(|k| square(k, nv)).collect(),

@@ -17,7 +17,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::errors::{refused, spec_error};
+use crate::errors::{scene_refused, spec_error};
 
 /// Upper limit of the number of steps of a run.
 const STEPS: f64 = 1e10;
@@ -78,7 +78,8 @@ impl PyScene {
             let read = bgdyn_codegen::read_scene(&file.text, &file.stem, load);
             read.map(|(system, faults)| (system, faults, found.into_inner()))
         });
-        let (system, faults, mechanism) = read.map_err(|refusal| refused(py, &file, refusal))?;
+        let (system, faults, mechanism) =
+            read.map_err(|refusal| scene_refused(py, &file, refusal))?;
         Ok(PyScene {
             warnings: file.render(&faults),
             text: file.text,
@@ -160,9 +161,7 @@ impl PyScene {
     }
 
     fn __eq__(&self, other: &Self) -> bool {
-        self.name == other.name
-            && self.text == other.text
-            && self.mechanism.1 == other.mechanism.1
+        self.name == other.name && self.text == other.text && self.mechanism.1 == other.mechanism.1
     }
 
     fn __hash__(&self) -> u64 {
@@ -204,7 +203,10 @@ impl PyScene {
         found.set_item("name", &self.name)?;
         found.set_item("t", PyArray1::from_vec(py, times))?;
         found.set_item("values", PyArray2::from_vec2(py, &rows)?)?;
-        found.set_item("columns", all.iter().map(|c| c.name.as_str()).collect::<Vec<_>>())?;
+        found.set_item(
+            "columns",
+            all.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(),
+        )?;
         found.set_item("units", all.iter().map(|c| c.unit).collect::<Vec<_>>())?;
         found.set_item("events", events)?;
         found.set_item("balance", balance)?;
@@ -232,7 +234,10 @@ impl Settings {
             }
         }
         if self.points < 2 {
-            return wrong(format!("points={}: the start and the end are 2", self.points));
+            return wrong(format!(
+                "points={}: the start and the end are 2",
+                self.points
+            ));
         }
         let own = scene.integration;
         let step_control = match (self.step, self.tolerance) {
@@ -244,13 +249,17 @@ impl Settings {
         let method = own.method;
         if matches!(step_control, StepControl::Tolerance(_)) && !method.controls_its_error() {
             let name = method.name();
-            return wrong(format!("the scene's method `{name}` does not go by a tolerance: give `step`"));
+            return wrong(format!(
+                "the scene's method `{name}` does not go by a tolerance: give `step`"
+            ));
         }
         let end = self.duration.unwrap_or(own.end);
         if let StepControl::Step(h) = step_control
             && end / h > STEPS
         {
-            return wrong(format!("steps of {h} s to t = {end} s are more than {STEPS:e}: take a longer step"));
+            return wrong(format!(
+                "steps of {h} s to t = {end} s are more than {STEPS:e}: take a longer step"
+            ));
         }
         Ok(Way {
             integration: Integration {
@@ -273,9 +282,8 @@ fn overrides(
     let parameters = parameters.iter().map(|given| ("parameter", given));
     let initial = initial.iter().map(|given| ("part of the state", given));
     let each = parameters.chain(initial).map(|(what, (name, value))| {
-        let wanted = |kind: bgdyn_codegen::scene::OverrideKind| {
-            kind.is_parameter() == (what == "parameter")
-        };
+        let wanted =
+            |kind: bgdyn_codegen::scene::OverrideKind| kind.is_parameter() == (what == "parameter");
         let found = scene.override_named(what, name, wanted);
         let found = found.map_err(PyValueError::new_err)?;
         match value.is_finite() {

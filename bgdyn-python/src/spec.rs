@@ -32,6 +32,15 @@ pub struct Spec {
     prepared: Mutex<HashMap<String, Arc<Prepared>>>,
 }
 
+/// A mechanism with the values of its run-time parameters.
+#[derive(Clone, Debug)]
+pub struct ModelData {
+    /// The mechanism.
+    pub spec: Arc<Spec>,
+    /// The values, SI units.
+    pub parameters: Arc<[f64]>,
+}
+
 /// A function that can be called.
 #[derive(Debug)]
 pub struct Prepared {
@@ -54,6 +63,17 @@ pub enum Cause {
     Loop(String),
     /// A joint that does not follow the actuated ones.
     NotActuated(String),
+}
+
+impl ModelData {
+    /// Returns whether both compute the same from the same text.
+    pub fn same(&self, other: &ModelData) -> bool {
+        let (own, others) = (&self.spec, &other.spec);
+        own.text == others.text
+            && own.name == others.name
+            && own.choice == others.choice
+            && self.parameters == other.parameters
+    }
 }
 
 impl Spec {
@@ -81,7 +101,12 @@ impl Spec {
     /// A message with the joint that it does not serve.
     pub fn checked(&self) -> Result<(), String> {
         let checked = self.options.check_formulation(&self.graph);
-        checked.map_err(|all| all.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+        checked.map_err(|all| {
+            all.iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join("; ")
+        })
     }
 
     /// Returns the sizes that shapes depend on.

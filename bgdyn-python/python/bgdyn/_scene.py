@@ -18,6 +18,7 @@ from ._load import _stem, read_text
 
 if TYPE_CHECKING:
     import pandas
+    from typing_extensions import Self
 
 
 class Event(NamedTuple):
@@ -122,7 +123,7 @@ class Scene(_bgdyn.Scene):
         text: str | None = None,
         mechanism: str | None = None,
         name: str | None = None,
-    ) -> Scene:
+    ) -> Self:
         """Reads ``path``, or takes the scene's ``text`` with its ``name`` and the text of its ``mechanism``."""
         if path is not None and text is None and mechanism is None:
             stem = name if name is not None else _stem(path)
