@@ -271,7 +271,7 @@ impl Model {
 
     fn __getattr__(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
         let data = &slf.get().data;
-        let method = Method::named(&data.spec.graph, name).map_err(PyAttributeError::new_err)?;
+        let method = data.spec.method(name).map_err(PyAttributeError::new_err)?;
         Ok(PyMethod::new(
             slf.as_any().clone().unbind(),
             data.clone(),
@@ -347,7 +347,7 @@ impl Model {
 
 impl Model {
     fn method(&self, name: &str) -> PyResult<Method> {
-        Method::named(&self.data.spec.graph, name).map_err(PyValueError::new_err)
+        self.data.spec.method(name).map_err(PyValueError::new_err)
     }
 
     fn method_names(&self) -> Vec<String> {

@@ -29,6 +29,8 @@ pub struct Spec {
     /// The names of formulation and preference, as given.
     pub choice: (Option<String>, String),
     options: Options,
+    /// Its methods by their names.
+    methods: HashMap<String, Method>,
     prepared: Mutex<HashMap<String, Arc<Prepared>>>,
 }
 
@@ -84,8 +86,13 @@ impl Spec {
         choice: (Option<String>, String),
         options: Options,
     ) -> Self {
+        let graph = bond_graph::build(&mechanism);
+        let all = Method::possible_of(&graph).into_iter();
+        let closed = graph.closed.as_deref();
+        let methods = all.map(|method| (method.name_in(closed, &graph.sites), method));
         Spec {
-            graph: bond_graph::build(&mechanism),
+            methods: methods.collect(),
+            graph,
             prepared: Mutex::default(),
             text,
             name,
@@ -132,6 +139,17 @@ impl Spec {
     /// Returns the name of a method in this mechanism.
     pub fn name_of(&self, method: Method) -> String {
         method.name_in(self.graph.closed.as_deref(), &self.graph.sites)
+    }
+
+    /// Returns the method with this name.
+    ///
+    /// # Errors
+    /// A sentence with the nearest name, or with all names.
+    pub fn method(&self, name: &str) -> Result<Method, String> {
+        match self.methods.get(name) {
+            Some(method) => Ok(*method),
+            None => Method::named(&self.graph, name),
+        }
     }
 
     /// Returns a method's function: chosen and prepared at the first call, then kept.
