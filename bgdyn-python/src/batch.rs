@@ -3,6 +3,9 @@
 use bgdyn_codegen::engine::{CallArguments, Callable};
 use bgdyn_codegen::method::Argument;
 
+use bgdyn_runtime::wide::f64x4;
+
+use crate::lanes::{LANES, LaneCall, LaneMemory, joined};
 use crate::parts::Part;
 
 /// The values of one argument.
@@ -33,6 +36,8 @@ impl<'a> Given<'a> {
 pub struct Batch<'a> {
     /// The function.
     pub call: &'a dyn Callable,
+    /// The same for several states at once.
+    pub lanes: &'a LaneCall,
     /// Its arguments.
     pub given: &'a [Given<'a>],
     /// Run-time parameters.
@@ -86,48 +91,70 @@ impl Batch<'_> {
         })
     }
 
-    /// Computes `count` states from `first` on.
+    /// Computes `count` states from `first` on: as many as possible in lanes, the others one by one.
     fn compute_from(&self, first: usize, count: usize, mut out: Vec<&mut [f64]>) -> Vec<Refusal> {
-        let whole = matches!(self.parts, [part] if part.is_whole(self.call.results()));
-        let mut results = vec![0.0; self.call.results()];
         let mut refused = Vec::new();
-        for k in 0..count {
-            let from = self.arguments(first + k);
-            let pivot = match whole {
-                true => {
-                    let width = results.len();
-                    self.call
-                        .call(&from, &mut out[0][k * width..(k + 1) * width])
-                }
-                false => self.call.call(&from, &mut results),
+        let in_lanes = count - count % LANES;
+        let mut memory = LaneMemory::default();
+        for k in (0..in_lanes).step_by(LANES) {
+            let (results, pivots) = self.lanes_from(first + k, &mut memory);
+            for (part, out) in self.parts.iter().zip(&mut out) {
+                let entries = &mut out[k * part.len()..(k + LANES) * part.len()];
+                scatter(results, part, entries);
             }
-            .refused();
-            if !whole {
-                self.distribute(&results, k, &mut out);
+            for (lane, pivot) in pivots.into_iter().enumerate() {
+                refused.extend(pivot.and_then(|p| self.refusal(first, k + lane, p, &mut out)));
             }
-            if let Some(pivot) = pivot {
-                for (part, out) in self.parts.iter().zip(&mut out) {
-                    out[k * part.len()..(k + 1) * part.len()].fill(f64::NAN);
-                }
-                if self.finite(first + k) {
-                    refused.push(Refusal {
-                        state: first + k,
-                        pivot,
-                    });
+        }
+        let mut results = vec![0.0; self.call.results()];
+        for k in in_lanes..count {
+            let status = self.call.call(&self.arguments(first + k), &mut results);
+            for (part, out) in self.parts.iter().zip(&mut out) {
+                let entries = &mut out[k * part.len()..(k + 1) * part.len()];
+                for (entry, &source) in entries.iter_mut().zip(&part.source) {
+                    *entry = results[source];
                 }
             }
+            let pivot = status.refused();
+            refused.extend(pivot.and_then(|p| self.refusal(first, k, p, &mut out)));
         }
         refused
     }
 
-    /// Writes the numbers of a function into the arrays, at state `k` of these.
-    fn distribute(&self, results: &[f64], k: usize, out: &mut [&mut [f64]]) {
+    /// Computes four states from `state` on.
+    fn lanes_from<'m>(
+        &self,
+        state: usize,
+        memory: &'m mut LaneMemory,
+    ) -> (&'m [f64x4], [Option<usize>; LANES]) {
+        let parameters: Vec<f64x4> = self.parameters.iter().map(|&x| f64x4::splat(x)).collect();
+        let values: Vec<Vec<f64x4>> = self
+            .given
+            .iter()
+            .map(|given| joined([0, 1, 2, 3].map(|lane| given.at(state + lane))))
+            .collect();
+        let values = self.given.iter().zip(&values);
+        let from = arguments(
+            values.map(|(given, v)| (given.argument, &v[..])),
+            &parameters,
+        );
+        self.lanes.call(memory, &from)
+    }
+
+    /// Writes NaN at state `k` after `first`, whose pivot is refused; returns the refusal unless an argument is
+    /// the cause.
+    fn refusal(
+        &self,
+        first: usize,
+        k: usize,
+        pivot: usize,
+        out: &mut [&mut [f64]],
+    ) -> Option<Refusal> {
         for (part, out) in self.parts.iter().zip(out) {
-            let entries = &mut out[k * part.len()..(k + 1) * part.len()];
-            for (entry, &source) in entries.iter_mut().zip(&part.source) {
-                *entry = results[source];
-            }
+            out[k * part.len()..(k + 1) * part.len()].fill(f64::NAN);
         }
+        let state = first + k;
+        self.finite(state).then_some(Refusal { state, pivot })
     }
 
     fn finite(&self, state: usize) -> bool {
@@ -136,20 +163,41 @@ impl Batch<'_> {
     }
 
     fn arguments(&self, state: usize) -> CallArguments<'_> {
-        let mut from = CallArguments {
-            parameters: self.parameters,
-            ..CallArguments::default()
-        };
-        for given in self.given {
-            let values = given.at(state);
-            match given.argument {
-                Argument::Q => from.q = values,
-                Argument::V | Argument::TreeV => from.v = values,
-                Argument::A => from.a = values,
-                // The others are a scene's.
-                _ => from.u = values,
-            }
+        let values = self
+            .given
+            .iter()
+            .map(|given| (given.argument, given.at(state)));
+        arguments(values, self.parameters)
+    }
+}
+
+/// Returns the arguments of a call by their kinds.
+fn arguments<'a, T>(
+    given: impl Iterator<Item = (Argument, &'a [T])>,
+    parameters: &'a [T],
+) -> CallArguments<'a, T> {
+    let mut from = CallArguments {
+        parameters,
+        ..CallArguments::default()
+    };
+    for (argument, values) in given {
+        match argument {
+            Argument::Q => from.q = values,
+            Argument::V | Argument::TreeV => from.v = values,
+            Argument::A => from.a = values,
+            // The others are a scene's.
+            _ => from.u = values,
         }
-        from
+    }
+    from
+}
+
+/// Writes the numbers of four states into an array, state after state.
+fn scatter(results: &[f64x4], part: &Part, entries: &mut [f64]) {
+    let width = part.len();
+    for (i, &source) in part.source.iter().enumerate() {
+        for (lane, x) in results[source].to_array().into_iter().enumerate() {
+            entries[lane * width + i] = x;
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! bgdyn for Python: the compiled part of the package `bgdyn`.
 //!
-//! A method's function is prepared as a tape (`spec.rs`), computed at many states (`batch.rs`) and its
-//! numbers put into arrays (`parts.rs`); these three know nothing of Python. `arrays.rs` reads and provides
+//! A method's function is prepared as a tape (`spec.rs`), computed at many states (`batch.rs`, four at once by
+//! `lanes.rs`) and its numbers put into arrays (`parts.rs`); these know nothing of Python. `arrays.rs` reads and provides
 //! NumPy arrays, `results.rs` returns them; `method.rs`, `model.rs` and `scene.rs` are the classes.
 #![forbid(unsafe_code)]
 
@@ -9,6 +9,7 @@ mod arrays;
 mod batch;
 mod errors;
 mod imported;
+mod lanes;
 mod method;
 mod model;
 mod parts;

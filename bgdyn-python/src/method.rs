@@ -224,6 +224,7 @@ impl PyMethod {
         }
         let batch = Batch {
             call: &*prepared.call,
+            lanes: &prepared.lanes,
             given: &given,
             parameters: &self.data.parameters,
             parts: &prepared.parts.arrays,

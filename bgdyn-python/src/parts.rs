@@ -64,11 +64,6 @@ impl Part {
     pub fn len(&self) -> usize {
         self.source.len()
     }
-
-    /// Returns whether it is the whole result in the order of the function, which computes `results` numbers.
-    pub fn is_whole(&self, results: usize) -> bool {
-        self.len() == results && self.source.iter().enumerate().all(|(i, s)| i == *s)
-    }
 }
 
 impl Parts {

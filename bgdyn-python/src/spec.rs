@@ -13,6 +13,7 @@ use bgdyn_codegen::pipeline;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::ACTUATORS;
 
+use crate::lanes::LaneCall;
 use crate::parts::{Parts, Sizes};
 
 /// A mechanism, without the values of its run-time parameters.
@@ -48,6 +49,8 @@ pub struct ModelData {
 pub struct Prepared {
     /// The function.
     pub call: Box<dyn Callable>,
+    /// The same for several states at once.
+    pub lanes: LaneCall,
     /// The arrays of its result.
     pub parts: Parts,
     /// What it takes.
@@ -167,6 +170,7 @@ impl Spec {
         let call = Tape.prepare(&function);
         let made = Arc::new(Prepared {
             parts: Parts::of(method, self.sizes(), call.results()),
+            lanes: LaneCall::new(&function),
             operations: function.operations(),
             formulation: function.formulation.clone(),
             call,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bgdyn
-from conftest import SPECS
+from conftest import ROOT, SPECS
 
 
 @pytest.fixture(scope="module")
@@ -171,3 +171,31 @@ def test_not_a_number_stays_in_its_state(arm: bgdyn.Model, random: np.random.Gen
     assert np.isnan(found[1]).any() and not np.isfinite(found[2]).all() and np.isnan(found[4]).any()
     efforts = arm.gravity(q)
     assert np.isnan(efforts[1]).any() and np.isfinite(efforts[[0, 2, 3, 4]]).all()
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["specs/panda.yaml", "specs/loops/five_bar.yaml", "tests/free_joints/quadrotor_arm.yaml", "tests/golden/specs/chain32.yaml"],
+)
+def test_batches_have_the_bits_of_single_calls(path: str, random: np.random.Generator) -> None:
+    """Most states of a batch are computed several at once, also where angles are large or not finite."""
+    model = bgdyn.load(ROOT / path)
+    size = np.array([1.0, 1.0, 1e3, 1.0, 1e6, 1.0, 1.0, 1e9, 1.0])[:, None]
+    q = model.neutral() + size * random.uniform(-0.3, 0.3, (9, model.nq))
+    q[5, 0] = np.inf
+    tree = [name for name in model.methods if not name.startswith(("pose_", "velocity_", "jacobian_"))]
+    if model.nv > 16:
+        tree = ["mass_matrix", "forward_dynamics"]  # the others take long to choose
+    frame = model.frame_names[-1]
+    for name in [*tree, f"pose_{frame}", f"jacobian_dot_v_world_{frame}"]:
+        method = getattr(model, name)
+        tree_of = len(model.tree_joint_names)
+        width = {"v": model.nv, "a": model.nv, "qd": tree_of, "tau": tree_of if "qd" in method.arguments else model.nv}
+        arguments = [q if n == "q" else random.uniform(-3, 3, (9, width[n])) for n in method.arguments]
+        many, mask = method(*arguments, on_singular="nan")
+        for k in range(9):
+            one, singular = method(*(x[k] for x in arguments), on_singular="nan")
+            assert singular == mask[k], (name, k)
+            pairs = zip(one, many, strict=True) if isinstance(one, tuple) else [(one, many)]
+            for x, y in pairs:
+                assert np.array_equal(x, y[k], equal_nan=True), (name, k)
