@@ -111,7 +111,10 @@ impl Simulate {
                 way,
                 columns: &columns,
             };
-            print(&format!("{}\n", report::summary(&file.stem, &way.integration)))?;
+            print(&format!(
+                "{}\n",
+                report::summary(&file.stem, &way.integration)
+            ))?;
             return self.many.run(&batch, &given, &varied);
         }
         let system = system

@@ -92,12 +92,7 @@ struct Energy {
 }
 
 /// Returns the page of a run.
-pub fn page(
-    system: &SceneEquations,
-    columns: &[Column],
-    run: &Record,
-    words: &Words,
-) -> String {
+pub fn page(system: &SceneEquations, columns: &[Column], run: &Record, words: &Words) -> String {
     let data = serde_json::to_string(&data(system, columns, run, words));
     // `<` could end the data in a page.
     let data = data.unwrap_or_default().replace('<', "\\u003c");
