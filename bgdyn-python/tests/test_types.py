@@ -16,14 +16,14 @@ HERE = Path(__file__).parent
 USER = HERE / "typed" / "user.py"
 
 
-def checked(path: Path, cache: Path) -> list[str]:
+def checked(what: list[str], cache: Path) -> list[str]:
     """Returns the lines that mypy reports."""
     pytest.importorskip("mypy")
     settings = ["--config-file", str(HERE.parent / "pyproject.toml"), "--no-error-summary", "--hide-error-context"]
     package = str(Path(bgdyn.__file__).parents[1])
     installed = "site-packages" in package
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--cache-dir", str(cache), *settings, str(path)],
+        [sys.executable, "-m", "mypy", "--cache-dir", str(cache), *settings, *what],
         cwd=cache,
         env=os.environ if installed else os.environ | {"MYPYPATH": package},
         capture_output=True,
@@ -39,7 +39,7 @@ def test_a_users_file(tmp_path: Path) -> None:
     marks = ((k, re.search(r"# mistake: (\S+)$", line)) for k, line in enumerate(lines, start=1))
     wanted = [(k, mark.group(1)) for k, mark in marks if mark]
     found = []
-    for line in checked(USER, tmp_path):
+    for line in checked([str(USER)], tmp_path):
         if mark := re.fullmatch(r".*user\.py:(\d+): error: .*\[(\S+)\]", line):
             found.append((int(mark.group(1)), mark.group(2)))
         else:
@@ -48,7 +48,7 @@ def test_a_users_file(tmp_path: Path) -> None:
 
 
 def test_the_package_itself(tmp_path: Path) -> None:
-    assert checked(Path(bgdyn.__file__).parent, tmp_path) == []
+    assert checked(["-p", "bgdyn"], tmp_path) == []
 
 
 def test_stubs_name_what_there_is() -> None:

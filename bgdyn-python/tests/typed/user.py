@@ -1,9 +1,8 @@
 """What a user may write: a type checker accepts all lines but those that say what it reports."""
 
-from typing import assert_type
-
 import numpy as np
 from numpy.typing import NDArray
+from typing_extensions import assert_type
 
 import bgdyn
 
