@@ -1,4 +1,4 @@
-//! Loads a spec for the commands.
+//! A mechanism's or scene's text with its path: what it contains, and its findings as text.
 
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -19,10 +19,14 @@ use crate::output::tell;
 use crate::usage::Usage;
 
 /// A file and its text.
-pub(crate) struct SpecFile {
-    pub(crate) path: PathBuf,
-    pub(crate) text: String,
-    pub(crate) stem: String,
+#[derive(Debug)]
+pub struct SpecFile {
+    /// The path as printed in messages; a scene's mechanism is found relative to it.
+    pub path: PathBuf,
+    /// The text.
+    pub text: String,
+    /// The stem of the file, which names the mechanism or the scene.
+    pub stem: String,
 }
 
 /// The path that means standard input.
@@ -54,7 +58,10 @@ impl SpecFile {
     }
 
     /// Reads a file of any content.
-    pub(crate) fn read_any(path: &Path) -> Result<Self> {
+    ///
+    /// # Errors
+    /// If it cannot be read, or is not UTF-8.
+    pub fn read_any(path: &Path) -> Result<Self> {
         let text = read_text(path)?;
         let stem = match is_stdin(path) {
             true => written_name(&text).unwrap_or_else(|| STDIN_NAME.into()),
@@ -68,7 +75,7 @@ impl SpecFile {
     }
 
     /// Returns a fault if the file is a URDF.
-    pub(crate) fn urdf(&self) -> Option<Fault> {
+    pub fn urdf(&self) -> Option<Fault> {
         is_urdf(&self.text).then(|| {
             let file = match self.path.to_str() {
                 Some("<stdin>") => STDIN.into(),
@@ -81,17 +88,20 @@ impl SpecFile {
     }
 
     /// Returns the mechanism, if the spec is valid, and all findings.
-    pub(crate) fn read(&self) -> (Option<Mechanism>, Faults) {
+    pub fn read(&self) -> (Option<Mechanism>, Faults) {
         bgdyn_codegen::read(&self.text, Some(&self.stem))
     }
 
     /// Returns whether it is a scene's file.
-    pub(crate) fn is_scene(&self) -> bool {
+    pub fn is_scene(&self) -> bool {
         bgdyn_codegen::format::is_scene(&self.text)
     }
 
     /// Returns the text of a file named relative to this one.
-    pub(crate) fn load(&self, path: &str) -> Result<String, String> {
+    ///
+    /// # Errors
+    /// The reason why it cannot be read.
+    pub fn load(&self, path: &str) -> Result<String, String> {
         std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string())
     }
 
@@ -118,7 +128,7 @@ impl SpecFile {
     }
 
     /// Returns a refusal's faults as text, and their number in words.
-    pub(crate) fn refusal(&self, refusal: Refusal) -> (String, String) {
+    pub fn refusal(&self, refusal: Refusal) -> (String, String) {
         let shown = self.path.display();
         match refusal {
             Refusal::Spec(faults) => (
@@ -169,7 +179,7 @@ impl SpecFile {
     }
 
     /// Returns the findings as text.
-    pub(crate) fn render(&self, faults: &Faults) -> String {
+    pub fn render(&self, faults: &Faults) -> String {
         faults.render(&self.path.display().to_string(), &self.text)
     }
 

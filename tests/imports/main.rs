@@ -23,6 +23,7 @@ const CRATES: &[&str] = &[
     "bgdyn-cli",
     "bgdyn-codegen",
     "bgdyn-macros",
+    "bgdyn-python",
     "bgdyn-runtime",
     "bgdyn-sim",
 ];

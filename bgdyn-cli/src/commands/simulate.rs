@@ -111,7 +111,10 @@ impl Simulate {
                 way,
                 columns: &columns,
             };
-            print(&format!("{}\n", summary(&file.stem, &way.integration)))?;
+            print(&format!(
+                "{}\n",
+                report::summary(&file.stem, &way.integration)
+            ))?;
             return self.many.run(&batch, &given, &varied);
         }
         let system = system
@@ -122,7 +125,7 @@ impl Simulate {
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
             "{}\n{files}\n",
-            summary(&file.stem, &way.integration)
+            report::summary(&file.stem, &way.integration)
         ))?;
         let mut report = report::report(&system, &run);
         print(&report)?;
@@ -155,7 +158,7 @@ impl Simulate {
         let path = self.out.join(format!("{name}.html"));
         let words = Words {
             name: name.to_owned(),
-            method: summary(name, &way.integration),
+            method: report::summary(name, &way.integration),
             report,
         };
         let text = page::page(system, columns, run, &words);
@@ -261,21 +264,6 @@ fn start_refused(faults: &Faults) -> anyhow::Error {
 fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
     let mut progress = Progress::new(what);
     record_from(plant.clone(), way, &mut |share| progress.at(share))
-}
-
-/// Returns "stick_slip: rk4 in steps of 0.001 s, to t = 5 s".
-fn summary(name: &str, integration: &Integration) -> String {
-    let Integration {
-        method,
-        step_control,
-        end,
-    } = integration;
-    let step_control = match step_control {
-        StepControl::Step(h) => format!("in steps of {} s", short(*h)),
-        StepControl::Tolerance(t) => format!("with the tolerance {}", short(*t)),
-    };
-    let end = short(*end);
-    format!("{name}: {} {step_control}, to t = {end} s", method.name())
 }
 
 /// Compares the run with a finer one; returns the message about the difference.

@@ -18,4 +18,11 @@ mod scene;
 mod svg;
 mod unfold;
 
+use bgdyn_codegen::mechanism::Mechanism;
+
 pub(crate) use chart::Chart;
+
+/// Returns the bond graph of a mechanism as the text of an SVG file.
+pub fn mechanism_svg(mechanism: &Mechanism) -> String {
+    Chart::new(mechanism).svg()
+}

@@ -19,8 +19,10 @@ mod scene_functions;
 mod undefined;
 
 pub use difference::Difference;
+pub use page::{Words, page};
 pub(crate) use plant::Evaluation;
 pub use plant::{Evaluated, Numbers};
+pub use report::{changes, report, summary};
 pub use run_recorder::{prepared, record, record_from};
 pub use run_table::{Column, EnergyAt, Event, Record, Row, Way, columns};
 pub use scene_functions::Form;

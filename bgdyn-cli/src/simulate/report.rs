@@ -3,6 +3,7 @@
 use std::fmt::Write;
 use std::iter::once;
 
+use bgdyn_codegen::scene::{Integration, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Digits;
 
@@ -12,6 +13,21 @@ use super::run_table::{Column, Event, Record, state_columns};
 
 /// Largest number of events that are listed; for more only their number is printed.
 const EVENTS: usize = 40;
+
+/// Returns "stick_slip: rk4 in steps of 0.001 s, to t = 5 s".
+pub fn summary(name: &str, integration: &Integration) -> String {
+    let Integration {
+        method,
+        step_control,
+        end,
+    } = integration;
+    let step_control = match step_control {
+        StepControl::Step(h) => format!("in steps of {} s", short(*h)),
+        StepControl::Tolerance(t) => format!("with the tolerance {}", short(*t)),
+    };
+    let end = short(*end);
+    format!("{name}: {} {step_control}, to t = {end} s", method.name())
+}
 
 /// Returns the points as comma-separated values, with the columns' units in the first line.
 pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
@@ -25,7 +41,7 @@ pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
 }
 
 /// Returns steps, events, the last state and the energy account.
-pub(crate) fn report(system: &SceneEquations, record: &Record) -> String {
+pub fn report(system: &SceneEquations, record: &Record) -> String {
     let mut text = format!("steps: {}", record.steps);
     if record.kinks > 0 {
         let _ = write!(text, ", kinks of laws passed: {}", record.kinks);
@@ -54,7 +70,7 @@ fn events(system: &SceneEquations, record: &Record) -> String {
 }
 
 /// Describes the change by an event: "`belt` is held".
-pub(crate) fn changes(system: &SceneEquations, event: &Event) -> String {
+pub fn changes(system: &SceneEquations, event: &Event) -> String {
     let modes = system.scene.layout.modes.iter().enumerate();
     let changed = modes.filter(|&(i, _)| event.before[i] != event.after[i]);
     let texts: Vec<String> = changed

@@ -33,10 +33,14 @@ const PARTS: [&str; 5] = [
 ];
 
 /// The texts about a run.
-pub(crate) struct Words {
-    pub(crate) name: String,
-    pub(crate) method: String,
-    pub(crate) report: String,
+#[derive(Clone, Debug)]
+pub struct Words {
+    /// The title of the page.
+    pub name: String,
+    /// How the run was integrated.
+    pub method: String,
+    /// The report ([`super::report`]).
+    pub report: String,
 }
 
 #[derive(Serialize)]
@@ -88,12 +92,7 @@ struct Energy {
 }
 
 /// Returns the page of a run.
-pub(crate) fn page(
-    system: &SceneEquations,
-    columns: &[Column],
-    run: &Record,
-    words: &Words,
-) -> String {
+pub fn page(system: &SceneEquations, columns: &[Column], run: &Record, words: &Words) -> String {
     let data = serde_json::to_string(&data(system, columns, run, words));
     // `<` could end the data in a page.
     let data = data.unwrap_or_default().replace('<', "\\u003c");

@@ -1,0 +1,40 @@
+"""Rigid-body dynamics: a mechanism in YAML, NumPy arrays in and out.
+
+    >>> import bgdyn, numpy
+    >>> arm = bgdyn.load("scara.yaml")
+    >>> tau = arm.inverse_dynamics(q, v, a)
+
+SI units and radians throughout, world axes with z up. Arrays are ``float64``; a leading shape of any rank
+means many states. The page ``docs/python.md`` of the repository describes the package.
+"""
+
+from ._bgdyn import Method, Model
+from ._errors import LossWarning, SingularError, SpecError, SpecWarning
+from ._load import load
+from ._results import (
+    ConstrainedDynamics,
+    ForwardDerivatives,
+    InverseDerivatives,
+    Pose,
+    Wrenches,
+)
+from ._scene import EnergyEntry, Event, Run, Scene
+
+__all__ = [
+    "ConstrainedDynamics",
+    "EnergyEntry",
+    "Event",
+    "ForwardDerivatives",
+    "InverseDerivatives",
+    "LossWarning",
+    "Method",
+    "Model",
+    "Pose",
+    "Run",
+    "Scene",
+    "SingularError",
+    "SpecError",
+    "SpecWarning",
+    "Wrenches",
+    "load",
+]

@@ -1,0 +1,301 @@
+"""The compiled part of the package."""
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal, overload
+
+import numpy as np
+from typing_extensions import Self
+from numpy.typing import NDArray
+
+from ._results import ConstrainedDynamics, ForwardDerivatives, InverseDerivatives, Wrenches
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Values = Array | Sequence[float] | Sequence[Sequence[float]]
+"""An array of ``float64``, or numbers in lists. Other arrays are refused."""
+
+def import_file(path: str | os.PathLike[str]) -> tuple[str, str, list[str]]:
+    """Returns text, name and losses of an imported robot."""
+
+class Method:
+    """A method of a model, ``arm.pose_tool``: arrays in, arrays out.
+
+    Every argument has the shape ``(n,)``, or ``(..., n)`` for many states; all leading shapes are the same, and
+    an argument without one is shared by all states. ``out`` receives the result: an array, or a tuple of arrays
+    for results with several. ``threads`` is the number of threads that share the states. With
+    ``on_singular="nan"`` singular states are NaN, and the call returns ``(result, mask)``.
+
+    Raises ``TypeError`` for arrays that are not ``float64``, ``ValueError`` for wrong shapes, ``SingularError``
+    for the first singular state; ``out`` then contains NaN at all of them.
+    """
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+    @property
+    def arguments(self) -> tuple[str, ...]:
+        """The names of its arguments: q, v, a, tau, qd."""
+    @property
+    def summary(self) -> str:
+        """What it returns."""
+    @property
+    def units(self) -> str:
+        """The SI units of the result."""
+    @property
+    def formulation(self) -> str:
+        """The formulation that computes it."""
+    def __call__(
+        self,
+        *args: Values,
+        out: Any = None,
+        threads: int = 1,
+        on_singular: Literal["raise", "nan"] = "raise",
+        **named: Values,
+    ) -> Any: ...
+
+class Model:
+    """A mechanism with values of its run-time parameters. It does not change; ``bgdyn.load`` makes it.
+
+    ``q`` are positions (nq; rad, m, parts of quaternions x, y, z, w), ``v`` velocities (nv; rad/s, m/s; those of
+    planar, spherical and floating joints in link axes), ``a`` accelerations dv/dt, ``tau`` efforts along v (N·m,
+    N). Every method takes a leading shape of any rank, see ``Method``.
+
+    Beside the methods below there are ``pose_X``, ``velocity_X``, ``jacobian_world_X`` and
+    ``jacobian_dot_v_world_X`` for each X of ``frame_names``, and others of mechanisms with prescribed joints:
+    ``methods`` lists all. A pickled model is its text; copies are the model itself.
+    """
+
+    def __new__(
+        cls,
+        text: str,
+        name: str,
+        shown: str | None = None,
+        formulation: str | None = None,
+        prefer: str = "operations",
+        parameters: dict[str, float] | None = None,
+    ) -> Model: ...
+    @property
+    def name(self) -> str:
+        """The name of the mechanism."""
+    @property
+    def text(self) -> str:
+        """The text that it was read from."""
+    @property
+    def nq(self) -> int:
+        """Number of positions."""
+    @property
+    def nv(self) -> int:
+        """Number of velocities."""
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """A name for each velocity."""
+    @property
+    def position_names(self) -> tuple[str, ...]:
+        """A name for each position."""
+    @property
+    def tree_joint_names(self) -> tuple[str, ...]:
+        """A name for each velocity of the open tree; without loops those of ``joint_names``."""
+    @property
+    def constraint_names(self) -> tuple[str, ...]:
+        """A name for each row of loops, wheels and knife edges."""
+    @property
+    def frame_names(self) -> tuple[str, ...]:
+        """The links and frames that have a pose, a velocity and a Jacobian."""
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The values of the run-time parameters, SI units. Changing the dictionary changes no model."""
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """The names of all methods."""
+    @property
+    def _warnings(self) -> str: ...
+    def with_parameters(self, **parameters: float) -> Model:
+        """Returns the model with these values of run-time parameters, SI units. Functions are shared."""
+    def operations(self, method: str) -> dict[str, int]:
+        """Counts the operations of a method for one state: mul, add, div, sqrt, sincos (pairs), other."""
+    def source(self, method: str) -> str:
+        """Returns the Rust source text of a module with this method, as ``bgdyn generate`` writes it."""
+    def neutral(self) -> Array:
+        """Returns q, (nq,), with every coordinate zero and every quaternion (0, 0, 0, 1).
+
+        With loops or wheels it is the start at which they are closed.
+        """
+    def close(self, q: Values) -> Array:
+        """Returns q, (..., nq), with the dependent positions changed so that all loops close.
+
+        Raises ``SingularError`` if they do not close from here.
+        """
+    def inverse_dynamics(
+        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """Returns the efforts, (..., nv), that produce the accelerations ``a``: N·m, N."""
+    @overload
+    def forward_dynamics(
+        self,
+        q: Values,
+        v: Values,
+        tau: Values,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_singular: Literal["raise"] = "raise",
+    ) -> Array:
+        """Returns the accelerations, (..., nv), under the efforts ``tau``: rad/s², m/s²."""
+    @overload
+    def forward_dynamics(
+        self,
+        q: Values,
+        v: Values,
+        tau: Values,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_singular: Literal["nan"],
+    ) -> tuple[Array, Mask]:
+        """Returns the accelerations, NaN at singular states, and where these are."""
+    def mass_matrix(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """Returns M(q), (..., nv, nv), exactly symmetric: kg·m², kg·m, kg."""
+    def bias(self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """Returns the efforts, (..., nv), without M a: N·m, N."""
+    def gravity(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """Returns the efforts, (..., nv), that hold the mechanism at rest: N·m, N."""
+    def coriolis_matrix(
+        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """Returns C(q, v), (..., nv, nv): bias = C v + gravity, and Ṁ − 2C is skew."""
+    def kinetic_energy(
+        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Any:
+        """Returns ½ vᵀ M v, an array (...), a number for a single state: J."""
+    def potential_energy(
+        self, q: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Any:
+        """Returns the potential energy of gravity, an array (...), a number for a single state: J.
+
+        It is zero with all centres of mass at the world's origin.
+        """
+    def inverse_dynamics_derivatives(
+        self,
+        q: Values,
+        v: Values,
+        a: Values,
+        *,
+        out: tuple[Array, Array] | None = None,
+        threads: int = 1,
+    ) -> InverseDerivatives:
+        """Returns ∂τ/∂q (along the tangent) and ∂τ/∂v, (..., nv, nv) each."""
+    @overload
+    def forward_dynamics_derivatives(
+        self,
+        q: Values,
+        v: Values,
+        tau: Values,
+        *,
+        out: tuple[Array, Array, Array] | None = None,
+        threads: int = 1,
+        on_singular: Literal["raise"] = "raise",
+    ) -> ForwardDerivatives:
+        """Returns ∂a/∂q (along the tangent), ∂a/∂v and ∂a/∂τ, (..., nv, nv) each."""
+    @overload
+    def forward_dynamics_derivatives(
+        self,
+        q: Values,
+        v: Values,
+        tau: Values,
+        *,
+        out: tuple[Array, Array, Array] | None = None,
+        threads: int = 1,
+        on_singular: Literal["nan"],
+    ) -> tuple[ForwardDerivatives, Mask]:
+        """Returns the derivatives, NaN at singular states, and where these are."""
+    def joint_reactions(
+        self,
+        q: Values,
+        v: Values,
+        a: Values,
+        *,
+        out: tuple[Array, Array] | None = None,
+        threads: int = 1,
+    ) -> Wrenches:
+        """Returns force and moment on each link through its joint, at the link's origin, in link axes."""
+    def velocity_map(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """With loops: returns S(q), (..., nt, nv); the velocities of the open tree are S v."""
+    def tree_velocity(
+        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """With loops: returns the velocities of the open tree, (..., nt)."""
+    def tree_acceleration(
+        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """With loops: returns the accelerations of the open tree, (..., nt)."""
+    def constraint_residual(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """With loops: returns by how much they are open, (..., nc): m, rad."""
+    def constraint_jacobian(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """With loops: returns B(q), (..., nc, nt); B S = 0."""
+    def multipliers(
+        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """With loops: returns the efforts of the rows, (..., nc): N, N·m."""
+    def constrained_dynamics(
+        self,
+        q: Values,
+        qd: Values,
+        tau: Values,
+        *,
+        out: tuple[Array, Array] | None = None,
+        threads: int = 1,
+    ) -> ConstrainedDynamics:
+        """With loops: returns accelerations and multipliers under efforts on all joints of the open tree."""
+    def reactions(
+        self,
+        q: Values,
+        v: Values,
+        tau: Values,
+        *,
+        out: tuple[Array, Array] | None = None,
+        threads: int = 1,
+    ) -> Wrenches:
+        """With loops or wheels: returns force and moment at each of them."""
+    def __getattr__(self, name: str) -> Method: ...
+    def __dir__(self) -> list[str]: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...
+    def _repr_html_(self) -> str: ...
+
+class Scene:
+    def __new__(
+        cls,
+        text: str,
+        name: str,
+        shown: str | os.PathLike[str] | None = None,
+        mechanism: str | None = None,
+    ) -> Self: ...
+    @property
+    def name(self) -> str:
+        """The name of the scene."""
+    @property
+    def text(self) -> str:
+        """The text that it was read from."""
+    @property
+    def mechanism_text(self) -> str:
+        """The text of its mechanism."""
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The values of the run-time parameters in the files, SI units."""
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of the quantities that a run records."""
+    @property
+    def _warnings(self) -> str: ...
+    def _simulate(
+        self,
+        duration: float | None,
+        parameters: list[tuple[str, float]],
+        initial: list[tuple[str, float]],
+        step: float | None,
+        tolerance: float | None,
+        points: int,
+    ) -> Mapping[str, Any]: ...
+    def __hash__(self) -> int: ...
+    def __eq__(self, other: object, /) -> bool: ...

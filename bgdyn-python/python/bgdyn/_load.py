@@ -1,0 +1,75 @@
+"""Loads mechanisms: from a file, from text, from a URDF or an MJCF."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+
+from ._bgdyn import Model, import_file
+from ._errors import LossWarning, SpecError, SpecWarning
+
+
+def load(
+    path: str | os.PathLike[str] | None = None,
+    *,
+    text: str | None = None,
+    urdf: str | os.PathLike[str] | None = None,
+    name: str | None = None,
+    formulation: str | None = None,
+    prefer: str = "operations",
+    parameters: Mapping[str, float] | None = None,
+) -> Model:
+    """Returns the model of a mechanism, from one of three sources.
+
+    ``path`` is a file in bgdyn's YAML; its stem is the name of the mechanism. ``text`` is such a file's text,
+    with ``name``. ``urdf`` is a URDF, an MJCF or a table of Denavit–Hartenberg parameters (``.csv``), converted
+    as ``bgdyn import`` does.
+
+    ``formulation`` selects one formulation for every method, ``prefer`` is "operations" or "accuracy".
+    ``parameters`` are values of run-time parameters, SI units.
+
+    Raises ``SpecError`` for a refused file, ``OSError`` for one that cannot be read. What a robot's file has
+    and a mechanism cannot have is a ``LossWarning``.
+    """
+    if sum(source is not None for source in (path, text, urdf)) != 1:
+        raise TypeError("give one of path, text=..., urdf=...")
+    shown: str | None = None
+    if path is not None:
+        shown, stem = os.fspath(path), _stem(path)
+        text = read_text(path)
+    elif urdf is not None:
+        with open(urdf, "rb"):
+            pass  # an OSError for a file that cannot be read
+        text, stem, losses = import_file(urdf)
+        for loss in losses:
+            warnings.warn(loss, LossWarning, stacklevel=2)
+    else:
+        if name is None:
+            raise TypeError("text=... takes name=..., the name of the mechanism")
+        stem = name
+    assert text is not None
+    model = Model(
+        text,
+        name if name is not None else stem,
+        shown,
+        formulation,
+        prefer,
+        dict(parameters) if parameters else None,
+    )
+    if model._warnings:
+        warnings.warn(model._warnings, SpecWarning, stacklevel=2)
+    return model
+
+
+def read_text(path: str | os.PathLike[str]) -> str:
+    """Returns the text of a file."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise SpecError(f"{os.fspath(path)} is not UTF-8: convert the file first") from error
+
+
+def _stem(path: str | os.PathLike[str]) -> str:
+    return Path(path).name.split(".")[0]

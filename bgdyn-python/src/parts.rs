@@ -1,0 +1,127 @@
+//! What a method returns in Python: its arrays, and which numbers of the function each contains.
+
+use bgdyn_codegen::method::{Method, Shape};
+
+/// The sizes of a mechanism that shapes depend on.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// Number of velocities.
+    pub nv: usize,
+    /// Number of velocities of the open tree.
+    pub nt: usize,
+    /// Number of rows of the loops, wheels and knife edges.
+    pub nc: usize,
+}
+
+/// One array of a result.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// The shape for one state; empty for a number.
+    pub shape: Vec<usize>,
+    /// For each entry, row by row, the index of the function's number.
+    pub source: Vec<usize>,
+}
+
+/// The arrays of a result, and the class that has their names.
+#[derive(Clone, Debug)]
+pub struct Parts {
+    /// The class of `bgdyn`, if there are several arrays.
+    pub class: Option<&'static str>,
+    /// The arrays.
+    pub arrays: Vec<Part>,
+}
+
+impl Part {
+    /// Returns the numbers from `first` on in this shape.
+    fn run(first: usize, shape: &[usize]) -> Self {
+        let len: usize = shape.iter().product();
+        Part {
+            shape: shape.to_vec(),
+            source: (first..first + len).collect(),
+        }
+    }
+
+    /// Returns a symmetric matrix, of which the function computes the lower triangle.
+    fn symmetric(n: usize) -> Self {
+        let entry = |i: usize, j: usize| i.max(j) * (i.max(j) + 1) / 2 + i.min(j);
+        let rows = (0..n).flat_map(|i| (0..n).map(move |j| entry(i, j)));
+        Part {
+            shape: vec![n, n],
+            source: rows.collect(),
+        }
+    }
+
+    /// Returns the forces (`at` 0) or moments (`at` 3) of wrenches from `first` on.
+    fn of_wrenches(first: usize, number: usize, at: usize) -> Self {
+        let entries = (0..number).flat_map(|k| (0..3).map(move |i| first + 6 * k + at + i));
+        Part {
+            shape: vec![number, 3],
+            source: entries.collect(),
+        }
+    }
+
+    /// Returns the number of entries.
+    pub fn len(&self) -> usize {
+        self.source.len()
+    }
+}
+
+impl Parts {
+    /// Returns the arrays of a method whose function computes `results` numbers.
+    pub fn of(method: Method, sizes: Sizes, results: usize) -> Self {
+        let Sizes { nv, nt, nc } = sizes;
+        let square = |k: usize, first: usize| Part::run(first + k * nv * nv, &[nv, nv]);
+        let wrenches = |first: usize| {
+            let number = (results - first) / 6;
+            [0, 3]
+                .map(|at| Part::of_wrenches(first, number, at))
+                .to_vec()
+        };
+        let (class, arrays) = match method.shape() {
+            Shape::Scalar => (None, vec![Part::run(0, &[])]),
+            Shape::Symmetric => (None, vec![Part::symmetric(nv)]),
+            Shape::Square => (None, vec![Part::run(0, &[nv, nv])]),
+            Shape::Jacobian => (None, vec![Part::run(0, &[6, nv])]),
+            Shape::TreeMatrix => (None, vec![Part::run(0, &[nt, nv])]),
+            Shape::RowMatrix => (None, vec![Part::run(0, &[nc, nt])]),
+            Shape::SquarePair => (Some("InverseDerivatives"), vec![square(0, 0), square(1, 0)]),
+            Shape::CheckedSquares => (
+                Some("ForwardDerivatives"),
+                (0..3).map(|k| square(k, nv)).collect(),
+            ),
+            Shape::SlopesByTree => (
+                Some("InverseDerivatives"),
+                vec![Part::run(0, &[nv, nt]), Part::run(nv * nt, &[nv, nv])],
+            ),
+            Shape::CheckedSlopesByTree => (
+                Some("ForwardDerivatives"),
+                vec![
+                    Part::run(nv, &[nv, nt]),
+                    square(0, nv + nv * nt),
+                    square(1, nv + nv * nt),
+                ],
+            ),
+            Shape::Pose => (
+                Some("Pose"),
+                vec![Part::run(0, &[3, 3]), Part::run(9, &[3])],
+            ),
+            Shape::CheckedTreeAndRows => (
+                Some("ConstrainedDynamics"),
+                vec![Part::run(0, &[nt]), Part::run(nt, &[results - nt])],
+            ),
+            Shape::CheckedWrenches => (Some("Wrenches"), wrenches(nv)),
+            Shape::LinkWrenches => (Some("Wrenches"), wrenches(0)),
+            Shape::Vector
+            | Shape::CheckedVector
+            | Shape::CheckedActuated(_)
+            | Shape::Spatial
+            | Shape::TreeVector
+            | Shape::RowVector
+            | Shape::CheckedTree
+            | Shape::Drives(_)
+            | Shape::Parts
+            | Shape::CheckedParts => (None, vec![Part::run(0, &[results])]),
+        };
+        Parts { class, arrays }
+    }
+}

@@ -1,0 +1,221 @@
+//! A mechanism that was read, with the functions that were prepared for it.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use bgdyn_codegen::bond_graph::{self, BondGraph};
+use bgdyn_codegen::engine::{Callable, Engine};
+use bgdyn_codegen::expr::Operations;
+use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::method::{Argument, Method};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline;
+use bgdyn_codegen::tape::Tape;
+use bgdyn_runtime::ACTUATORS;
+
+use crate::lanes::LaneCall;
+use crate::parts::{Parts, Sizes};
+
+/// A mechanism, without the values of its run-time parameters.
+#[derive(Debug)]
+pub struct Spec {
+    /// Its text.
+    pub text: String,
+    /// Its name: the stem of its file.
+    pub name: String,
+    /// The checked mechanism.
+    pub mechanism: Mechanism,
+    /// Its bond graph.
+    pub graph: BondGraph,
+    /// The names of formulation and preference, as given.
+    pub choice: (Option<String>, String),
+    options: Options,
+    /// Its methods by their names.
+    methods: HashMap<String, Method>,
+    prepared: Mutex<HashMap<String, Arc<Prepared>>>,
+}
+
+/// A mechanism with the values of its run-time parameters.
+#[derive(Clone, Debug)]
+pub struct ModelData {
+    /// The mechanism.
+    pub spec: Arc<Spec>,
+    /// The values, SI units.
+    pub parameters: Arc<[f64]>,
+}
+
+/// A function that can be called.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The function.
+    pub call: Box<dyn Callable>,
+    /// The same for several states at once.
+    pub lanes: LaneCall,
+    /// The arrays of its result.
+    pub parts: Parts,
+    /// What it takes.
+    pub operations: Operations,
+    /// The formulation that it was made by.
+    pub formulation: String,
+}
+
+/// The cause of a missing result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// A joint without inertia.
+    Joint(String),
+    /// A loop at a singular position, or on another branch.
+    Loop(String),
+    /// A joint that does not follow the actuated ones.
+    NotActuated(String),
+}
+
+impl ModelData {
+    /// Returns whether both compute the same from the same text.
+    pub fn same(&self, other: &ModelData) -> bool {
+        let (own, others) = (&self.spec, &other.spec);
+        own.text == others.text
+            && own.name == others.name
+            && own.choice == others.choice
+            && self.parameters == other.parameters
+    }
+}
+
+impl Spec {
+    /// Returns a checked mechanism with its bond graph.
+    pub fn new(
+        (text, name): (String, String),
+        mechanism: Mechanism,
+        choice: (Option<String>, String),
+        options: Options,
+    ) -> Self {
+        let graph = bond_graph::build(&mechanism);
+        let all = Method::possible_of(&graph).into_iter();
+        let closed = graph.closed.as_deref();
+        let methods = all.map(|method| (method.name_in(closed, &graph.sites), method));
+        Spec {
+            methods: methods.collect(),
+            graph,
+            prepared: Mutex::default(),
+            text,
+            name,
+            mechanism,
+            choice,
+            options,
+        }
+    }
+
+    /// Checks that the selected formulation serves the mechanism.
+    ///
+    /// # Errors
+    /// A message with the joint that it does not serve.
+    pub fn checked(&self) -> Result<(), String> {
+        let checked = self.options.check_formulation(&self.graph);
+        checked.map_err(|all| {
+            all.iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join("; ")
+        })
+    }
+
+    /// Returns the sizes that shapes depend on.
+    pub fn sizes(&self) -> Sizes {
+        let closed = self.graph.closed.as_deref();
+        Sizes {
+            nv: self.graph.coordinates.len(),
+            nt: closed.map_or(0, |closed| closed.tree.coordinates.len()),
+            nc: closed.map_or(0, |closed| closed.closure.rows.len()),
+        }
+    }
+
+    /// Returns the number of components of an argument.
+    pub fn width(&self, argument: Argument) -> usize {
+        match argument {
+            Argument::Q => self.mechanism.nq(),
+            Argument::TreeV | Argument::TreeTau => self.sizes().nt,
+            Argument::ActuatedTau => self.mechanism.actuated_names().len(),
+            _ => self.sizes().nv,
+        }
+    }
+
+    /// Returns the name of a method in this mechanism.
+    pub fn name_of(&self, method: Method) -> String {
+        method.name_in(self.graph.closed.as_deref(), &self.graph.sites)
+    }
+
+    /// Returns the method with this name.
+    ///
+    /// # Errors
+    /// A sentence with the nearest name, or with all names.
+    pub fn method(&self, name: &str) -> Result<Method, String> {
+        match self.methods.get(name) {
+            Some(method) => Ok(*method),
+            None => Method::named(&self.graph, name),
+        }
+    }
+
+    /// Returns a method's function: chosen and prepared at the first call, then kept.
+    ///
+    /// # Errors
+    /// If the selected formulation does not compute it.
+    pub fn prepared(&self, method: Method) -> Result<Arc<Prepared>, String> {
+        let name = self.name_of(method);
+        let kept = || self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(found) = kept().get(&name) {
+            return Ok(Arc::clone(found));
+        }
+        let function = pipeline::function(&self.mechanism, method, &self.options)
+            .ok_or_else(|| format!("the selected formulation does not compute `{name}`"))?;
+        let call = Tape.prepare(&function);
+        let made = Arc::new(Prepared {
+            parts: Parts::of(method, self.sizes(), call.results()),
+            lanes: LaneCall::new(&function),
+            operations: function.operations(),
+            formulation: function.formulation.clone(),
+            call,
+        });
+        // Another thread may have made the same.
+        Ok(Arc::clone(kept().entry(name).or_insert(made)))
+    }
+
+    /// Returns the source text of a Rust module with this method.
+    ///
+    /// # Errors
+    /// A message.
+    pub fn source(&self, method: Method) -> Result<String, String> {
+        let output = bgdyn_codegen::emit::OutputOptions::source_text(format!("{}.yaml", self.name));
+        let options = Options {
+            methods: Some(vec![self.name_of(method)]),
+            ..self.options.clone()
+        };
+        let made = pipeline::generate(&self.text, &self.name, &output, &options);
+        let (tokens, _) = made.map_err(|refusal| format!("{refusal:?}"))?;
+        Ok(bgdyn_codegen::emit::source_text(tokens))
+    }
+
+    /// Returns what a refused pivot of this method means.
+    pub fn cause(&self, method: Method, pivot: usize) -> Cause {
+        let names = |all: &[bond_graph::Coordinate], i: usize| {
+            all.get(i).map_or_else(String::new, |c| c.name.clone())
+        };
+        let own = &self.graph.coordinates;
+        let closed = self.graph.closed.as_deref();
+        let rates = match (method.of_tree(), closed) {
+            (true, Some(closed)) => &closed.tree.coordinates,
+            _ => own,
+        };
+        let joints = match method {
+            Method::ActuatedInverse(number) => number,
+            _ => rates.len(),
+        };
+        let loops = closed.map_or(&[][..], |closed| &closed.closure.loops);
+        if let Some(k) = pivot.checked_sub(ACTUATORS + joints + loops.len()) {
+            return Cause::NotActuated(names(own, k));
+        }
+        match pivot.checked_sub(joints) {
+            None => Cause::Joint(names(rates, pivot)),
+            Some(k) => Cause::Loop(loops.get(k).map_or_else(String::new, |l| l.name.clone())),
+        }
+    }
+}
