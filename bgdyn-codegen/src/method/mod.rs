@@ -195,9 +195,14 @@ impl Method {
             .into_iter()
             .partition(|method| method.site().is_none());
         let mut all: Vec<Method> = own.into_iter().chain(drives).chain(of_sites).collect();
-        let derivatives = Method::derivatives_of(graph);
-        all.retain(|method| !method.differentiates_dynamics());
-        all.extend(derivatives);
+        let [inverse, forward] = Method::derivatives_of(graph);
+        for method in &mut all {
+            *method = match *method {
+                Method::InverseDynamicsDerivatives => inverse,
+                Method::ForwardDynamicsDerivatives => forward,
+                other => other,
+            };
+        }
         if let Some(closed) = &graph.closed {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
