@@ -5,7 +5,7 @@
 //!                                                   └──────────────────────write──▶ DOT
 //! ```
 //!
-//! [`Chart`] defines the nodes of the drawing, their order and all texts, without coordinates. `layout.rs`
+//! `Chart` defines the nodes of the drawing, their order and all texts, without coordinates. `layout.rs`
 //! computes coordinates, `svg/` and `dot.rs` print the drawing. Everything drawn is in the data:
 //! structurally zero transformers, flows without transformers and sources of zero effort are omitted.
 
