@@ -105,7 +105,7 @@ pub fn chosen<T: Scalar, const N: usize>(other: T::Mask, [a, b]: [[T; N]; 2]) ->
     found
 }
 
-/// Returns the angle from one vector to another in −π … π: below [`NEAR`] to rounding, beyond to 1e-5 rad.
+/// Returns the angle from one vector to another in −π … π: below `NEAR` to rounding, beyond to 1e-5 rad.
 #[inline]
 pub fn turn<T: Scalar>(from: PlaneVector<T>, to: PlaneVector<T>) -> T {
     let (x, y) = (dot(from, to), cross(from, to));
@@ -126,7 +126,7 @@ pub fn turn<T: Scalar>(from: PlaneVector<T>, to: PlaneVector<T>) -> T {
     T::select(steep, right - arc, arc + back)
 }
 
-/// Returns the angle from one vector to another, below [`NEAR`], to rounding.
+/// Returns the angle from one vector to another, below `NEAR`, to rounding.
 #[inline]
 pub fn small_turn<T: Scalar>(from: PlaneVector<T>, to: PlaneVector<T>) -> T {
     arc_tangent(cross(from, to) / dot(from, to))
