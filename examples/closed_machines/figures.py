@@ -21,20 +21,11 @@ sys.path.insert(1, str(HERE / "../free_machines"))
 import plan_dig
 import plan_legs
 import plan_pick
-from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot
+from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot, fact, write
 from runs import Run
 from tree import Tree, apply, distance
 
 SIX = (BLUE, GREEN, BROWN, RED, GREY, INK)
-
-
-def fact(words):
-    print(f"  {words}")
-
-
-def write(page, name):
-    if "--draw" in sys.argv:
-        page.write(HERE / name)
 
 
 def viewed(turn, rise, scale, place):
@@ -147,7 +138,7 @@ def excavator(bgdyn, folder):
     for ram, colour in COLOURS.items():
         for side, dash in (("a", None), ("b", "4 3")):
             plot.curve(run.t, [x / 1e6 for x in run[f"{ram}_ram_{side}_pressure"]], colour, 1.4, dash)
-    write(page, "excavator.svg")
+    write(page, HERE / "excavator.svg")
 
 
 def legend(page, x, y, names):
@@ -293,7 +284,7 @@ def delta_pick(bgdyn, folder):
     plot.curve(run.t, [1e6 * x for x in away], BLUE, 1.2)
     plot = Plot(page, (690, 410, 930, 600), ticks, range(0, 22, 7), "The same after a push of arm 1, mm")
     plot.curve(beside.t, [1e3 * x for x in off], RED)
-    write(page, "delta_pick.svg")
+    write(page, HERE / "delta_pick.svg")
 
 
 def torque(bgdyn, run):
@@ -405,7 +396,7 @@ def stewart_platform(bgdyn, folder):
     for k, (push, colour) in enumerate(zip(pushes, SIX)):
         plot.curve(run.t, push, colour, 1.4)
         page.text(690 + 40 * k, 640, f"leg {k + 1}" if k == 0 else f"{k + 1}", colour, 12)
-    write(page, "stewart_platform.svg")
+    write(page, HERE / "stewart_platform.svg")
 
 
 def forces(run):

@@ -1,5 +1,7 @@
 """Plain SVG: lines, discs, words and plots over time, with a style for dark pages."""
 
+import sys
+
 DARK = {
     "#ffffff": "#161616",
     "#282828": "#bfbfbf",
@@ -79,3 +81,14 @@ class Plot:
 
     def curve(self, ts, vs, colour, width=1.8, dash=None):
         self.canvas.line([(self.x(t), self.y(v)) for t, v in zip(ts, vs)], colour, width, dash)
+
+
+def fact(words):
+    """Prints what was measured."""
+    print(f"  {words}")
+
+
+def write(page, path):
+    """Writes a picture if the command line asks for pictures."""
+    if "--draw" in sys.argv:
+        page.write(path)

@@ -12,19 +12,10 @@ from itertools import accumulate
 from math import acos, atan2, cos, degrees, pi, radians, sin, sqrt
 
 import plan_flight
-from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot
+from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot, fact, write
 from runs import HERE, Run, momenta, turned
 
 G = 9.81
-
-
-def fact(words):
-    print(f"  {words}")
-
-
-def write(page, name):
-    if "--draw" in sys.argv:
-        page.write(HERE / name)
 
 
 def norm(r):
@@ -92,7 +83,7 @@ def spherical_pendulum(bgdyn, folder):
     plot = Plot(page, (520, 278, 930, 395), range(0, 13, 2), ticks, "Change since the start, times 10⁻¹¹")
     plot.curve(run.t, [(e - energy[0]) / exponent for e in energy], BLUE)
     plot.curve(run.t, [(h - about_gravity[0]) / exponent for h in about_gravity], BROWN)
-    write(page, "spherical_pendulum.svg")
+    write(page, HERE / "spherical_pendulum.svg")
 
 
 def passing(run, i):
@@ -161,7 +152,7 @@ def satellite(bgdyn, folder):
     plot.curve(run.t, [degrees(x) for x in run["elbow"]], BROWN)
     plot = Plot(page, (540, 300, 930, 435), range(0, 29, 4), range(0, 81, 20), "Turn of the satellite, anticlockwise, degrees")
     plot.curve(run.t, turn, GREEN)
-    write(page, "satellite.svg")
+    write(page, HERE / "satellite.svg")
 
 
 def around(bgdyn, run, names):
@@ -222,7 +213,7 @@ def satellite_hold(_bgdyn, folder):
     for axis, (name, colour) in enumerate(zip("xyz", (BLUE, BROWN, GREEN))):
         plot.curve(run.t, [m[axis] for m in moments], colour)
         page.text((800, 860, 880)[axis], 320, f"about {name}" if axis == 0 else name, colour, 12)
-    write(page, "satellite_hold.svg")
+    write(page, HERE / "satellite_hold.svg")
 
 
 def orbiting(page, run, i, project):
@@ -315,7 +306,7 @@ def quadruped(_bgdyn, folder):
     plot.curve([0, 1.5], [weight] * 2, RED, 1.5, "5 4")
     plot = Plot(page, (540, 400, 930, 535), ticks, range(420, 461, 10), "Height of the trunk, mm")
     plot.curve(run.t[:early], [1000 * x for x in z], GREEN)
-    write(page, "quadruped.svg")
+    write(page, HERE / "quadruped.svg")
 
 
 def standing(page, run, i, project):
@@ -385,7 +376,7 @@ def quadrotor_arm(_bgdyn, folder):
         page.text(560 + 95 * k, 245, name.replace("_", " "), colour, 12)
     plot = Plot(page, (560, 320, 930, 470), range(7), [0, 0.01, 0.02, 0.03], "Distance of the body from the plan, mm")
     plot.curve(run.t, away, BLUE)
-    write(page, "quadrotor_arm.svg")
+    write(page, HERE / "quadrotor_arm.svg")
 
 
 def thrusts():

@@ -19,8 +19,8 @@ HERE = Path(__file__).parent
 sys.path.insert(1, str(HERE / "../free_machines"))
 
 import plan_path
-from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot
-from measures import G, conserves, fact, legend, machine, rolls, row, viewed, write
+from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot, fact, write
+from measures import G, conserves, legend, machine, rolls, row, viewed
 from rattleback import rattleback
 from runs import Run
 from wheels import apply, turned
@@ -189,7 +189,7 @@ def bicycle(bgdyn, folder):
     page.line([(50, top), (50 + 5 * scale, top)], INK, 2)
     page.text(60 + 5 * scale, top + 4, "5 m", GREY, 12)
     page.size = (960, round(top + 22))
-    write(page, "bicycle.svg")
+    write(page, HERE / "bicycle.svg")
 
 
 def crossing(own, run, i):
@@ -312,7 +312,7 @@ def robot_path(bgdyn, folder):
     page.text(530, 462, "The red run: distance from the plan, mm", bold=True)
     plot = Plot(page, (530, 482, 930, 652), ticks, [0, 25, 50, 75, 100], "")
     plot.curve(beside.t, apart, RED)
-    write(page, "robot_path.svg")
+    write(page, HERE / "robot_path.svg")
 
 
 def robot(page, spot, x, y, heading):
@@ -437,7 +437,7 @@ def rolling_disc(bgdyn, folder):
     plot.curve(run.t, kinetic, GREEN)
     plot.curve(run.t, [p for _, p in energies], BROWN)
     plot.curve(run.t, [sum(e) for e in energies], INK)
-    write(page, "rolling_disc.svg")
+    write(page, HERE / "rolling_disc.svg")
 
 
 MACHINES = (bicycle, robot_path, rolling_disc, rattleback)

@@ -7,19 +7,10 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(1, str(HERE / "../free_machines"))
 
-from canvas import GREY
+from canvas import GREY, fact
 from wheels import Machine, dot
 
 G = 9.81
-
-
-def fact(words):
-    print(f"  {words}")
-
-
-def write(page, name):
-    if "--draw" in sys.argv:
-        page.write(HERE / name)
 
 
 def machine(name):

@@ -3,10 +3,12 @@
 from math import cos, degrees, hypot, pi, sin
 from pathlib import Path
 
-from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot
-from measures import conserves, fact, legend, machine, rolls, row, viewed, write
+from canvas import BLUE, BROWN, GREEN, GREY, INK, PALE, RED, SHADE, Canvas, Plot, fact, write
+from measures import conserves, legend, machine, rolls, row, viewed
 from runs import Run
-from wheels import apply, turned
+from wheels import apply
+
+HERE = Path(__file__).parent
 
 
 def tilts(run, own):
@@ -88,4 +90,4 @@ def rattleback(bgdyn, folder):
     plot = Plot(page, (50, 588, 930, 708), ticks, [-10, 0, 10], "")
     plot.curve(run.t, [degrees(t[1]) for t in tilt], RED, 1)
     plot.curve(run.t, [degrees(t[0]) for t in tilt], BROWN, 1)
-    write(page, "rattleback.svg")
+    write(page, HERE / "rattleback.svg")

@@ -3,13 +3,41 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
-use bgdyn_codegen::backend::{Backend, BackendError, GeneratedFile, GivenOptions, backend_named};
+use bgdyn_codegen::backend::{
+    BACKENDS, Backend, BackendError, GeneratedFile, GivenOptions, backend_named,
+};
 use bgdyn_codegen::pipeline::{FilesError, generate_files};
 use clap::Args;
 
 use crate::output::{print, tell};
 use crate::spec_file::{GeneratorArgs, SpecFile, is_stdin, read_text};
 use crate::usage::Usage;
+
+/// Returns the backends with what they write.
+fn backends() -> String {
+    let each = BACKENDS.map(|backend| format!("`{}` ({})", backend.name(), backend.summary()));
+    format!("The backend: {}", each.join(" or "))
+}
+
+/// Returns the options of all backends.
+fn backend_options() -> String {
+    let of = |backend: &dyn Backend| {
+        let names = backend
+            .options()
+            .iter()
+            .map(|option| format!("`{}`", option.name));
+        format!(
+            "`{}`: {}",
+            backend.name(),
+            names.collect::<Vec<_>>().join(", ")
+        )
+    };
+    let each = BACKENDS.map(of);
+    format!(
+        "An option of the backend, such as `prefix=arm`; may be repeated; {}",
+        each.join("; ")
+    )
+}
 
 /// Write the generated source: a Rust module, or the files of another backend
 #[derive(Args)]
@@ -19,11 +47,9 @@ use crate::usage::Usage;
 pub(crate) struct Generate {
     /// The spec
     file: PathBuf,
-    /// The backend: `rust` or `c`
-    #[arg(long, value_name = "NAME", default_value = "rust")]
+    #[arg(long, value_name = "NAME", default_value = BACKENDS[0].name(), help = backends())]
     backend: String,
-    /// An option of the backend, such as `prefix=arm`; `docs/c.md` lists those of C
-    #[arg(long = "option", value_name = "NAME=VALUE")]
+    #[arg(long = "option", value_name = "NAME=VALUE", help = backend_options())]
     options: Vec<String>,
     /// Output file [default: stdout]; of a backend with several files, their folder [default: this one]
     #[arg(short, long)]

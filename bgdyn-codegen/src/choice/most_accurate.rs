@@ -3,7 +3,8 @@
 //! Every formulation that supports the method is a candidate, factored and not factored, and is measured
 //! at the sampled states. Errors that agree to a tenth of a rounding count as equal; then the number of
 //! operations decides. A failure where another candidate has a result is worse than any error. The literal
-//! sum is a candidate for up to 8 joints, its derivatives for up to 4.
+//! sum is a candidate for up to 8 joints, its derivatives for up to 4. Loops in closed form are none: towards singular
+//! positions they lose digits that elimination keeps (`docs/hard_cases.md`).
 
 use super::choose::Choice;
 use crate::bond_graph::BondGraph;
@@ -61,7 +62,7 @@ fn variants(
     method: Method,
     formulation: &'static dyn Formulation,
 ) -> Vec<Function> {
-    let choice = Choice::new(graph, Some(formulation));
+    let choice = Choice::by_elimination(graph, Some(formulation));
     let plain = match method {
         // These methods share their functions in the factored form.
         Method::CoriolisMatrix

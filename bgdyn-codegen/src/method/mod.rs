@@ -4,6 +4,7 @@
 
 mod actuated;
 mod argument;
+mod derivatives;
 mod scene_function;
 mod shape;
 mod words;
@@ -128,42 +129,6 @@ impl Method {
         Method::ProjectVelocity,
         Method::Reactions,
     ];
-
-    /// Returns the two methods that are derivatives of the dynamics of a mechanism, inverse first.
-    pub fn derivatives_of(graph: &BondGraph) -> [Method; 2] {
-        let mut closed = graph.closed.iter();
-        match closed.any(|closed| closed.closure.nonholonomic()) {
-            true => [
-                Method::InverseDerivativesByTree,
-                Method::ForwardDerivativesByTree,
-            ],
-            false => [
-                Method::InverseDynamicsDerivatives,
-                Method::ForwardDynamicsDerivatives,
-            ],
-        }
-    }
-
-    /// Returns whether it is a derivative of inverse or forward dynamics.
-    pub fn differentiates_dynamics(self) -> bool {
-        self.differentiates_inverse() || self.differentiates_forward()
-    }
-
-    /// Returns whether it is a derivative of inverse dynamics.
-    pub fn differentiates_inverse(self) -> bool {
-        matches!(
-            self,
-            Method::InverseDynamicsDerivatives | Method::InverseDerivativesByTree
-        )
-    }
-
-    /// Returns whether it is a derivative of forward dynamics.
-    pub fn differentiates_forward(self) -> bool {
-        matches!(
-            self,
-            Method::ForwardDynamicsDerivatives | Method::ForwardDerivativesByTree
-        )
-    }
 
     /// Returns the methods of a mechanism with loops or contacts that all get: without those of closing if nothing closes.
     pub fn of_closed(closed: &ClosedTree) -> Vec<Method> {

@@ -6,14 +6,13 @@ use bgdyn_runtime::Dd;
 
 use super::Difference;
 use super::actuated;
-use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times, turned};
-use super::dual::{Direction, along, rates, with_rates};
+use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times};
+use super::literal_values::{LiteralValues, State};
 use super::open_tree::{self, TreeLaw};
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::tree_states::of_method;
 use crate::expr::Inputs;
-use crate::formulation::{Prepared, create, specification};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
 use crate::random::Random;
@@ -39,116 +38,6 @@ pub fn check_functions(name: &str, graph: &BondGraph, functions: &[Function]) ->
 
 /// Permitted relative error of a step of Newton's method at a position that is open by 1e-12.
 const NEARLY_CLOSED: f64 = 1e-9;
-
-/// The literal sum of a bond graph.
-struct LiteralValues<'a> {
-    prepared: Prepared<'a>,
-    inverse: Function,
-}
-
-impl<'a> LiteralValues<'a> {
-    fn new(graph: &'a BondGraph) -> Self {
-        let prepared = Prepared::new(graph);
-        let inverse = create(specification(), &prepared, Method::InverseDynamics);
-        LiteralValues {
-            inverse: inverse.expect("the literal sum knows inverse dynamics"),
-            prepared,
-        }
-    }
-
-    /// Returns the method by the literal sum.
-    fn form(&self, method: Method) -> Option<Function> {
-        create(specification(), &self.prepared, method)
-    }
-
-    /// Returns P(q, v, a), with all other arguments as in `at`.
-    fn efforts(&self, at: &Inputs<Dd>, v: &[Dd], a: &[Dd]) -> Vec<Dd> {
-        let inputs = Inputs {
-            v: v.to_vec(),
-            a: a.to_vec(),
-            ..at.clone()
-        };
-        self.inverse.evaluate(inputs).0
-    }
-
-    /// Returns dP for the position that moves from q with the rates q̇, v + ε dv, a + ε da.
-    fn effort_rates(&self, at: &Inputs<Dd>, dq: &[Dd], dv: &[Dd], a: (&[Dd], &[Dd])) -> Vec<Dd> {
-        let direction = Direction {
-            q: dq.to_vec(),
-            v: dv.to_vec(),
-            x: vec![],
-            t: Dd::ZERO,
-        };
-        let mut inputs = along(at, &direction);
-        inputs.a = with_rates(a.0, a.1);
-        rates(&self.inverse.evaluate(inputs).0)
-    }
-
-    /// Returns dP(q, v, a)/dt for constant q and v, along the motion of the prescribed joints with constant rates.
-    fn prescribed_rates(&self, at: &Inputs<Dd>, a: &[Dd]) -> Vec<Dd> {
-        let none = Direction {
-            q: vec![Dd::ZERO; at.q.len()],
-            v: vec![Dd::ZERO; at.v.len()],
-            x: vec![],
-            t: Dd::ZERO,
-        };
-        let mut inputs = along(at, &none);
-        inputs.a = with_rates(a, &vec![Dd::ZERO; a.len()]);
-        let mut moved = vec![Dd::ZERO; at.parameters.len()];
-        let released = self.prepared.graph.released.iter();
-        for prescribed in released.flat_map(|r| &r.prescribed) {
-            let [position, velocity, _] = prescribed.motion;
-            moved[position.0] = at.parameters[velocity.0];
-        }
-        inputs.parameters = with_rates(&at.parameters, &moved);
-        rates(&self.inverse.evaluate(inputs).0)
-    }
-}
-
-/// A state, with quantities that several laws use.
-struct State {
-    at: Inputs<Dd>,
-    /// P(q, 0, 0)
-    at_rest: Vec<Dd>,
-    /// P(q, v, a)
-    efforts: Vec<Dd>,
-    /// The size of the terms that add up to efforts: of P(q, v, a), and of M times the squares of the
-    /// velocities, the size of centrifugal terms before they cancel.
-    size: f64,
-}
-
-impl State {
-    fn new(literal: &LiteralValues<'_>, at: Inputs<Dd>) -> Self {
-        let zero = vec![Dd::ZERO; at.v.len()];
-        let mut state = State {
-            at_rest: literal.efforts(&at, &zero, &zero),
-            efforts: literal.efforts(&at, &at.v, &at.a),
-            size: 0.0,
-            at,
-        };
-        let squares: Vec<Dd> = state.at.v.iter().map(|&v| v * v).collect();
-        let centrifugal = largest(&state.inertial(literal, &squares));
-        state.size = largest(&state.efforts).max(centrifugal);
-        state
-    }
-
-    fn zero(&self) -> Vec<Dd> {
-        vec![Dd::ZERO; self.at.v.len()]
-    }
-
-    /// Returns M(q) x = P(q, 0, x) − P(q, 0, 0).
-    fn inertial(&self, literal: &LiteralValues<'_>, x: &[Dd]) -> Vec<Dd> {
-        let moved = literal.efforts(&self.at, &self.zero(), x);
-        minus(&moved, &self.at_rest)
-    }
-
-    /// Returns the size of the terms of M(q) x, which cancel if x is large and M almost singular: the
-    /// largest product with other signs of the components of x.
-    fn size_of_product(&self, literal: &LiteralValues<'_>, x: &[Dd]) -> f64 {
-        let products = turned(x).map(|x| largest(&self.inertial(literal, &x)));
-        products.into_iter().fold(0.0, f64::max)
-    }
-}
 
 /// One function of a mechanism.
 struct Subject<'a> {

@@ -9,6 +9,7 @@
 mod actuated;
 mod compare;
 mod dual;
+mod literal_values;
 mod mechanism;
 mod open_tree;
 mod scene;

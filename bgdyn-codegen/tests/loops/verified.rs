@@ -144,7 +144,7 @@ fn loops_with_other_features_are_accepted() {
     }
 }
 
-/// `prefer: accuracy` has every method, and the generator's check accepts them.
+/// `prefer: accuracy` has every method, without closed forms, and the generator's check accepts them.
 #[test]
 fn the_most_accurate_functions_are_accepted() {
     let most_accurate = Options {
@@ -155,6 +155,11 @@ fn the_most_accurate_functions_are_accepted() {
     let usual = model(mechanism.clone(), &Options::default()).expect("a model");
     let model = model(mechanism, &most_accurate).expect("a model");
     assert_eq!(model.functions.len(), usual.functions.len());
+    let closed = |model: &Model| {
+        let mut functions = model.functions.iter();
+        functions.any(|f| f.formulation.contains("closed form"))
+    };
+    assert_eq!([&usual, &model].map(closed), [true, false]);
     assert_eq!(verify(&model, &most_accurate), Ok(()));
 }
 

@@ -2,7 +2,8 @@
 //!
 //! Inertia is linear: that of a body is a sum of parts, and every part can move from body to body
 //! independently. Parts that are known at generation time move as far as possible and cost nothing. A part
-//! with a run-time parameter costs operations at each addition; the plan chooses how far it moves.
+//! with a run-time parameter costs operations at each addition; the plan chooses how far it moves. Parts are kept apart
+//! until they are summed: a factor folds into a product but not into a sum, and a multiple of one parameter stays one.
 
 use bgdyn_runtime::Dd;
 
