@@ -66,8 +66,8 @@ macro_rules! closes {
             }
 
             fn is_whole() -> bool {
-                // One of its loops closes by Newton's method.
-                stringify!($module) != "linkages"
+                // One of their loops closes by Newton's method: the rod, and the cylinder of known stroke.
+                !matches!(stringify!($module), "linkages" | "excavator_bucket")
             }
 
             fn angles() -> [bool; crate::$module::NQ] {
