@@ -223,13 +223,17 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Returns mass, axial mass, first moment and D, if all are known at generation time.
-    pub fn numbers(&self) -> Option<[Dd; 11]> {
+    /// Returns mass, axial mass, first moment and D.
+    pub fn entries(&self) -> [Expr<'g>; 11] {
         let [hx, hy, hz] = self.first.0;
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
-        let entries = [self.mass, self.axial, hx, hy, hz, xx, yy, zz, xy, xz, yz];
+        [self.mass, self.axial, hx, hy, hz, xx, yy, zz, xy, xz, yz]
+    }
+
+    /// Returns [`BodyInertia::entries`], if all are known at generation time.
+    pub fn numbers(&self) -> Option<[Dd; 11]> {
         let mut numbers = [Dd::ZERO; 11];
-        for (number, entry) in numbers.iter_mut().zip(entries) {
+        for (number, entry) in numbers.iter_mut().zip(self.entries()) {
             *number = entry.as_constant()?;
         }
         Some(numbers)
