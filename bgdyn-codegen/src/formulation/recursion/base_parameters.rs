@@ -150,11 +150,11 @@ fn parts<'g>(
     };
     let to_body = body.axes.transpose();
     let slide = b.vector(Vec3([Dd::ZERO, Dd::ZERO, plan.slides[j]]));
-    for (link, place) in body.links.iter().filter(|(link, _)| counts(*link)) {
+    for (link, pose) in body.links.iter().filter(|(link, _)| counts(*link)) {
         let inertial = graph.inertial(*link);
-        let point = point(b, &inertial, place);
+        let point = point(b, &inertial, pose);
         let point = Point {
-            place: to_body.map(|x| b.constant(x)) * point.place - slide,
+            position: to_body.map(|x| b.constant(x)) * point.position - slide,
             ..point
         };
         if plan.apart[j] && !point.is_constant() {
@@ -165,7 +165,7 @@ fn parts<'g>(
         }
         let tensor = inertial.inertia;
         let turned = |entries| {
-            BodyInertia::of_tensor(b, entries).rotated(b, to_body * place.rotation * tensor.axes)
+            BodyInertia::of_tensor(b, entries).rotated(b, to_body * pose.rotation * tensor.axes)
         };
         let only = |wanted: Option<ParameterId>| {
             tensor.entries.map(|x| match (x, wanted) {
@@ -197,11 +197,11 @@ fn parameters(tensor: &Tensor) -> Vec<ParameterId> {
 }
 
 /// Returns a link's mass at its centre, in the axes in which the link's pose is given.
-fn point<'g>(b: &'g Builder, inertial: &Inertial, place: &Pose) -> Point<'g> {
+fn point<'g>(b: &'g Builder, inertial: &Inertial, pose: &Pose) -> Point<'g> {
     let com = inertial.com.map(|x| value(b, x));
     Point {
         mass: value(b, inertial.mass),
-        place: place.rotation.map(|x| b.constant(x)) * com + b.vector(place.translation),
+        position: pose.rotation.map(|x| b.constant(x)) * com + b.vector(pose.translation),
     }
 }
 
@@ -213,11 +213,11 @@ fn constant_energy<'g>(
     plan: &Plan,
 ) -> Expr<'g> {
     let gravity = b.vector(graph.gravity);
-    let weigh = |mass: Expr<'g>, place: Vec3<Expr<'g>>| gravity.dot(place.scale(mass));
+    let weigh = |mass: Expr<'g>, at: Vec3<Expr<'g>>| gravity.dot(at.scale(mass));
     let mut energy = b.zero();
-    for (link, place) in &geometry.fixed {
-        let point = point(b, &graph.inertial(*link), place);
-        energy = energy - weigh(point.mass, point.place);
+    for (link, pose) in &geometry.fixed {
+        let point = point(b, &graph.inertial(*link), pose);
+        energy = energy - weigh(point.mass, point.position);
     }
     for (j, body) in geometry.bodies.iter().enumerate() {
         let mut root = j;
