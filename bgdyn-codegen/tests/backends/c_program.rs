@@ -8,13 +8,14 @@ use std::process::{Command, Stdio};
 
 use bgdyn_codegen::backend::GeneratedFile;
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Argument;
 use bgdyn_codegen::model::Model;
 
 use crate::values::CNumber;
 
 /// The flags with which generated C must compile without a warning, and with which it has Rust's bits.
-const FLAGS: [&str; 10] = [
+const FLAGS: [&str; 11] = [
     "-std=c99",
     "-O2",
     "-ffp-contract=off",
@@ -24,6 +25,7 @@ const FLAGS: [&str; 10] = [
     "-Wconversion",
     "-Wshadow",
     "-Wdouble-promotion",
+    "-Wfloat-conversion",
     "-Werror",
 ];
 
@@ -49,7 +51,7 @@ pub fn compile<T: CNumber>(
     name: &str,
     files: &[GeneratedFile],
     model: &Model,
-    sizes: &[usize],
+    calls: &[CCall],
 ) -> PathBuf {
     let folder =
         Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}_{compiler}_{}", T::NAME));
@@ -58,7 +60,7 @@ pub fn compile<T: CNumber>(
         fs::write(folder.join(&file.name), &file.text).expect("a file");
     }
     let mechanism = model.mechanism.name();
-    fs::write(folder.join("main.c"), main::<T>(model, sizes)).expect("a file");
+    fs::write(folder.join("main.c"), main::<T>(model, calls)).expect("a file");
     let output = Command::new(compiler)
         .current_dir(&folder)
         .args(FLAGS)
@@ -67,7 +69,68 @@ pub fn compile<T: CNumber>(
         .expect("the compiler runs");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{compiler}: {name}\n{said}");
+    is_header_of_cpp(&folder, mechanism);
     folder.join("program")
+}
+
+/// Fails unless the header is C++ as well.
+fn is_header_of_cpp(folder: &Path, mechanism: &str) {
+    let text = format!("#include \"{mechanism}.h\"\nint main() {{ return 0; }}\n");
+    fs::write(folder.join("main.cpp"), text).expect("a file");
+    let mut command = Command::new("g++");
+    let flags = [
+        "-std=c++17",
+        "-Wall",
+        "-Wextra",
+        "-pedantic",
+        "-Werror",
+        "-fsyntax-only",
+        "main.cpp",
+    ];
+    if let Ok(output) = command.current_dir(folder).args(flags).output() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{mechanism}.h in C++\n{said}");
+    }
+}
+
+/// A call of a generated function in the program.
+pub struct CCall {
+    /// Its name without the prefix.
+    pub name: String,
+    /// Its arguments: `q`, `v`, `a` or `tau`, after the run-time parameters if `reads_parameters`.
+    pub arguments: Vec<&'static str>,
+    /// Whether it takes the run-time parameters, if there are any.
+    pub reads_parameters: bool,
+    /// The number of elements of its result.
+    pub size: usize,
+    /// Whether it returns a number.
+    pub is_checked: bool,
+}
+
+impl CCall {
+    /// Returns the call of a model's function with a result of this size.
+    pub fn of(function: &Function, nv: usize, size: usize) -> Self {
+        let name = |argument: &Argument| match argument {
+            Argument::Q => Some("q"),
+            Argument::V => Some("v").filter(|_| nv > 0),
+            Argument::A => Some("a").filter(|_| nv > 0),
+            Argument::Tau => Some("tau").filter(|_| nv > 0),
+            Argument::TreeV => Some("v"),
+            _ => Some("tau"),
+        };
+        CCall {
+            name: function.name().into(),
+            arguments: function
+                .method
+                .arguments()
+                .iter()
+                .filter_map(name)
+                .collect(),
+            reads_parameters: true,
+            size,
+            is_checked: function.shape().checked(),
+        }
+    }
 }
 
 /// Returns what the program says of these states: for each the words of its functions, one after the other.
@@ -76,6 +139,7 @@ pub fn run<T: CNumber>(program: &Path, states: &[Inputs<T>]) -> Vec<Vec<i128>> {
     for state in states {
         let parts = [&state.q, &state.v, &state.a, &state.u, &state.parameters];
         let all = parts.into_iter().flatten();
+        input += "0 ";
         all.for_each(|x| write!(input, "{:x} ", x.bits()).expect("text"));
         input.push('\n');
     }
@@ -97,10 +161,11 @@ pub fn run<T: CNumber>(program: &Path, states: &[Inputs<T>]) -> Vec<Vec<i128>> {
 }
 
 /// Returns the text of the program.
-fn main<T: CNumber>(model: &Model, sizes: &[usize]) -> String {
+fn main<T: CNumber>(model: &Model, calls: &[CCall]) -> String {
     let (mechanism, real) = (model.mechanism.name(), T::NAME);
     let word = format!("uint{}_t", 8 * size_of::<T>());
-    let (nq, nv) = (model.mechanism.nq(), model.mechanism.nv());
+    let (nq, n) = (model.mechanism.nq(), velocity_count(model));
+    let (room, some) = (nq.max(1), n.max(1));
     let mut text = format!(
         "#include \"{mechanism}.h\"
 #include <inttypes.h>
@@ -125,12 +190,13 @@ static void print({real} x)
 
 int main(void)
 {{
-    {real} q[{nq}], v[{nv}], a[{nv}], tau[{nv}];
-    while (next(&q[0])) {{
-        for (int k = 1; k < {nq}; ++k) next(&q[k]);
-        for (int k = 0; k < {nv}; ++k) next(&v[k]);
-        for (int k = 0; k < {nv}; ++k) next(&a[k]);
-        for (int k = 0; k < {nv}; ++k) next(&tau[k]);
+    {real} first, q[{room}], v[{some}], a[{some}], tau[{some}];
+    while (next(&first)) {{
+        for (int k = 0; k < {nq}; ++k) next(&q[k]);
+        for (int k = 0; k < {n}; ++k) next(&v[k]);
+        for (int k = 0; k < {n}; ++k) next(&a[k]);
+        for (int k = 0; k < {n}; ++k) next(&tau[k]);
+        (void)q; (void)v; (void)a; (void)tau;
 "
     );
     let parameters = model.mechanism.parameters();
@@ -145,23 +211,23 @@ int main(void)
     for parameter in parameters {
         writeln!(text, "        next(&parameters.{});", parameter.name).expect("text");
     }
-    for (function, size) in model.functions.iter().zip(sizes) {
-        let arguments = function
-            .method
-            .arguments()
-            .iter()
-            .map(|argument| match argument {
-                Argument::Tau => "tau".to_string(),
-                argument => argument.name().to_string(),
-            });
-        let parameters = (!parameters.is_empty()).then(|| "&parameters".to_string());
-        let all: Vec<String> = parameters.into_iter().chain(arguments).collect();
-        let call = format!(
-            "{mechanism}_{}({}, result)",
-            function.name(),
-            all.join(", ")
-        );
-        let call = match function.shape().checked() {
+    for CCall {
+        name,
+        arguments,
+        reads_parameters,
+        size,
+        is_checked,
+    } in calls
+    {
+        let given = *reads_parameters && !parameters.is_empty();
+        let given = given.then_some("&parameters");
+        let all: Vec<&str> = given
+            .into_iter()
+            .chain(arguments.iter().copied())
+            .chain(["result"])
+            .collect();
+        let call = format!("{mechanism}_{name}({})", all.join(", "));
+        let call = match is_checked {
             true => format!(
                 "{real} result[{size}]; int status = {call}; printf(\" %s%x\", status < 0 ? \"-\" : \"\", status < 0 ? 1U : (unsigned)status);"
             ),
@@ -174,4 +240,11 @@ int main(void)
         .expect("text");
     }
     text + "        printf(\"\\n\");\n    }\n    return 0;\n}\n"
+}
+
+/// Returns the number of velocities and efforts of each kind that a program reads: enough for the open tree.
+pub fn velocity_count(model: &Model) -> usize {
+    let closed = model.bond_graph.closed.as_deref();
+    let of_tree = closed.map_or(0, |closed| closed.tree.coordinates.len());
+    of_tree.max(model.mechanism.nv())
 }

@@ -1,5 +1,7 @@
 //! Operands and operations in C.
 
+use bgdyn_runtime::ACTUATORS;
+
 use super::block::BlockText;
 use crate::column_loop::SHARED;
 use crate::expr::{Leaf, Node, NodeId, Signed};
@@ -111,8 +113,9 @@ impl BlockText<'_> {
             Node::Pivot(value, magnitude, joint) => {
                 let name = self.style.global("checked_pivot");
                 let by = if self.separate { "" } else { "&" };
-                let (value, magnitude, joint) = (sum(*value), sum(*magnitude), joint + 1);
-                let text = format!("{name}({value}, {magnitude}, {joint}, {by}refused)");
+                let (value, magnitude) = (sum(*value), sum(*magnitude));
+                let cause = joint.checked_sub(ACTUATORS).unwrap_or(*joint) + 1;
+                let text = format!("{name}({value}, {magnitude}, {cause}, {by}refused)");
                 (text, Tightness::Whole)
             }
             Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) | Node::Sin(_) | Node::Cos(_) => {

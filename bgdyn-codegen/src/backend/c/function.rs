@@ -16,6 +16,14 @@ pub(super) const LIMITS: PlanLimits = PlanLimits {
     store_from: 0,
 };
 
+/// Returns the functions that have a result: without joints there are no efforts, and C has no empty arrays.
+pub(super) fn written_functions<'a>(
+    context: &'a FunctionContext<'_>,
+) -> impl Iterator<Item = &'a Function> {
+    let functions = context.model.functions.iter();
+    functions.filter(|function| !FlatResult::new(function, context).is_empty())
+}
+
 /// Returns the signature of a function, without a semicolon.
 pub(super) fn signature(function: &Function, context: &FunctionContext<'_>) -> String {
     let style = context.style;
@@ -26,7 +34,7 @@ pub(super) fn signature(function: &Function, context: &FunctionContext<'_>) -> S
     };
     let name = style.global(function.name());
     let parameters = parameters(function, context.naming, style);
-    let size = FlatResult::new(function, context.nv, style).size;
+    let size = FlatResult::new(function, context).size;
     let result = format!("{} result[{size}]", style.real());
     let all = declarations(&parameters, [result]);
     format!("{kind} {name}({all})")
@@ -43,7 +51,7 @@ pub(super) struct CFunction {
 /// Returns the definitions of a function and of its blocks.
 pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> CFunction {
     let style = context.style;
-    let flat = FlatResult::new(function, context.nv, style);
+    let flat = FlatResult::new(function, context);
     let plan = FunctionPlan::new(function, Some(flat.elements()), &LIMITS);
     let mut blocks = String::new();
     let mut lines = Vec::new();

@@ -1,43 +1,56 @@
 //! The header: sizes, run-time parameters, prototypes with their documentation.
 
 use super::context::FunctionContext;
-use super::function::signature;
+use super::function::{signature, written_functions};
+use super::positions::position_functions;
 use super::style::Style;
+use super::tables::{sizes, tables};
 use super::words::{field, in_comment};
 use crate::function::Function;
+use crate::method::{Method, Shape};
 use crate::model::Model;
 use crate::plan::{Naming, summary_of, unread};
 
 /// Returns the text of the header.
 pub(super) fn header(model: &Model, style: &Style) -> String {
     let naming = Naming::of_model(model);
-    let (nq, nv) = (model.mechanism.nq(), model.mechanism.nv());
-    let context = FunctionContext {
-        style,
-        naming: &naming,
-        nv,
-    };
+    let context = FunctionContext::new(model, style, &naming);
     let guard = style.constant("H");
     let mut lines = beginning(model, style);
     lines.extend([
         format!("#ifndef {guard}"),
         format!("#define {guard}"),
         String::new(),
-        "/* Numbers of positions and of velocities. */".into(),
-        format!("#define {} {nq}", style.constant("NQ")),
-        format!("#define {} {nv}", style.constant("NV")),
+        "/* Numbers of what the names say. */".into(),
+    ]);
+    let sizes = sizes(&context).into_iter();
+    lines.extend(sizes.map(|(name, about, size)| {
+        format!("#define {} {size} /* {about} */", style.constant(name))
+    }));
+    lines.extend([
         String::new(),
         "#ifdef __cplusplus".into(),
         "extern \"C\" {".into(),
         "#endif".into(),
         String::new(),
     ]);
-    lines.extend(names(style));
+    for table in tables(&context) {
+        lines.extend(comment(&[table.about]));
+        lines.push(format!("extern {};", table.declaration));
+    }
+    lines.push(String::new());
     lines.extend(parameters(model, style));
-    for function in &model.functions {
-        lines.extend(documentation(function, model));
+    for function in written_functions(&context) {
+        lines.extend(documentation(function, &context));
         lines.push(format!("{};", signature(function, &context)));
         lines.push(String::new());
+    }
+    for function in position_functions(&context) {
+        if !function.about.is_empty() {
+            lines.extend(comment(&function.about));
+            lines.push(format!("{};", function.signature));
+            lines.push(String::new());
+        }
     }
     lines.extend([
         "#ifdef __cplusplus".into(),
@@ -71,23 +84,6 @@ pub(super) fn beginning(model: &Model, style: &Style) -> Vec<String> {
     lines
 }
 
-fn names(style: &Style) -> Vec<String> {
-    let (joints, positions) = (style.global("joint_names"), style.global("position_names"));
-    vec![
-        "/* Names of the moving joints, in the order of the velocities, and of the positions. */"
-            .into(),
-        format!(
-            "extern const char *const {joints}[{}];",
-            style.constant("NV")
-        ),
-        format!(
-            "extern const char *const {positions}[{}];",
-            style.constant("NQ")
-        ),
-        String::new(),
-    ]
-}
-
 fn parameters(model: &Model, style: &Style) -> Vec<String> {
     let parameters = model.mechanism.parameters();
     if parameters.is_empty() {
@@ -117,8 +113,8 @@ fn parameters(model: &Model, style: &Style) -> Vec<String> {
 }
 
 /// Returns the documentation of a function.
-pub(super) fn documentation(function: &Function, model: &Model) -> Vec<String> {
-    let method = function.method;
+pub(super) fn documentation(function: &Function, context: &FunctionContext<'_>) -> Vec<String> {
+    let (method, model) = (function.method, context.model);
     let mut lines = vec![
         summary_of(method, model),
         format!("Units: {}.", method.units()),
@@ -132,17 +128,73 @@ pub(super) fn documentation(function: &Function, model: &Model) -> Vec<String> {
     if !unread.is_empty() {
         lines.push(format!("Does not read: {}.", unread.join(", ")));
     }
+    lines.extend(result_order(function.shape()).map(String::from));
     if function.shape().checked() {
-        lines.push("Returns 0; the number, from 1, of the joint whose pivot vanishes where the mass matrix is singular;".into());
-        lines.push("or -1 where the result is not finite.".into());
+        lines.extend(causes(function, context));
     }
-    let last = lines.len() - 1;
-    let line = |(k, line): (usize, &String)| {
+    comment(&lines)
+}
+
+/// Describes the order of a result that consists of several parts.
+fn result_order(shape: Shape) -> Option<&'static str> {
+    Some(match shape {
+        Shape::SlopesByTree => {
+            "Result: the NV x NT matrix by positions, along the velocities of the open tree; then the NV x NV matrix by v."
+        }
+        Shape::CheckedSlopesByTree => {
+            "Result: the NV x NT matrix by positions, along the velocities of the open tree; then those by v and by tau."
+        }
+        Shape::CheckedTreeAndRows => "Result: NT accelerations, then NC multipliers.",
+        Shape::TreeMatrix => "Result: NT x NV.",
+        Shape::RowMatrix => "Result: NC x NT.",
+        Shape::CheckedWrenches => {
+            "Result: for each loop and contact a force, then a moment, each x, y, z; axes as in docs/methods.md."
+        }
+        Shape::LinkWrenches => {
+            "Result: for each link a force, then a moment, each x, y, z; axes as in docs/methods.md."
+        }
+        _ => return None,
+    })
+}
+
+/// Describes what a function returns that may have no result.
+fn causes(function: &Function, context: &FunctionContext<'_>) -> Vec<String> {
+    let method = function.method;
+    let names = match method {
+        _ if context.model.bond_graph.closed.is_none() => {
+            return [
+                "Returns 0; the number, from 1, of the joint whose pivot vanishes where the mass matrix is singular;",
+                "or -1 where the result is not finite.",
+            ]
+            .map(String::from)
+            .to_vec();
+        }
+        Method::ActuatedInverse(_) => "actuated_pivot_names",
+        method if method.of_tree() => "tree_pivot_names",
+        _ => "pivot_names",
+    };
+    let what = match method {
+        Method::ActuatedInverse(_) => "a joint that does not follow the actuated ones",
+        _ => "a joint whose pivot vanishes where the mass matrix is singular",
+    };
+    vec![
+        format!(
+            "Returns 0; the number, from 1, of the cause among {}: {what},",
+            context.style.global(names)
+        ),
+        "or a loop or contact at a singular position or beyond one; or -1 where the result is not finite.".into(),
+    ]
+}
+
+/// Returns a comment of these lines.
+pub(super) fn comment<S: AsRef<str>>(lines: &[S]) -> Vec<String> {
+    let last = lines.len().saturating_sub(1);
+    let line = |(k, line): (usize, &S)| {
         let (begin, end) = (
             if k == 0 { "/*" } else { "  " },
             if k == last { " */" } else { "" },
         );
-        format!("{begin} {}{end}", in_comment(line))
+        format!("{begin} {}{end}", in_comment(line.as_ref()))
     };
     lines.iter().enumerate().map(line).collect()
 }

@@ -1,15 +1,18 @@
 //! C99: a header and a source file, without heap, static variables, or a library but libm.
 
 mod block;
+mod closing;
 mod context;
 mod expression;
 mod function;
 mod header;
 mod helpers;
 mod parameters;
+mod positions;
 mod result;
 mod source;
 mod style;
+mod tables;
 mod tail;
 mod words;
 
@@ -62,7 +65,6 @@ impl Backend for C99 {
             return Err(BackendError::Unsupported(what.into()));
         };
         let style = Style::new(model.mechanism.name(), given)?;
-        source::check_supported(model)?;
         let name = model.mechanism.name();
         let file = |ending: &str, text| GeneratedFile {
             name: format!("{name}.{ending}"),

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::context::FunctionContext;
 use super::style::Style;
 use crate::function::Function;
 use crate::method::Shape;
@@ -11,15 +12,17 @@ use crate::plan::{Place, matrix_places};
 pub(super) struct FlatResult {
     /// Places of each output; none for one that is only checked.
     pub(super) places: Vec<Vec<usize>>,
-    /// Number of elements, in C.
+    /// Number of elements.
+    elements: usize,
+    /// The same in C.
     pub(super) size: String,
     /// The outputs that must be finite.
     pub(super) checked: Range<usize>,
 }
 
 impl FlatResult {
-    pub(super) fn new(function: &Function, nv: usize, style: &Style) -> Self {
-        let shape = function.shape();
+    pub(super) fn new(function: &Function, context: &FunctionContext<'_>) -> Self {
+        let (shape, nv) = (function.shape(), context.nv);
         let count = output_count(function);
         let places = matrix_places(shape, nv);
         let flat = |place: &Place| match *place {
@@ -43,24 +46,22 @@ impl FlatResult {
             None => (0..count).map(in_order).collect(),
         };
         let elements = places.iter().map(Vec::len).sum::<usize>();
-        let n = style.constant("NV");
-        let size = match shape {
-            Shape::Vector | Shape::CheckedVector => n,
-            Shape::Symmetric | Shape::Square => format!("{n} * {n}"),
-            Shape::SquarePair => format!("2 * {n} * {n}"),
-            Shape::CheckedSquares => format!("3 * {n} * {n}"),
-            Shape::Jacobian => format!("6 * {n}"),
-            _ => elements.to_string(),
-        };
         let checked = match shape {
-            Shape::CheckedVector | Shape::CheckedActuated(_) => 0..count,
+            Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => 0..count,
+            Shape::CheckedTreeAndRows => 0..context.nt,
             _ => 0..only_checked,
         };
         FlatResult {
             places,
-            size,
+            size: size(shape, context.style).unwrap_or_else(|| elements.to_string()),
+            elements,
             checked,
         }
+    }
+
+    /// Returns whether the function has no result, so that C does not have it.
+    pub(super) fn is_empty(&self) -> bool {
+        self.elements == 0
     }
 
     /// Returns the places for a plan.
@@ -70,6 +71,31 @@ impl FlatResult {
             .map(|places| places.iter().map(|&k| Place::Element(k)).collect())
             .collect()
     }
+}
+
+/// Returns the number of a result's elements in C; `None` if sizes with names do not tell it.
+fn size(shape: Shape, style: &Style) -> Option<String> {
+    let [nv, nt, nc, nr] = ["NV", "NT", "NC", "NR"].map(|size| style.constant(size));
+    Some(match shape {
+        Shape::Vector | Shape::CheckedVector => nv,
+        Shape::Symmetric | Shape::Square => format!("{nv} * {nv}"),
+        Shape::SquarePair => format!("2 * {nv} * {nv}"),
+        Shape::CheckedSquares => format!("3 * {nv} * {nv}"),
+        Shape::SlopesByTree => format!("{nv} * ({nt} + {nv})"),
+        Shape::CheckedSlopesByTree => format!("{nv} * ({nt} + 2 * {nv})"),
+        Shape::Jacobian => format!("6 * {nv}"),
+        Shape::TreeVector | Shape::CheckedTree => nt,
+        Shape::TreeMatrix => format!("{nt} * {nv}"),
+        Shape::RowVector => nc,
+        Shape::RowMatrix => format!("{nc} * {nt}"),
+        Shape::CheckedTreeAndRows => format!("{nt} + {nc}"),
+        Shape::CheckedWrenches => format!("6 * {nr}"),
+        Shape::LinkWrenches => format!("6 * {}", style.constant("NL")),
+        Shape::CheckedActuated(_) => style.constant("NA"),
+        Shape::Drives(_) => style.constant("NP"),
+        Shape::Scalar | Shape::Pose | Shape::Spatial => return None,
+        Shape::Parts | Shape::CheckedParts => return None,
+    })
 }
 
 /// Returns the number of a function's outputs.

@@ -1,45 +1,27 @@
 //! The source file: helpers, names, default parameters, functions.
 
 use super::context::FunctionContext;
-use super::function::{CFunction, definition};
-use super::header::{beginning, documentation};
+use super::function::{CFunction, definition, written_functions};
+use super::header::{beginning, comment, documentation};
 use super::helpers::helpers;
+use super::positions::{PositionFunction, position_functions};
 use super::style::Style;
+use super::tables::tables;
 use super::words::field;
-use crate::backend::given::BackendError;
 use crate::model::Model;
 use crate::plan::Naming;
-
-/// Returns an error for what the backend cannot write.
-pub(super) fn check_supported(model: &Model) -> Result<(), BackendError> {
-    let name = model.mechanism.name();
-    let message = if model.mechanism.nv() == 0 {
-        format!("the backend `c` writes mechanisms with moving joints: `{name}` has none")
-    } else if model.bond_graph.closed.is_some() {
-        format!(
-            "the backend `c` does not write mechanisms with loops or wheels, such as `{name}`: use the backend `rust`"
-        )
-    } else {
-        return Ok(());
-    };
-    Err(BackendError::Unsupported(message))
-}
 
 /// Returns the text of the source file.
 pub(super) fn source(model: &Model, style: &Style) -> String {
     let naming = Naming::of_model(model);
-    let context = FunctionContext {
-        style,
-        naming: &naming,
-        nv: model.mechanism.nv(),
-    };
+    let context = FunctionContext::new(model, style, &naming);
     let function = |f| {
         let CFunction { blocks, whole } = definition(f, &context);
-        let lines = documentation(f, model).into_iter();
-        let documentation: String = lines.map(|line| line + "\n").collect();
-        blocks + &documentation + &whole
+        blocks + &lines_of(documentation(f, &context)) + &whole
     };
-    let functions: String = model.functions.iter().map(function).collect();
+    let functions: String = written_functions(&context).map(function).collect();
+    let positions = position_functions(&context).into_iter();
+    let functions: String = functions + &positions.map(position_function).collect::<String>();
     let mut lines = beginning(model, style);
     lines.extend([
         format!("#include \"{}.h\"", style.file),
@@ -53,28 +35,27 @@ pub(super) fn source(model: &Model, style: &Style) -> String {
         "#endif".into(),
         String::new(),
     ]);
-    lines.push(table(
-        &style.global("joint_names"),
-        &style.constant("NV"),
-        &naming.joints,
-    ));
-    lines.push(table(
-        &style.global("position_names"),
-        &style.constant("NQ"),
-        &naming.positions,
-    ));
+    for table in tables(&context) {
+        let elements = table.elements.join(", ");
+        lines.push(format!("{} = {{{elements}}};\n", table.declaration));
+    }
     lines.extend(default_parameters(model, style));
-    let head: String = lines.iter().map(|line| format!("{line}\n")).collect();
-    let text = head + &helpers(&functions, style) + &functions;
+    let text = lines_of(lines) + &helpers(&functions, style) + &functions;
     text.trim_end().to_string() + "\n"
 }
 
-fn table(name: &str, count: &str, names: &[&str]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-    format!(
-        "const char *const {name}[{count}] = {{{}}};\n",
-        names.join(", ")
-    )
+fn lines_of(lines: Vec<String>) -> String {
+    lines.into_iter().map(|line| line + "\n").collect()
+}
+
+fn position_function(function: PositionFunction) -> String {
+    let PositionFunction {
+        about,
+        signature,
+        body,
+    } = function;
+    let body: String = body.iter().map(|line| format!("    {line}\n")).collect();
+    lines_of(comment(&about)) + &format!("{signature}\n{{\n{body}}}\n\n")
 }
 
 fn default_parameters(model: &Model, style: &Style) -> Vec<String> {
