@@ -50,8 +50,7 @@ pub fn compile<T: CNumber>(
     compiler: &str,
     name: &str,
     files: &[GeneratedFile],
-    model: &Model,
-    calls: &[CCall],
+    program: &CProgram,
 ) -> PathBuf {
     let folder =
         Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}_{compiler}_{}", T::NAME));
@@ -59,17 +58,17 @@ pub fn compile<T: CNumber>(
     for file in files {
         fs::write(folder.join(&file.name), &file.text).expect("a file");
     }
-    let mechanism = model.mechanism.name();
-    fs::write(folder.join("main.c"), main::<T>(model, calls)).expect("a file");
+    let file = &program.file;
+    fs::write(folder.join("main.c"), program.text::<T>()).expect("a file");
     let output = Command::new(compiler)
         .current_dir(&folder)
         .args(FLAGS)
-        .args([&format!("{mechanism}.c"), "main.c", "-o", "program", "-lm"])
+        .args([&format!("{file}.c"), "main.c", "-o", "program", "-lm"])
         .output()
         .expect("the compiler runs");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{compiler}: {name}\n{said}");
-    is_header_of_cpp(&folder, mechanism);
+    is_header_of_cpp(&folder, file);
     folder.join("program")
 }
 
@@ -108,10 +107,10 @@ pub struct CCall {
 }
 
 impl CCall {
-    /// Returns the call of a model's function with a result of this size.
-    pub fn of(function: &Function, nv: usize, size: usize) -> Self {
+    /// Returns the call of a model's function with a result of this size; C has no empty arrays.
+    pub fn of(function: &Function, [nq, nv]: [usize; 2], size: usize) -> Self {
         let name = |argument: &Argument| match argument {
-            Argument::Q => Some("q"),
+            Argument::Q => Some("q").filter(|_| nq > 0),
             Argument::V => Some("v").filter(|_| nv > 0),
             Argument::A => Some("a").filter(|_| nv > 0),
             Argument::Tau => Some("tau").filter(|_| nv > 0),
@@ -133,14 +132,15 @@ impl CCall {
     }
 }
 
-/// Returns what the program says of these states: for each the words of its functions, one after the other.
-pub fn run<T: CNumber>(program: &Path, states: &[Inputs<T>]) -> Vec<Vec<i128>> {
+/// Returns what the program says of these states, each the numbers of its arrays and then the run-time parameters: for
+/// each the words of its functions, one after the other.
+pub fn run<T: CNumber>(program: &Path, states: &[Vec<T>]) -> Vec<Vec<i128>> {
     let mut input = String::new();
     for state in states {
-        let parts = [&state.q, &state.v, &state.a, &state.u, &state.parameters];
-        let all = parts.into_iter().flatten();
         input += "0 ";
-        all.for_each(|x| write!(input, "{:x} ", x.bits()).expect("text"));
+        let mut all = state.iter();
+        all.try_for_each(|x| write!(input, "{:x} ", x.bits()))
+            .expect("text");
         input.push('\n');
     }
     let mut process = Command::new(program)
@@ -160,14 +160,35 @@ pub fn run<T: CNumber>(program: &Path, states: &[Inputs<T>]) -> Vec<Vec<i128>> {
         .collect()
 }
 
-/// Returns the text of the program.
-fn main<T: CNumber>(model: &Model, calls: &[CCall]) -> String {
-    let (mechanism, real) = (model.mechanism.name(), T::NAME);
-    let word = format!("uint{}_t", 8 * size_of::<T>());
-    let (nq, n) = (model.mechanism.nq(), velocity_count(model));
-    let (room, some) = (nq.max(1), n.max(1));
-    let mut text = format!(
-        "#include \"{mechanism}.h\"
+/// A program that calls functions on states.
+pub struct CProgram {
+    /// The name of the files without an ending, which is the prefix as well.
+    pub file: String,
+    /// The arrays of a state, with their numbers of elements.
+    pub arrays: Vec<(&'static str, usize)>,
+    /// Names of the run-time parameters.
+    pub parameters: Vec<String>,
+    pub calls: Vec<CCall>,
+}
+
+impl CProgram {
+    /// Returns the program of a mechanism: `q`, `v`, `a` and `tau`, with room for the velocities of the open tree.
+    pub fn of(model: &Model, calls: Vec<CCall>) -> Self {
+        let (nq, n) = (model.mechanism.nq(), velocity_count(model));
+        let parameters = model.mechanism.parameters().iter();
+        CProgram {
+            file: model.mechanism.name().into(),
+            arrays: vec![("q", nq), ("v", n), ("a", n), ("tau", n)],
+            parameters: parameters.map(|p| p.name.clone()).collect(),
+            calls,
+        }
+    }
+
+    fn text<T: CNumber>(&self) -> String {
+        let (file, real) = (&self.file, T::NAME);
+        let word = format!("uint{}_t", 8 * size_of::<T>());
+        let mut text = format!(
+            "#include \"{file}.h\"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -190,56 +211,65 @@ static void print({real} x)
 
 int main(void)
 {{
-    {real} first, q[{room}], v[{some}], a[{some}], tau[{some}];
+    {real} first;
     while (next(&first)) {{
-        for (int k = 0; k < {nq}; ++k) next(&q[k]);
-        for (int k = 0; k < {n}; ++k) next(&v[k]);
-        for (int k = 0; k < {n}; ++k) next(&a[k]);
-        for (int k = 0; k < {n}; ++k) next(&tau[k]);
-        (void)q; (void)v; (void)a; (void)tau;
 "
-    );
-    let parameters = model.mechanism.parameters();
-    if !parameters.is_empty() {
-        let name = format!("struct {mechanism}_parameters");
-        writeln!(
-            text,
-            "        {name} parameters = {mechanism}_parameters_default();"
-        )
-        .expect("text");
+        );
+        let mut line = |line: String| writeln!(text, "        {line}").expect("text");
+        for (name, count) in &self.arrays {
+            line(format!("{real} {name}[{}];", count.max(&1)));
+            line(format!("(void){name};"));
+            line(format!(
+                "for (int k = 0; k < {count}; ++k) next(&{name}[k]);"
+            ));
+        }
+        if !self.parameters.is_empty() {
+            line(format!(
+                "struct {file}_parameters parameters = {file}_parameters_default();"
+            ));
+        }
+        for parameter in &self.parameters {
+            line(format!("next(&parameters.{parameter});"));
+        }
+        for call in &self.calls {
+            line(self.call(call, real));
+        }
+        text + "        printf(\"\\n\");\n    }\n    return 0;\n}\n"
     }
-    for parameter in parameters {
-        writeln!(text, "        next(&parameters.{});", parameter.name).expect("text");
-    }
-    for CCall {
-        name,
-        arguments,
-        reads_parameters,
-        size,
-        is_checked,
-    } in calls
-    {
-        let given = *reads_parameters && !parameters.is_empty();
+
+    fn call(&self, call: &CCall, real: &str) -> String {
+        let CCall {
+            name,
+            arguments,
+            size,
+            is_checked,
+            ..
+        } = call;
+        let given = call.reads_parameters && !self.parameters.is_empty();
         let given = given.then_some("&parameters");
+        let arguments = arguments.iter().copied();
         let all: Vec<&str> = given
             .into_iter()
-            .chain(arguments.iter().copied())
+            .chain(arguments)
             .chain(["result"])
             .collect();
-        let call = format!("{mechanism}_{name}({})", all.join(", "));
-        let call = match is_checked {
+        let called = format!("{}_{name}({})", self.file, all.join(", "));
+        let called = match is_checked {
             true => format!(
-                "{real} result[{size}]; int status = {call}; printf(\" %s%x\", status < 0 ? \"-\" : \"\", status < 0 ? 1U : (unsigned)status);"
+                "int status = {called}; printf(\" %s%x\", status < 0 ? \"-\" : \"\", status < 0 ? 1U : (unsigned)status);"
             ),
-            false => format!("{real} result[{size}]; {call}; printf(\" 0\");"),
+            false => format!("{called}; printf(\" 0\");"),
         };
-        writeln!(
-            text,
-            "        {{ {call} for (int k = 0; k < {size}; ++k) print(result[k]); }}"
+        format!(
+            "{{ {real} result[{size}]; {called} for (int k = 0; k < {size}; ++k) print(result[k]); }}"
         )
-        .expect("text");
     }
-    text + "        printf(\"\\n\");\n    }\n    return 0;\n}\n"
+}
+
+/// Returns a state of a mechanism as the numbers that its program reads.
+pub fn numbers<T: CNumber>(state: &Inputs<T>) -> Vec<T> {
+    let parts = [&state.q, &state.v, &state.a, &state.u, &state.parameters];
+    parts.into_iter().flatten().copied().collect()
 }
 
 /// Returns the number of velocities and efforts of each kind that a program reads: enough for the open tree.

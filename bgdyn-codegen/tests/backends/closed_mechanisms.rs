@@ -12,7 +12,7 @@ use bgdyn_codegen::{bond_graph, read};
 use crate::same_bits::{check, model_of, name, text_of};
 
 /// Derivatives are compared for up to so many velocities of the open tree.
-const SMALL: usize = 12;
+const SMALL: usize = 8;
 
 /// Mechanisms beside those of the specs: actuated joints that are not the independent ones, planar loops of every form on
 /// a moving deck, a robot on wheels.

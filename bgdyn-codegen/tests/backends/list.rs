@@ -8,7 +8,6 @@ use bgdyn_codegen::backend::{
 use bgdyn_codegen::expr::Node;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::FilesError;
 use bgdyn_codegen::plan::{BlockPlan, BlockStep, FunctionPlan, Tail, matrix_places};
 use bgdyn_codegen::{pipeline, read};
 
@@ -189,21 +188,4 @@ fn read_by(block: &BlockPlan<'_>, place: usize, known: &[bool], what: &str) {
             "{what}: {operand:?} is read too early"
         ),
     });
-}
-
-#[test]
-fn c_refuses_what_it_cannot_write() {
-    let scene = include_str!("../../../specs/scenes/scara_friction.scene.yaml");
-    let backend = backend_named("c").expect("a backend");
-    let given = given(backend, &[]).expect("no options");
-    let load = |_: &str| Ok(SCARA.to_string());
-    let options = Options::default();
-    let found = pipeline::generate_files(scene, "scara_friction", backend, &given, &options, load);
-    let Err(FilesError::Backend(BackendError::Unsupported(message))) = found else {
-        panic!("a scene is refused");
-    };
-    assert!(
-        message.contains("scenes") && message.contains("`rust`"),
-        "{message}"
-    );
 }

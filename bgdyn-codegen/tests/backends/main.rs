@@ -5,5 +5,6 @@ mod closed_mechanisms;
 mod list;
 mod positions;
 mod same_bits;
+mod scenes;
 mod still;
 mod values;

@@ -11,7 +11,7 @@ use bgdyn_runtime::closure::{self, Dependent};
 use bgdyn_runtime::manifold;
 use bgdyn_runtime::nalgebra::SVector;
 
-use crate::c_program::{CCall, compile, compilers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
 use crate::closed_mechanisms::paths;
 use crate::same_bits::{files, model, name};
 use crate::values::{CNumber, close_to, state};
@@ -252,16 +252,13 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
         state.v.iter_mut().for_each(|v| *v = *v * T::from_f64(size));
         states.push(state);
     }
+    let program = CProgram::of(model, calls);
+    let rows: Vec<Vec<T>> = states.iter().map(numbers).collect();
     let (files, mut counts) = (files(model, &[("float", T::NAME)]), [0, 0]);
     for compiler in compilers() {
-        let program = compile::<T>(
-            compiler,
-            &format!("{name}_positions"),
-            &files,
-            model,
-            &calls,
-        );
-        for (state, found) in states.iter().zip(run(&program, &states)) {
+        let called = format!("{name}_positions");
+        let compiled = compile::<T>(compiler, &called, &files, &program);
+        for (state, found) in states.iter().zip(run(&compiled, &rows)) {
             let reference = Reference {
                 model,
                 parameters: state.parameters.clone(),
@@ -280,7 +277,7 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
                 answers.push((cause, closing.q));
             }
             let mut found = found.into_iter();
-            for (call, (cause, q)) in calls.iter().zip(answers) {
+            for (call, (cause, q)) in program.calls.iter().zip(answers) {
                 let what = format!("{compiler}: {name}: {}\n{state:?}", call.name);
                 let status = found.next();
                 let values: Vec<i128> = found.by_ref().take(nq).collect();

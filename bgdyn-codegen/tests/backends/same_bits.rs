@@ -10,7 +10,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::{pipeline, read};
 
-use crate::c_program::{CCall, compile, compilers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
 use crate::values::{CNumber, Expected, close_to, expected, state};
 
 /// States of each mechanism.
@@ -78,14 +78,15 @@ fn compare<T: CNumber>(
             if k % 4 == 0 { 0.0 } else { 0.1 },
         );
     }
-    let nv = model.mechanism.nv();
+    let sizes = [model.mechanism.nq(), model.mechanism.nv()];
     let size = |f: &Function| expected(f, model, &states[0]).values.len();
     let functions: Vec<&Function> = model.functions.iter().filter(|f| size(f) > 0).collect();
-    let calls = functions.iter().map(|f| CCall::of(f, nv, size(f)));
-    let calls: Vec<CCall> = calls.collect();
+    let calls = functions.iter().map(|f| CCall::of(f, sizes, size(f)));
+    let program = CProgram::of(model, calls.collect());
+    let rows: Vec<Vec<T>> = states.iter().map(numbers).collect();
     for compiler in compilers() {
-        let program = compile::<T>(compiler, name, &files, model, &calls);
-        let found = run(&program, &states);
+        let program = compile::<T>(compiler, name, &files, &program);
+        let found = run(&program, &rows);
         assert_eq!(found.len(), states.len(), "{compiler}: {name}");
         for (state, found) in states.iter().zip(found) {
             let what = |f: &Function| format!("{compiler}: {name}: {}\n{state:?}", f.name());

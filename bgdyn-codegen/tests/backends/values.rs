@@ -13,6 +13,8 @@ use crate::c_program::velocity_count;
 pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
     /// Its name in C.
     const NAME: &'static str;
+    /// Half the spacing of numbers at 1.
+    const ROUNDING: f64;
     fn bits(self) -> u64;
     fn of_bits(bits: u64) -> Self;
     fn is_finite(self) -> bool;
@@ -27,6 +29,7 @@ pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
 
 impl CNumber for f64 {
     const NAME: &'static str = "double";
+    const ROUNDING: f64 = f64::EPSILON / 2.0;
     fn bits(self) -> u64 {
         self.to_bits()
     }
@@ -46,6 +49,7 @@ impl CNumber for f64 {
 
 impl CNumber for f32 {
     const NAME: &'static str = "float";
+    const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
     fn bits(self) -> u64 {
         u64::from(self.to_bits())
     }

@@ -3,8 +3,9 @@
 //!
 //! They are `bgdyn_runtime::closure` around the functions `closing_step` and `tree_velocity` of the file.
 
-use super::context::FunctionContext;
-use super::positions::{PositionFunction, has, joint_by_joint, signature};
+use super::context::ModelContext;
+use super::parameters::of_model;
+use super::position_function::{PositionFunction, joint_by_joint, signature};
 use super::style::{Real, Style};
 use crate::bond_graph::ClosedTree;
 use crate::method::Method;
@@ -19,10 +20,96 @@ const CAUSES: [&str; 2] = [
     "out of reach or at a singular position; or -1 where a position is not finite.",
 ];
 
+/// Newton's method for positions that close, in a function of the file itself.
+pub(super) struct Newton<'a> {
+    pub(super) style: &'a Style,
+    /// The joints that close, with the place of each velocity in a step.
+    pub(super) joints: Vec<ClosingJoint>,
+    /// The place of the first loop among the causes.
+    pub(super) first: usize,
+    /// The name of the vector that has the positions, and its size in C.
+    pub(super) argument: &'static str,
+    pub(super) size: String,
+    /// The statement that computes the step `change`, and its size in C.
+    pub(super) step: String,
+    pub(super) steps: String,
+    /// The statement that moves positions by `change`; `None` where each joint that closes has one position, less its
+    /// step.
+    pub(super) moved: Option<String>,
+    /// The declaration of the run-time parameters, with a comma.
+    pub(super) parameters: String,
+}
+
+impl Newton<'_> {
+    /// The function returns 0, or the number of the first loop that does not close.
+    pub(super) fn function(&self) -> PositionFunction {
+        let (style, real) = (self.style, self.style.real());
+        let [zero, half, one] = [0.0, 0.5, 1.0].map(|x| style.number(x));
+        let closed = style.number(match style.real {
+            Real::Double => 1e-8,
+            Real::Float => 1e-4,
+        });
+        let row = |joint: &ClosingJoint| {
+            let cause = self.first + joint.closes + 1;
+            format!("{{{}, {}, {cause}}}", joint.velocity, joint.position)
+        };
+        let rows: Vec<String> = self.joints.iter().map(row).collect();
+        let (count, absolute) = (rows.len(), style.of_library("fabs"));
+        let [larger, pivot] = ["larger", "checked_pivot"].map(|name| style.global(name));
+        let mut body = vec![
+            "/* velocity, position and cause of each joint that closes */".into(),
+            format!("const int joints[{count}][3] = {{{}}};", rows.join(", ")),
+            format!("{real} change[{}];", self.steps),
+            "int refused = 1;".into(),
+            format!("for (int k = 0; refused != 0 && k < {STEPS}; ++k) {{"),
+            format!("    {real} last = {zero};"),
+            "    refused = 0;".into(),
+            format!("    {}", self.step),
+            format!("    for (int i = 0; i < {count}; ++i) {{"),
+            format!("        const {real} size = {absolute}(change[joints[i][0]]);"),
+            format!("        last = {larger}(last, size);"),
+            format!("        (void){pivot}({closed} - size, {zero}, joints[i][2], &refused);"),
+            "    }".into(),
+            format!("    const {real} scale = ({half} < last) ? {half} / last : {one};"),
+        ];
+        let back = self.step_back("change[@] * scale");
+        body.extend(back.iter().map(|line| format!("    {line}")));
+        body.extend(["}".into(), self.step.clone()]);
+        body.extend(self.step_back("change[@]"));
+        body.push("return refused;".into());
+        let (name, parameters) = (style.global("newton"), &self.parameters);
+        let (argument, size) = (self.argument, &self.size);
+        PositionFunction {
+            about: Vec::new(),
+            signature: format!("static int {name}({parameters}{real} {argument}[{size}])"),
+            body,
+        }
+    }
+
+    /// Returns the statements that subtract a step from the positions; `@` is the index of a velocity in it.
+    fn step_back(&self, step: &str) -> Vec<String> {
+        if let Some(moved) = &self.moved {
+            let step = step.replace('@', "j");
+            return vec![
+                format!("for (int j = 0; j < {}; ++j) {{", self.steps),
+                format!("    change[j] = -({step});"),
+                "}".into(),
+                moved.clone(),
+            ];
+        }
+        let (q, step) = (self.argument, step.replace('@', "joints[i][0]"));
+        vec![
+            format!("for (int i = 0; i < {}; ++i) {{", self.joints.len()),
+            format!("    {q}[joints[i][1]] = {q}[joints[i][1]] - {step};"),
+            "}".into(),
+        ]
+    }
+}
+
 /// A mechanism with loops or contacts.
 struct ClosingText<'a> {
     closed: &'a ClosedTree,
-    context: &'a FunctionContext<'a>,
+    context: &'a ModelContext<'a>,
     /// The joints whose positions close.
     joints: Vec<ClosingJoint>,
 }
@@ -30,7 +117,7 @@ struct ClosingText<'a> {
 /// Returns the functions of positions, each after those that it calls.
 pub(super) fn closing_functions(
     closed: &ClosedTree,
-    context: &FunctionContext<'_>,
+    context: &ModelContext<'_>,
 ) -> Vec<PositionFunction> {
     let joints = closed.closure.closing().map(|j| closing_joint(closed, j));
     let text = ClosingText {
@@ -38,9 +125,10 @@ pub(super) fn closing_functions(
         context,
         joints: joints.collect(),
     };
-    let closes = has(context, Method::ClosingStep);
+    let has = |method| context.model.function(method).is_some();
+    let closes = has(Method::ClosingStep);
     let slips = closed.closure.nonholonomic();
-    let is_along_tree = has(context, Method::TreeVelocity);
+    let is_along_tree = has(Method::TreeVelocity);
     let integrates = is_along_tree && (closes || closed.closure.position_rows().is_empty());
     let mut functions = Vec::new();
     if (closes && slips) || integrates {
@@ -106,79 +194,23 @@ impl ClosingText<'_> {
         }
     }
 
-    /// Newton's method; returns 0, or the number of the first loop that does not close.
+    /// Newton's method.
     fn newton(&self) -> PositionFunction {
-        let (style, real) = (self.style(), self.style().real());
-        let [zero, half, one] = [0.0, 0.5, 1.0].map(|x| style.number(x));
-        let closed = style.number(match style.real {
-            Real::Double => 1e-8,
-            Real::Float => 1e-4,
-        });
-        let nq = self.context.model.mechanism.nq();
-        let row = |joint: &ClosingJoint| {
-            format!(
-                "{{{}, {}, {}}}",
-                joint.velocity,
-                joint.position,
-                nq + joint.closes + 1
-            )
+        let style = self.style();
+        let parameters = of_model(self.context.naming, style, true);
+        let slips = self.closed.closure.nonholonomic();
+        let newton = Newton {
+            style,
+            joints: self.joints.clone(),
+            first: self.context.model.mechanism.nq(),
+            argument: "q",
+            size: style.constant("NQ"),
+            step: self.call("closing_step", "q, change") + ";",
+            steps: style.constant("NT"),
+            moved: slips.then(|| format!("{}(q, change, q);", style.global("moved"))),
+            parameters: parameters.map_or(String::new(), |p| p.declaration + ", "),
         };
-        let rows: Vec<String> = self.joints.iter().map(row).collect();
-        let (count, absolute) = (rows.len(), style.of_library("fabs"));
-        let [larger, pivot] = ["larger", "checked_pivot"].map(|name| style.global(name));
-        let step = self.call("closing_step", "q, change") + ";";
-        let mut body = vec![
-            "/* velocity, position and cause of each joint that closes */".into(),
-            format!("const int joints[{count}][3] = {{{}}};", rows.join(", ")),
-            self.array("change", "NT"),
-            "int refused = 1;".into(),
-            format!("for (int k = 0; refused != 0 && k < {STEPS}; ++k) {{"),
-            format!("    {real} last = {zero};"),
-            "    refused = 0;".into(),
-            format!("    {step}"),
-            format!("    for (int i = 0; i < {count}; ++i) {{"),
-            format!("        const {real} size = {absolute}(change[joints[i][0]]);"),
-            format!("        last = {larger}(last, size);"),
-            format!("        (void){pivot}({closed} - size, {zero}, joints[i][2], &refused);"),
-            "    }".into(),
-            format!("    const {real} scale = ({half} < last) ? {half} / last : {one};"),
-        ];
-        body.extend(
-            self.step_back("change[@] * scale")
-                .iter()
-                .map(|line| format!("    {line}")),
-        );
-        body.push("}".into());
-        body.push(step);
-        body.extend(self.step_back("change[@]"));
-        body.push("return refused;".into());
-        let parameters = super::parameters::of_model(self.context.naming, style, true);
-        let parameters = parameters.map_or(String::new(), |p| p.declaration + ", ");
-        let (name, nq) = (style.global("newton"), style.constant("NQ"));
-        PositionFunction {
-            about: Vec::new(),
-            signature: format!("static int {name}({parameters}{real} q[{nq}])"),
-            body,
-        }
-    }
-
-    /// Returns the statements that subtract a step from the positions; `@` is the index of a velocity in it.
-    fn step_back(&self, step: &str) -> Vec<String> {
-        if self.closed.closure.nonholonomic() {
-            let moved = self.style().global("moved");
-            let change = format!("change[j] = -({});", step.replace('@', "j"));
-            let mut lines = self.each_velocity(&change);
-            lines.push(format!("{moved}(q, change, q);"));
-            return lines;
-        }
-        vec![
-            format!("for (int i = 0; i < {}; ++i) {{", self.joints.len()),
-            format!(
-                "    q[joints[i][1]] = q[joints[i][1]] - {};",
-                step.replace('@', "joints[i][0]")
-            ),
-            "}".into(),
-        ]
+        newton.function()
     }
 
     fn close(&self) -> PositionFunction {

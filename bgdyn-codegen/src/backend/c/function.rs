@@ -3,7 +3,7 @@
 use super::block::BlockText;
 use super::context::FunctionContext;
 use super::parameters::{CParameter, block_parameters, parameters};
-use super::result::FlatResult;
+use super::result::{CheckedValues, FlatResult};
 use super::style::Style;
 use super::tail::{self, BeforeLoops};
 use crate::function::Function;
@@ -18,10 +18,11 @@ pub(super) const LIMITS: PlanLimits = PlanLimits {
 
 /// Returns the functions that have a result: without joints there are no efforts, and C has no empty arrays.
 pub(super) fn written_functions<'a>(
-    context: &'a FunctionContext<'_>,
+    functions: &'a [Function],
+    context: &FunctionContext<'_>,
 ) -> impl Iterator<Item = &'a Function> {
-    let functions = context.model.functions.iter();
-    functions.filter(|function| !FlatResult::new(function, context).is_empty())
+    let has_result = |function: &&Function| !FlatResult::new(function, context).is_empty();
+    functions.iter().filter(has_result)
 }
 
 /// Returns the signature of a function, without a semicolon.
@@ -63,7 +64,8 @@ pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> 
     }
     match plan.blocks.as_slice() {
         [block] if function.blocks.len() == 1 => {
-            let block = BlockText::new(block, function, style, context.naming);
+            let mut block = BlockText::new(block, function, style, context.naming);
+            block.others = &flat.others;
             lines.extend(whole(&plan, block, &flat, context));
         }
         _ => {
@@ -72,6 +74,7 @@ pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> 
                 blocks += &definition;
                 lines.extend(call);
             }
+            lines.extend(flat.others.iter().cloned());
             lines.extend(after_blocks(&plan, &flat, context));
         }
     }
@@ -136,16 +139,16 @@ fn after_blocks(
 
 /// Returns the statement that returns 0, or why there is no result.
 fn returned(plan: &FunctionPlan<'_>, flat: &FlatResult, style: &Style) -> String {
-    let is_stored = flat
-        .places
-        .get(flat.checked.start)
-        .is_some_and(|p| !p.is_empty());
-    let (name, array) = (
-        style.global("status"),
-        if is_stored { "result" } else { "checked" },
-    );
+    let (array, count) = match &flat.checked {
+        CheckedValues::Elements(range) if range.start == 0 => ("result".into(), range.len()),
+        CheckedValues::Elements(range) => (format!("&result[{}]", range.start), range.len()),
+        CheckedValues::Outputs(range) => ("checked".to_string(), range.len()),
+    };
     let refused = if plan.refuses() { "refused" } else { "0" };
-    format!("return {name}({refused}, {array}, {});", flat.checked.len())
+    format!(
+        "return {}({refused}, {array}, {count});",
+        style.global("status")
+    )
 }
 
 /// Returns the definition of a block as a function, and the lines that call it.

@@ -79,12 +79,20 @@ pub(super) fn of_model(naming: &Naming<'_>, style: &Style, is_read: bool) -> Opt
 
 fn argument(argument: Argument, count: usize, style: &Style, is_read: bool) -> CParameter {
     let (real, name) = (style.real(), argument.name());
+    if argument == Argument::Time {
+        return CParameter::new(format!("{real} {name}"), name, is_read);
+    }
     let size = match argument {
         Argument::Q => style.constant("NQ"),
         Argument::V | Argument::A | Argument::Tau => style.constant("NV"),
         Argument::TreeV | Argument::TreeTau => style.constant("NT"),
         Argument::ActuatedTau => style.constant("NA"),
-        _ => count.to_string(),
+        Argument::State => style.sized("N + NM"),
+        Argument::Canonical => style.constant("N"),
+        Argument::Input => style.constant("NU"),
+        Argument::Accelerations => style.constant("NV"),
+        Argument::Modes => style.constant("NM"),
+        Argument::Time => count.to_string(),
     };
     CParameter::new(format!("const {real} {name}[{size}]"), name, is_read)
 }

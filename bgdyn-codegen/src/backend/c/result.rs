@@ -3,9 +3,11 @@
 use std::ops::Range;
 
 use super::context::FunctionContext;
+use super::scene_result::SceneResult;
 use super::style::Style;
 use crate::function::Function;
-use crate::method::Shape;
+use crate::layout::StateLayout;
+use crate::method::{Method, SceneFunction, Shape};
 use crate::plan::{Place, matrix_places};
 
 /// The flat result of a function.
@@ -16,12 +18,25 @@ pub(super) struct FlatResult {
     elements: usize,
     /// The same in C.
     pub(super) size: String,
-    /// The outputs that must be finite.
-    pub(super) checked: Range<usize>,
+    /// The values that must be finite.
+    pub(super) checked: CheckedValues,
+    /// Statements that store the elements that are no outputs.
+    pub(super) others: Vec<String>,
+}
+
+/// The values that must be finite.
+pub(super) enum CheckedValues {
+    /// Elements of the result.
+    Elements(Range<usize>),
+    /// Outputs that are no part of the result.
+    Outputs(Range<usize>),
 }
 
 impl FlatResult {
     pub(super) fn new(function: &Function, context: &FunctionContext<'_>) -> Self {
+        if let (Some(scene), Method::Scene(role)) = (context.scene, function.method) {
+            return FlatResult::of_scene(function, role, &scene.layout, context.style);
+        }
         let (shape, nv) = (function.shape(), context.nv);
         let count = output_count(function);
         let places = matrix_places(shape, nv);
@@ -47,15 +62,41 @@ impl FlatResult {
         };
         let elements = places.iter().map(Vec::len).sum::<usize>();
         let checked = match shape {
-            Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => 0..count,
-            Shape::CheckedTreeAndRows => 0..context.nt,
-            _ => 0..only_checked,
+            Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => {
+                CheckedValues::Elements(0..count)
+            }
+            Shape::CheckedTreeAndRows => CheckedValues::Elements(0..context.nt),
+            _ => CheckedValues::Outputs(0..only_checked),
         };
         FlatResult {
             places,
-            size: size(shape, context.style).unwrap_or_else(|| elements.to_string()),
+            size: size(shape)
+                .map_or_else(|| elements.to_string(), |size| context.style.sized(size)),
             elements,
             checked,
+            others: Vec::new(),
+        }
+    }
+
+    fn of_scene(
+        function: &Function,
+        role: SceneFunction,
+        layout: &StateLayout,
+        style: &Style,
+    ) -> Self {
+        let result = SceneResult::new(role, layout, output_count(function));
+        let store = |(k, value): &(usize, String)| {
+            let value = value
+                .parse()
+                .map_or_else(|_| value.clone(), |x| style.number(x));
+            format!("result[{k}] = {value};")
+        };
+        FlatResult {
+            elements: result.places.len() + result.others.len(),
+            places: result.places.iter().map(|&k| vec![k]).collect(),
+            size: style.sized(result.size),
+            checked: CheckedValues::Elements(result.checked),
+            others: result.others.iter().map(store).collect(),
         }
     }
 
@@ -73,26 +114,25 @@ impl FlatResult {
     }
 }
 
-/// Returns the number of a result's elements in C; `None` if sizes with names do not tell it.
-fn size(shape: Shape, style: &Style) -> Option<String> {
-    let [nv, nt, nc, nr] = ["NV", "NT", "NC", "NR"].map(|size| style.constant(size));
+/// Returns the number of a result's elements, by names of sizes; `None` if they do not tell it.
+fn size(shape: Shape) -> Option<&'static str> {
     Some(match shape {
-        Shape::Vector | Shape::CheckedVector => nv,
-        Shape::Symmetric | Shape::Square => format!("{nv} * {nv}"),
-        Shape::SquarePair => format!("2 * {nv} * {nv}"),
-        Shape::CheckedSquares => format!("3 * {nv} * {nv}"),
-        Shape::SlopesByTree => format!("{nv} * ({nt} + {nv})"),
-        Shape::CheckedSlopesByTree => format!("{nv} * ({nt} + 2 * {nv})"),
-        Shape::Jacobian => format!("6 * {nv}"),
-        Shape::TreeVector | Shape::CheckedTree => nt,
-        Shape::TreeMatrix => format!("{nt} * {nv}"),
-        Shape::RowVector => nc,
-        Shape::RowMatrix => format!("{nc} * {nt}"),
-        Shape::CheckedTreeAndRows => format!("{nt} + {nc}"),
-        Shape::CheckedWrenches => format!("6 * {nr}"),
-        Shape::LinkWrenches => format!("6 * {}", style.constant("NL")),
-        Shape::CheckedActuated(_) => style.constant("NA"),
-        Shape::Drives(_) => style.constant("NP"),
+        Shape::Vector | Shape::CheckedVector => "NV",
+        Shape::Symmetric | Shape::Square => "NV * NV",
+        Shape::SquarePair => "2 * NV * NV",
+        Shape::CheckedSquares => "3 * NV * NV",
+        Shape::SlopesByTree => "NV * NT + NV * NV",
+        Shape::CheckedSlopesByTree => "NV * NT + 2 * NV * NV",
+        Shape::Jacobian => "6 * NV",
+        Shape::TreeVector | Shape::CheckedTree => "NT",
+        Shape::TreeMatrix => "NT * NV",
+        Shape::RowVector => "NC",
+        Shape::RowMatrix => "NC * NT",
+        Shape::CheckedTreeAndRows => "NT + NC",
+        Shape::CheckedWrenches => "6 * NR",
+        Shape::LinkWrenches => "6 * NL",
+        Shape::CheckedActuated(_) => "NA",
+        Shape::Drives(_) => "NP",
         Shape::Scalar | Shape::Pose | Shape::Spatial => return None,
         Shape::Parts | Shape::CheckedParts => return None,
     })

@@ -64,10 +64,14 @@ impl Style {
         format!("{}_{name}", self.prefix.to_uppercase())
     }
 
-    /// Returns a sum of sizes, such as "NT + NC", with the prefix before each.
-    pub(super) fn sum(&self, sizes: &str) -> String {
-        let sizes = sizes.split(" + ").map(|size| self.constant(size));
-        sizes.collect::<Vec<_>>().join(" + ")
+    /// Returns an expression of sizes, such as "NT + 2 * NC", with the prefix before each of its names.
+    pub(super) fn sized(&self, sizes: &str) -> String {
+        let with_prefix = |word: &str| match word.starts_with(|c: char| c.is_ascii_uppercase()) {
+            true => self.constant(word),
+            false => word.to_string(),
+        };
+        let words = sizes.split(' ').map(with_prefix);
+        words.collect::<Vec<_>>().join(" ")
     }
 
     /// Returns a function of `math.h` for the type of all numbers.

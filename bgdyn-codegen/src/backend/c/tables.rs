@@ -1,13 +1,13 @@
 //! The sizes of a mechanism, and the tables of its names and limits.
 
-use super::context::FunctionContext;
+use super::context::ModelContext;
 use crate::function::Function;
 use crate::mechanism::{CoordinateId, Limits};
 use crate::method::{Method, Shape};
 use crate::plan::{actuated_pivot_names, closing_names, loop_names, pivot_names, tree_pivot_names};
 
 /// A size: the end of its macro's name, its meaning, its value.
-type Size = (&'static str, &'static str, usize);
+pub(super) type Size = (&'static str, &'static str, usize);
 
 /// A constant array.
 pub(super) struct Table {
@@ -20,7 +20,7 @@ pub(super) struct Table {
 }
 
 /// Returns the sizes that signatures and tables use.
-pub(super) fn sizes(context: &FunctionContext<'_>) -> Vec<Size> {
+pub(super) fn sizes(context: &ModelContext<'_>) -> Vec<Size> {
     let (model, mechanism) = (context.model, &context.model.mechanism);
     let mut sizes = vec![
         ("NQ", "positions", mechanism.nq()),
@@ -50,14 +50,14 @@ fn is_of_links(function: &Function) -> bool {
     function.shape() == Shape::LinkWrenches
 }
 
-fn link_names<'a>(context: &FunctionContext<'a>) -> Vec<&'a str> {
+fn link_names<'a>(context: &ModelContext<'a>) -> Vec<&'a str> {
     let links = context.model.mechanism.links().iter();
     let seen = links.filter(|link| !link.hidden);
     seen.map(|link| link.name.as_str()).collect()
 }
 
 /// Returns the tables, without empty ones: C has no empty arrays.
-pub(super) fn tables(context: &FunctionContext<'_>) -> Vec<Table> {
+pub(super) fn tables(context: &ModelContext<'_>) -> Vec<Table> {
     let model = context.model;
     let (joints, positions) = (&context.naming.joints, &context.naming.positions);
     let mut tables = vec![
@@ -96,7 +96,7 @@ pub(super) fn tables(context: &FunctionContext<'_>) -> Vec<Table> {
     tables
 }
 
-fn names_of_loops(context: &FunctionContext<'_>) -> Vec<Table> {
+fn names_of_loops(context: &ModelContext<'_>) -> Vec<Table> {
     let graph = &context.model.bond_graph;
     let Some(closed) = graph.closed.as_deref() else {
         return Vec::new();
@@ -174,14 +174,14 @@ fn names_of_loops(context: &FunctionContext<'_>) -> Vec<Table> {
 
 /// Returns a table of names; `size` is a sum of sizes.
 fn names(
-    context: &FunctionContext<'_>,
+    context: &ModelContext<'_>,
     about: &'static str,
     name: &str,
     size: &str,
     names: &[&str],
 ) -> Table {
     let style = context.style;
-    let (name, size) = (style.global(name), style.sum(size));
+    let (name, size) = (style.global(name), style.sized(size));
     Table {
         about,
         declaration: format!("const char *const {name}[{size}]"),
@@ -190,7 +190,7 @@ fn names(
 }
 
 /// Returns the limits of the moving joints.
-fn limits(context: &FunctionContext<'_>) -> Vec<Table> {
+fn limits(context: &ModelContext<'_>) -> Vec<Table> {
     type OfJoint = fn(&Limits) -> Option<f64>;
     const LIMITS: [(&str, &str, OfJoint, bool); 4] = [
         (
