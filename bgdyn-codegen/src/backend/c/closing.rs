@@ -16,8 +16,8 @@ const STEPS: usize = 10;
 
 /// What a function that closes returns.
 const CAUSES: [&str; 2] = [
-    "Returns 0; the number, from 1, of the first loop or contact that does not close among the names for closing: it is",
-    "out of reach or at a singular position; or -1 where a position is not finite.",
+    "Returns 0; the number, from 1, in the table of closing names, of the first loop or contact that does not close: it",
+    "is out of reach or at a singular position; or -1 where a position is not finite.",
 ];
 
 /// Newton's method for positions that close, in a function of the file itself.

@@ -42,7 +42,7 @@ pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a>
 fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String> {
     let (method, model) = (function.method, context.model);
     let mut lines = vec![
-        summary_of(method, model),
+        with_tables(&summary_of(method, model), context.style),
         format!("Units: {}.", method.units()),
         format!(
             "Operations: {} ({}).",
@@ -59,6 +59,20 @@ fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String>
         lines.extend(causes(function, context));
     }
     comment(&lines)
+}
+
+/// Returns a sentence with the tables of C in place of the constants of Rust.
+fn with_tables(sentence: &str, style: &Style) -> String {
+    const TABLES: [(&str, &str); 4] = [
+        ("[`CONSTRAINT_NAMES`]", "constraint_names"),
+        ("[`REACTION_NAMES`]", "reaction_names"),
+        ("[`LINK_NAMES`]", "link_names"),
+        ("[`ACTUATED`]", "actuated_names"),
+    ];
+    let replaced = |text: String, (constant, table): &(&str, &str)| {
+        text.replace(constant, &format!("`{}`", style.global(table)))
+    };
+    TABLES.iter().fold(sentence.to_string(), replaced)
 }
 
 /// Describes the order of a result that consists of several parts.

@@ -132,8 +132,8 @@ fn closing_functions(
     let close = PositionFunction {
         about: vec![
             "The state with the positions changed so that all loops close and all wheels touch: Newton's method, at most",
-            "11 steps of at most 0.5 rad or m. Returns 0; the number, from 1, of the first loop or contact that does not",
-            "close among the names of pivots; or -1 where a position is not finite.",
+            "11 steps of at most 0.5 rad or m. Returns 0; the number, from 1, in the table of pivot names, of the first loop",
+            "or contact that does not close; or -1 where a position is not finite.",
         ],
         signature: format!(
             "int {}({declared}const {real} state[{size}], {real} result[{size}])",
