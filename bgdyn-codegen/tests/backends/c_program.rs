@@ -212,6 +212,7 @@ static void print({real} x)
 int main(void)
 {{
     {real} first;
+    (void)print;
     while (next(&first)) {{
 "
         );

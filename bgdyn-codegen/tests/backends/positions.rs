@@ -152,12 +152,15 @@ fn array<T: Copy, const N: usize>(values: &[T]) -> [T; N] {
     values.try_into().expect("the joint's own components")
 }
 
+/// A function of a joint's own positions and velocities.
+type OfJoint<T> = dyn Fn(&JointSegment, &[T], &[T]) -> Vec<T>;
+
 /// Returns the positions of the joints from those of each, its velocities, and all velocities.
 fn joint_by_joint<T: CNumber>(
     joints: &[JointSegment],
     q: &Vector<T>,
     v: &Vector<T>,
-    of: &dyn Fn(&JointSegment, &[T], &[T]) -> Vec<T>,
+    of: &OfJoint<T>,
 ) -> Vector<T> {
     let (mut found, mut at) = (Vec::new(), 0);
     for joint in joints {
