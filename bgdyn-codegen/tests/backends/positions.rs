@@ -7,6 +7,7 @@ use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::plan::{JointSegment, closing_joint, independent_positions, joint_segments};
 use bgdyn_codegen::random::Random;
+use bgdyn_runtime::ACTUATORS;
 use bgdyn_runtime::closure::{self, Dependent};
 use bgdyn_runtime::manifold;
 use bgdyn_runtime::nalgebra::SVector;
@@ -66,7 +67,7 @@ impl<T: CNumber> Reference<'_, T> {
         };
         let nq = self.model.mechanism.nq();
         let cause = match closing.refused {
-            Some(cause) => (cause - ROOM + nq + 1) as i128,
+            Some(cause) => (cause % ACTUATORS - ROOM + nq + 1) as i128,
             None => -i128::from(closing.q.iter().any(|x| !x.is_finite())),
         };
         (closing, cause)

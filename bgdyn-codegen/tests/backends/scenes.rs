@@ -13,6 +13,7 @@ use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::ACTUATORS;
 use bgdyn_runtime::closure::{Dependent, close_from};
 use nalgebra::SVector;
 
@@ -79,7 +80,9 @@ fn expected<T: CNumber>(
         _ => 0,
     };
     let is_wild = values[..checked].iter().any(|x| !x.is_finite());
-    let status = refused.map_or(-i128::from(is_wild), |pivot| pivot as i128 + 1);
+    let status = refused.map_or(-i128::from(is_wild), |pivot| {
+        (pivot % ACTUATORS) as i128 + 1
+    });
     // Rates of positions: of one with a velocity of its own the velocity, of the others outputs.
     let with_positions = |own: &dyn Fn(usize) -> T, column: &[T]| -> Vec<T> {
         let mut coupled = column[rates..].iter();
@@ -316,9 +319,9 @@ fn closed<T: CNumber>(step: &Function, layout: &StateLayout, state: &Inputs<T>) 
     let closing = close_from(vector(&y), &dependents, first, newton);
     let moved = &closing.q.as_slice()[..y.len()];
     let is_wild = moved[..nq].iter().any(|x| !x.is_finite());
-    let status = closing
-        .refused
-        .map_or(-i128::from(is_wild), |cause| cause as i128 + 1);
+    let status = closing.refused.map_or(-i128::from(is_wild), |cause| {
+        (cause % ACTUATORS) as i128 + 1
+    });
     (status, moved.iter().chain(&state.modes).copied().collect())
 }
 

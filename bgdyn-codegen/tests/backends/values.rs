@@ -125,8 +125,8 @@ pub fn expected<T: CNumber>(function: &Function, model: &Model, state: &Inputs<T
     };
     let is_wild = values[..checked].iter().any(|x| !x.is_finite());
     let status = match refused {
-        // The matrix of the actuators has its pivots among the same causes, after the joints and loops.
-        Some(pivot) => pivot.checked_sub(ACTUATORS).unwrap_or(pivot) as i64 + 1,
+        // Kinds of causes begin at multiples of this number; C has the place among the names.
+        Some(pivot) => (pivot % ACTUATORS) as i64 + 1,
         None => -i64::from(is_wild),
     };
     let flat: Vec<T> = match function.shape() {
