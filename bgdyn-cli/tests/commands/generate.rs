@@ -161,7 +161,15 @@ fn backends_and_their_options_are_checked() {
     assert!(stderr.contains("NAME=VALUE"), "{stderr}");
     let stderr = c(&["--option", "sincos=fast"]).bad_usage();
     assert!(stderr.contains("`own` or `libm`"), "{stderr}");
+}
+
+#[test]
+fn scenes_are_written_in_c() {
+    let header = scratch("generate_c_scene", "stick_slip.h", "");
+    let folder = header.strip_suffix("/stick_slip.h").expect("a folder");
     let scene = "specs/scenes/stick_slip.scene.yaml";
-    let stderr = bgdyn(&["generate", scene, "--backend", "c"]).bad_input();
-    assert!(stderr.contains("no scenes"), "{stderr}");
+    let asked = ["generate", scene, "--backend", "c", "-o", folder];
+    assert_eq!(bgdyn(&asked).good(), "");
+    let written = fs::read_to_string(&header).expect("the header");
+    assert!(written.contains("int stick_slip_derivative("), "{written}");
 }

@@ -6,6 +6,7 @@ use quote::quote;
 use super::constants::size;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::method::Method;
+use crate::plan::actuated_pivot_names;
 
 /// Returns the constants of the actuated joints, if the file names them.
 pub(super) fn actuated_constants(
@@ -18,9 +19,7 @@ pub(super) fn actuated_constants(
     let na = size(names.len());
     let inverse = |m: &Method| matches!(m, Method::ActuatedInverse(_));
     let pivots = present.iter().any(inverse).then(|| {
-        let loops = closed.closure.loops.iter().map(|one| one.name.as_str());
-        let joints = graph.coordinates.iter().map(|c| c.name.as_str());
-        let all: Vec<&str> = names.iter().copied().chain(loops).chain(joints).collect();
+        let all = actuated_pivot_names(closed, graph);
         let count = size(all.len());
         quote! {
             /// Names of the actuated joints, of the loops after them, and of the joints after these: the causes of

@@ -14,16 +14,12 @@ use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::LoopRow;
 use crate::method::Method;
+use crate::plan::{closing_joint, pivot_names, tree_pivot_names};
 
 /// Returns a dependent joint with its position and its loop.
 pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
-    let closure = &closed.closure;
-    let closes = closure.loop_of(j);
-    let mut compounds = closure.compounds.iter();
-    let own = compounds.find(|joint| joint.degrees.velocities.contains(&j));
-    let first = own.and_then(|joint| joint.degrees.positions.first());
-    let position = closure.positions[j.0].as_ref().or(first).map_or(0, |p| p.0);
-    let [velocity, position, closes] = [j.0, position, closes].map(size);
+    let joint = closing_joint(closed, j);
+    let [velocity, position, closes] = [joint.velocity, joint.position, joint.closes].map(size);
     quote! {
         __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }
     }
@@ -58,12 +54,10 @@ pub(super) fn tree_constants(
     let of_tree: Vec<&str> = tree.coordinates.iter().map(|c| c.name.as_str()).collect();
     let rows = closure.rows.iter().map(|row| closure.row_name(row));
     let rows: Vec<String> = rows.collect();
-    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
-    let loops = closure.loops.iter().map(|one| one.name.as_str());
-    let pivots: Vec<&str> = joints.chain(loops.clone()).collect();
+    let pivots = pivot_names(closed, graph);
     let tree_pivots = present.iter().any(|m| m.of_tree() && m.shape().checked());
     let tree_pivots = tree_pivots.then(|| {
-        let all: Vec<&str> = of_tree.iter().copied().chain(loops).collect();
+        let all = tree_pivot_names(closed);
         let (n, doc) = (
             size(all.len()),
             format!(" Names of the joints of the open tree, and of the {what} after them."),

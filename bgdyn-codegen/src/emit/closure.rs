@@ -9,10 +9,11 @@ use quote::quote;
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
-use super::joint_segments::{JointSegment, joint_by_joint, segments};
+use super::joint_by_joint::joint_by_joint;
 use super::polygon_closing::{PolygonClosing, polygon_closing};
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::method::Method;
+use crate::plan::{JointSegment, closing_names, independent_positions, joint_segments};
 
 /// Returns the constants of the module, and the functions of the struct.
 pub(super) fn closure_access(
@@ -24,14 +25,10 @@ pub(super) fn closure_access(
         return contact_access(closed, graph, present);
     }
     let closure = &closed.closure;
-    let loops = closure.loops.iter().map(|one| one.name.as_str());
-    let positions = graph.positions.iter().map(|p| p.name.as_str());
-    let closing: Vec<&str> = positions.chain(loops).collect();
+    let closing = closing_names(closed, graph);
     let dependents: Vec<TokenStream> = closure.dependents().map(|j| dependent(closed, j)).collect();
-    let free: Vec<_> = (closure.independents.iter())
-        .filter_map(|j| closure.positions[j.0])
-        .map(|p| size(p.0))
-        .collect();
+    let free = independent_positions(closed).into_iter().map(size);
+    let free: Vec<_> = free.collect();
     let [nl, nd, nf] = [closing.len(), dependents.len(), free.len()].map(size);
     let row = "the loop, and the direction in the axes of its place a";
     let of_tree = tree_constants(closed, graph, ("loops", row), present);
@@ -119,7 +116,7 @@ pub(super) fn position_body(
     if closed.closure.nonholonomic() {
         return contact_position_body(closed, name);
     }
-    let of_tree = segments(&closed.tree);
+    let of_tree = joint_segments(&closed.tree);
     let q = quote! { &__na::SVector<T, NQ> };
     let moved = quote! { &__na::SVector<T, NT> };
     let tree_arguments = [("q", &q, true), ("moved", &moved, false)];

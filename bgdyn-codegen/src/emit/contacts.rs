@@ -9,9 +9,10 @@ use quote::quote;
 
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
-use super::joint_segments::{joint_by_joint, segments};
+use super::joint_by_joint::joint_by_joint;
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::method::Method;
+use crate::plan::{closing_names, joint_segments};
 
 /// Returns the constants of the module, and the functions of the struct.
 pub(super) fn contact_access(
@@ -20,9 +21,8 @@ pub(super) fn contact_access(
     present: &[Method],
 ) -> (TokenStream, TokenStream) {
     let closure = &closed.closure;
-    let constraints: Vec<&str> = closure.loops.iter().map(|one| one.name.as_str()).collect();
     let independents = closure.independents.iter().map(|j| size(j.0));
-    let closing = closes(closed).then(|| closing_constants(closed, graph, &constraints));
+    let closing = closes(closed).then(|| closing_constants(closed, graph));
     let row = "the constraint, and the direction";
     let of_tree = tree_constants(closed, graph, ("constraints", row), present);
     let constants = quote! {
@@ -58,9 +58,8 @@ fn closes(closed: &ClosedTree) -> bool {
     !closed.closure.position_rows().is_empty()
 }
 
-fn closing_constants(closed: &ClosedTree, graph: &Multibody, constraints: &[&str]) -> TokenStream {
-    let positions = graph.positions.iter().map(|p| p.name.as_str());
-    let closing: Vec<&str> = positions.chain(constraints.iter().copied()).collect();
+fn closing_constants(closed: &ClosedTree, graph: &Multibody) -> TokenStream {
+    let closing = closing_names(closed, graph);
     let dependents = closed.closure.closing().map(|j| dependent(closed, j));
     let dependents: Vec<TokenStream> = dependents.collect();
     let [nl, nd] = [closing.len(), dependents.len()].map(size);
@@ -84,12 +83,12 @@ pub(super) fn argument_types() -> [TokenStream; 2] {
 pub(super) fn tree_integration(closed: &ClosedTree) -> TokenStream {
     let [q, moved] = argument_types();
     let arguments = [("q", &q, true), ("moved", &moved, false)];
-    joint_by_joint(&segments(&closed.tree), "integrate", &arguments, true)
+    joint_by_joint(&joint_segments(&closed.tree), "integrate", &arguments, true)
 }
 
 /// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint.
 pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStream {
-    let of_tree = segments(&closed.tree);
+    let of_tree = joint_segments(&closed.tree);
     let [q, moved] = argument_types();
     let arguments = [("q", &q, true), ("moved", &moved, false)];
     let body = |arguments: &[(&str, &TokenStream, bool)], positions| {

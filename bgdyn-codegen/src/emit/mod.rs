@@ -12,7 +12,7 @@ mod constants;
 mod contacts;
 mod explain;
 mod joint_access;
-mod joint_segments;
+mod joint_by_joint;
 mod legend;
 mod module;
 mod operand;

@@ -11,13 +11,13 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{assembly, body, closure, code, constants, explain, joint_segments, traits};
+use super::{assembly, body, closure, code, constants, explain, traits};
 use crate::bond_graph::{LinkFrame, PositionVariable};
 use crate::function::Function;
 use crate::mechanism::Motion;
 use crate::method::Method;
 use crate::model::Model;
-use crate::plan::{Naming, matrix_places, reads_dependents, summary_of, unread};
+use crate::plan::{Naming, joint_segments, matrix_places, reads_dependents, summary_of, unread};
 
 /// Returns the module of a model.
 pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
@@ -38,7 +38,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
         name: &struct_name,
         methods: &present,
         sites: &model.bond_graph.sites,
-        joints: Some(joint_segments::segments(&model.bond_graph)),
+        joints: Some(joint_segments(&model.bond_graph)),
         closed: model.bond_graph.closed.as_deref(),
     };
     let traits = traits.tokens();

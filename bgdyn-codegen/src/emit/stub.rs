@@ -10,7 +10,6 @@ use quote::quote;
 
 use super::base_access::base_access;
 use super::constants::{operations, size};
-use super::joint_segments::JointSegment;
 use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::prescribed_constants;
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
@@ -21,6 +20,7 @@ use crate::interface::Interface;
 use crate::mechanism::Pose;
 use crate::method::{Argument, Method};
 use crate::name::is_identifier;
+use crate::plan::JointSegment;
 
 /// Returns the module with bodies that never run.
 pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {

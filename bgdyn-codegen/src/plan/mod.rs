@@ -5,9 +5,11 @@
 //! reserved words.
 
 mod block;
+mod closing;
 mod columns;
 mod function;
 mod inline;
+mod joint_segments;
 mod limits;
 mod listing;
 mod named_constants;
@@ -21,8 +23,13 @@ mod sines;
 mod summary;
 
 pub use block::{BlockPlan, BlockStep};
+pub use closing::{
+    ClosingJoint, actuated_pivot_names, closing_joint, closing_names, independent_positions,
+    loop_names, pivot_names, tree_pivot_names,
+};
 pub use columns::ColumnPlan;
 pub use function::{FunctionPlan, Tail};
+pub use joint_segments::{JointSegment, joint_segments};
 pub use limits::PlanLimits;
 pub use listing::{Comments, ListedStep, Listing};
 pub use named_constants::NamedConstant;

@@ -30,6 +30,9 @@ pub struct Naming<'a> {
     pub parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
     pub layout: Option<&'a StateLayout>,
+    /// Whether a scene's state, inputs and accelerations are arrays, whose components have names like those of a
+    /// mechanism's arguments.
+    pub arrays: bool,
 }
 
 impl<'a> Naming<'a> {
@@ -48,6 +51,7 @@ impl<'a> Naming<'a> {
             joints: coordinates.map(|c| c.name.as_str()).collect(),
             parameters: parameters.map(|p| p.name.as_str()).collect(),
             layout: None,
+            arrays: false,
         }
     }
 
@@ -63,6 +67,15 @@ impl<'a> Naming<'a> {
             actuated: Vec::new(),
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(layout),
+            arrays: false,
+        }
+    }
+
+    /// Returns the names for a scene's functions whose arguments are arrays.
+    pub fn of_arrays(scene: &'a SceneInterface) -> Self {
+        Naming {
+            arrays: true,
+            ..Naming::of_scene(scene)
         }
     }
 
@@ -108,6 +121,7 @@ impl<'a> Naming<'a> {
                     |(i, m): (usize, &Variable)| (Leaf::Mode(i), format!("{}_mode", m.name));
                 modes.map(named).collect()
             }
+            (argument, Some(layout)) if self.arrays => array_components(argument, layout),
             _ => vec![],
         }
     }
@@ -129,5 +143,43 @@ impl<'a> Naming<'a> {
             Leaf::Time => (Argument::Time, None),
             Leaf::Parameter(_) | Leaf::BlockResult { .. } => return None,
         })
+    }
+}
+
+/// Returns the components of an argument of a scene that is an array: of the state those that change in time, then its
+/// modes.
+fn array_components(argument: Argument, layout: &StateLayout) -> Vec<(Leaf, String)> {
+    fn named<'a>(
+        leaf: fn(usize) -> Leaf,
+        prefix: &str,
+        names: impl Iterator<Item = &'a str>,
+    ) -> Vec<(Leaf, String)> {
+        let one = |(i, name)| (leaf(i), format!("{prefix}_{name}"));
+        names.enumerate().map(one).collect()
+    }
+    fn of(all: &[Variable]) -> impl Iterator<Item = &str> {
+        all.iter().map(|variable| variable.name.as_str())
+    }
+    let coordinates = layout.coordinates.iter();
+    match argument {
+        Argument::State => {
+            let positions = layout.positions.iter().map(|p| p.name.as_str());
+            let rates = coordinates.map(|c| c.rate_name.as_str());
+            [
+                named(Leaf::Position, "q", positions),
+                named(Leaf::Velocity, "v", rates),
+                named(Leaf::State, "x", of(&layout.states)),
+                named(Leaf::Mode, "mode", of(&layout.modes)),
+            ]
+            .concat()
+        }
+        Argument::Input => named(Leaf::Input, "u", of(&layout.inputs)),
+        Argument::Accelerations => named(
+            Leaf::Acceleration,
+            "a",
+            coordinates.map(|c| c.name.as_str()),
+        ),
+        Argument::Time => vec![(Leaf::Time, "time".into())],
+        _ => vec![],
     }
 }

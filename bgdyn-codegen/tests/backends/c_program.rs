@@ -8,13 +8,14 @@ use std::process::{Command, Stdio};
 
 use bgdyn_codegen::backend::GeneratedFile;
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Argument;
 use bgdyn_codegen::model::Model;
 
 use crate::values::CNumber;
 
 /// The flags with which generated C must compile without a warning, and with which it has Rust's bits.
-const FLAGS: [&str; 10] = [
+const FLAGS: [&str; 11] = [
     "-std=c99",
     "-O2",
     "-ffp-contract=off",
@@ -24,6 +25,7 @@ const FLAGS: [&str; 10] = [
     "-Wconversion",
     "-Wshadow",
     "-Wdouble-promotion",
+    "-Wfloat-conversion",
     "-Werror",
 ];
 
@@ -48,8 +50,7 @@ pub fn compile<T: CNumber>(
     compiler: &str,
     name: &str,
     files: &[GeneratedFile],
-    model: &Model,
-    sizes: &[usize],
+    program: &CProgram,
 ) -> PathBuf {
     let folder =
         Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}_{compiler}_{}", T::NAME));
@@ -57,26 +58,89 @@ pub fn compile<T: CNumber>(
     for file in files {
         fs::write(folder.join(&file.name), &file.text).expect("a file");
     }
-    let mechanism = model.mechanism.name();
-    fs::write(folder.join("main.c"), main::<T>(model, sizes)).expect("a file");
+    let file = &program.file;
+    fs::write(folder.join("main.c"), program.text::<T>()).expect("a file");
     let output = Command::new(compiler)
         .current_dir(&folder)
         .args(FLAGS)
-        .args([&format!("{mechanism}.c"), "main.c", "-o", "program", "-lm"])
+        .args([&format!("{file}.c"), "main.c", "-o", "program", "-lm"])
         .output()
         .expect("the compiler runs");
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{compiler}: {name}\n{said}");
+    is_header_of_cpp(&folder, file);
     folder.join("program")
 }
 
-/// Returns what the program says of these states: for each the words of its functions, one after the other.
-pub fn run<T: CNumber>(program: &Path, states: &[Inputs<T>]) -> Vec<Vec<i128>> {
+/// Fails unless the header is C++ as well.
+fn is_header_of_cpp(folder: &Path, mechanism: &str) {
+    let text = format!("#include \"{mechanism}.h\"\nint main() {{ return 0; }}\n");
+    fs::write(folder.join("main.cpp"), text).expect("a file");
+    let mut command = Command::new("g++");
+    let flags = [
+        "-std=c++17",
+        "-Wall",
+        "-Wextra",
+        "-pedantic",
+        "-Werror",
+        "-fsyntax-only",
+        "main.cpp",
+    ];
+    if let Ok(output) = command.current_dir(folder).args(flags).output() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{mechanism}.h in C++\n{said}");
+    }
+}
+
+/// A call of a generated function in the program.
+pub struct CCall {
+    /// Its name without the prefix.
+    pub name: String,
+    /// Its arguments: `q`, `v`, `a` or `tau`, after the run-time parameters if `reads_parameters`.
+    pub arguments: Vec<&'static str>,
+    /// Whether it takes the run-time parameters, if there are any.
+    pub reads_parameters: bool,
+    /// The number of elements of its result.
+    pub size: usize,
+    /// Whether it returns a number.
+    pub is_checked: bool,
+}
+
+impl CCall {
+    /// Returns the call of a model's function with a result of this size; C has no empty arrays.
+    pub fn of(function: &Function, [nq, nv]: [usize; 2], size: usize) -> Self {
+        let name = |argument: &Argument| match argument {
+            Argument::Q => Some("q").filter(|_| nq > 0),
+            Argument::V => Some("v").filter(|_| nv > 0),
+            Argument::A => Some("a").filter(|_| nv > 0),
+            Argument::Tau => Some("tau").filter(|_| nv > 0),
+            Argument::TreeV => Some("v"),
+            _ => Some("tau"),
+        };
+        CCall {
+            name: function.name().into(),
+            arguments: function
+                .method
+                .arguments()
+                .iter()
+                .filter_map(name)
+                .collect(),
+            reads_parameters: true,
+            size,
+            is_checked: function.shape().checked(),
+        }
+    }
+}
+
+/// Returns what the program says of these states, each the numbers of its arrays and then the run-time parameters: for
+/// each the words of its functions, one after the other.
+pub fn run<T: CNumber>(program: &Path, states: &[Vec<T>]) -> Vec<Vec<i128>> {
     let mut input = String::new();
     for state in states {
-        let parts = [&state.q, &state.v, &state.a, &state.u, &state.parameters];
-        let all = parts.into_iter().flatten();
-        all.for_each(|x| write!(input, "{:x} ", x.bits()).expect("text"));
+        input += "0 ";
+        let mut all = state.iter();
+        all.try_for_each(|x| write!(input, "{:x} ", x.bits()))
+            .expect("text");
         input.push('\n');
     }
     let mut process = Command::new(program)
@@ -96,13 +160,35 @@ pub fn run<T: CNumber>(program: &Path, states: &[Inputs<T>]) -> Vec<Vec<i128>> {
         .collect()
 }
 
-/// Returns the text of the program.
-fn main<T: CNumber>(model: &Model, sizes: &[usize]) -> String {
-    let (mechanism, real) = (model.mechanism.name(), T::NAME);
-    let word = format!("uint{}_t", 8 * size_of::<T>());
-    let (nq, nv) = (model.mechanism.nq(), model.mechanism.nv());
-    let mut text = format!(
-        "#include \"{mechanism}.h\"
+/// A program that calls functions on states.
+pub struct CProgram {
+    /// The name of the files without an ending, which is the prefix as well.
+    pub file: String,
+    /// The arrays of a state, with their numbers of elements.
+    pub arrays: Vec<(&'static str, usize)>,
+    /// Names of the run-time parameters.
+    pub parameters: Vec<String>,
+    pub calls: Vec<CCall>,
+}
+
+impl CProgram {
+    /// Returns the program of a mechanism: `q`, `v`, `a` and `tau`, with room for the velocities of the open tree.
+    pub fn of(model: &Model, calls: Vec<CCall>) -> Self {
+        let (nq, n) = (model.mechanism.nq(), velocity_count(model));
+        let parameters = model.mechanism.parameters().iter();
+        CProgram {
+            file: model.mechanism.name().into(),
+            arrays: vec![("q", nq), ("v", n), ("a", n), ("tau", n)],
+            parameters: parameters.map(|p| p.name.clone()).collect(),
+            calls,
+        }
+    }
+
+    fn text<T: CNumber>(&self) -> String {
+        let (file, real) = (&self.file, T::NAME);
+        let word = format!("uint{}_t", 8 * size_of::<T>());
+        let mut text = format!(
+            "#include \"{file}.h\"
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -125,53 +211,71 @@ static void print({real} x)
 
 int main(void)
 {{
-    {real} q[{nq}], v[{nv}], a[{nv}], tau[{nv}];
-    while (next(&q[0])) {{
-        for (int k = 1; k < {nq}; ++k) next(&q[k]);
-        for (int k = 0; k < {nv}; ++k) next(&v[k]);
-        for (int k = 0; k < {nv}; ++k) next(&a[k]);
-        for (int k = 0; k < {nv}; ++k) next(&tau[k]);
+    {real} first;
+    (void)print;
+    while (next(&first)) {{
 "
-    );
-    let parameters = model.mechanism.parameters();
-    if !parameters.is_empty() {
-        let name = format!("struct {mechanism}_parameters");
-        writeln!(
-            text,
-            "        {name} parameters = {mechanism}_parameters_default();"
-        )
-        .expect("text");
-    }
-    for parameter in parameters {
-        writeln!(text, "        next(&parameters.{});", parameter.name).expect("text");
-    }
-    for (function, size) in model.functions.iter().zip(sizes) {
-        let arguments = function
-            .method
-            .arguments()
-            .iter()
-            .map(|argument| match argument {
-                Argument::Tau => "tau".to_string(),
-                argument => argument.name().to_string(),
-            });
-        let parameters = (!parameters.is_empty()).then(|| "&parameters".to_string());
-        let all: Vec<String> = parameters.into_iter().chain(arguments).collect();
-        let call = format!(
-            "{mechanism}_{}({}, result)",
-            function.name(),
-            all.join(", ")
         );
-        let call = match function.shape().checked() {
-            true => format!(
-                "{real} result[{size}]; int status = {call}; printf(\" %s%x\", status < 0 ? \"-\" : \"\", status < 0 ? 1U : (unsigned)status);"
-            ),
-            false => format!("{real} result[{size}]; {call}; printf(\" 0\");"),
-        };
-        writeln!(
-            text,
-            "        {{ {call} for (int k = 0; k < {size}; ++k) print(result[k]); }}"
-        )
-        .expect("text");
+        let mut line = |line: String| writeln!(text, "        {line}").expect("text");
+        for (name, count) in &self.arrays {
+            line(format!("{real} {name}[{}];", count.max(&1)));
+            line(format!("(void){name};"));
+            line(format!(
+                "for (int k = 0; k < {count}; ++k) next(&{name}[k]);"
+            ));
+        }
+        if !self.parameters.is_empty() {
+            line(format!(
+                "struct {file}_parameters parameters = {file}_parameters_default();"
+            ));
+        }
+        for parameter in &self.parameters {
+            line(format!("next(&parameters.{parameter});"));
+        }
+        for call in &self.calls {
+            line(self.call(call, real));
+        }
+        text + "        printf(\"\\n\");\n    }\n    return 0;\n}\n"
     }
-    text + "        printf(\"\\n\");\n    }\n    return 0;\n}\n"
+
+    fn call(&self, call: &CCall, real: &str) -> String {
+        let CCall {
+            name,
+            arguments,
+            size,
+            is_checked,
+            ..
+        } = call;
+        let given = call.reads_parameters && !self.parameters.is_empty();
+        let given = given.then_some("&parameters");
+        let arguments = arguments.iter().copied();
+        let all: Vec<&str> = given
+            .into_iter()
+            .chain(arguments)
+            .chain(["result"])
+            .collect();
+        let called = format!("{}_{name}({})", self.file, all.join(", "));
+        let called = match is_checked {
+            true => format!(
+                "int status = {called}; printf(\" %s%x\", status < 0 ? \"-\" : \"\", status < 0 ? 1U : (unsigned)status);"
+            ),
+            false => format!("{called}; printf(\" 0\");"),
+        };
+        format!(
+            "{{ {real} result[{size}]; {called} for (int k = 0; k < {size}; ++k) print(result[k]); }}"
+        )
+    }
+}
+
+/// Returns a state of a mechanism as the numbers that its program reads.
+pub fn numbers<T: CNumber>(state: &Inputs<T>) -> Vec<T> {
+    let parts = [&state.q, &state.v, &state.a, &state.u, &state.parameters];
+    parts.into_iter().flatten().copied().collect()
+}
+
+/// Returns the number of velocities and efforts of each kind that a program reads: enough for the open tree.
+pub fn velocity_count(model: &Model) -> usize {
+    let closed = model.bond_graph.closed.as_deref();
+    let of_tree = closed.map_or(0, |closed| closed.tree.coordinates.len());
+    of_tree.max(model.mechanism.nv())
 }

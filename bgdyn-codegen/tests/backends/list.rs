@@ -189,21 +189,3 @@ fn read_by(block: &BlockPlan<'_>, place: usize, known: &[bool], what: &str) {
         ),
     });
 }
-
-#[test]
-fn c_refuses_what_it_cannot_write() {
-    let loops = include_str!("../../../specs/loops/four_bar.yaml");
-    let (mechanism, _) = read(loops, Some("four_bar"));
-    let model = pipeline::model(mechanism.expect("sound"), &Options::default());
-    let backend = backend_named("c").expect("a backend");
-    let given = given(backend, &[]).expect("no options");
-    let model = model.expect("known names");
-    let found = backend.files(&BackendInput::Mechanism(&model), &given);
-    let Err(BackendError::Unsupported(message)) = found else {
-        panic!("a mechanism with loops is refused");
-    };
-    assert!(
-        message.contains("four_bar") && message.contains("`rust`"),
-        "{message}"
-    );
-}

@@ -1,6 +1,10 @@
 //! The backends: what each of them says of itself, and that generated C has the evaluator's bits.
 
 mod c_program;
+mod closed_mechanisms;
 mod list;
+mod positions;
 mod same_bits;
+mod scenes;
+mod still;
 mod values;

@@ -10,19 +10,30 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::{pipeline, read};
 
-use crate::c_program::{compile, compilers, run};
-use crate::values::{CNumber, Expected, expected, state};
+use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
+use crate::values::{CNumber, Expected, close_to, expected, state};
 
 /// States of each mechanism.
 const STATES: usize = 64;
 
-fn model(path: &str, options: &Options) -> Model {
+pub fn model(path: &str, options: &Options) -> Model {
+    let (text, stem) = text_of(path);
+    model_of(&text, &stem, options)
+}
+
+pub fn model_of(text: &str, stem: &str, options: &Options) -> Model {
+    let (mechanism, faults) = read(text, Some(stem));
+    let mechanism = mechanism.unwrap_or_else(|| panic!("{stem}: {faults:?}"));
+    pipeline::model(mechanism, options).expect("known names")
+}
+
+/// Returns the text of a spec, and the stem of its file.
+pub fn text_of(path: &str) -> (String, String) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let path = root.join(path);
     let text = fs::read_to_string(&path).expect("a spec");
     let stem = path.file_stem().expect("a file").to_string_lossy();
-    let (mechanism, _) = read(&text, Some(&stem));
-    pipeline::model(mechanism.expect("sound"), options).expect("known names")
+    (text, stem.into_owned())
 }
 
 fn selected(names: &[&str]) -> Options {
@@ -33,7 +44,7 @@ fn selected(names: &[&str]) -> Options {
 }
 
 /// Fails unless every function of the model has the evaluator's bits, in every entry of every state.
-fn check<T: CNumber>(name: &str, model: &Model) {
+pub fn check<T: CNumber>(name: &str, model: &Model) {
     let reaches = [3.0, 3.0, 100.0, 0.0];
     compare::<T>(name, model, &[], &reaches, &|found, value, _| {
         found.equals(value)
@@ -56,22 +67,32 @@ fn compare<T: CNumber>(
     let files = files(model, &[options, &[("float", T::NAME)]].concat());
     let mut random = Random(20_261_127);
     let reach = |k: usize| reaches[k % reaches.len()];
-    let states: Vec<_> = (0..STATES)
+    let mut states: Vec<_> = (0..STATES)
         .map(|k| state::<T>(&mut random, model, reach(k)))
         .collect();
-    let nv = model.mechanism.nv();
-    let functions = model.functions.iter();
-    let sizes = functions.map(|f| expected(f, nv, &states[0]).values.len());
-    let sizes: Vec<usize> = sizes.collect();
+    for (k, state) in states.iter_mut().enumerate().filter(|(k, _)| k % 4 != 3) {
+        close_to(
+            state,
+            model,
+            &mut random,
+            if k % 4 == 0 { 0.0 } else { 0.1 },
+        );
+    }
+    let sizes = [model.mechanism.nq(), model.mechanism.nv()];
+    let size = |f: &Function| expected(f, model, &states[0]).values.len();
+    let functions: Vec<&Function> = model.functions.iter().filter(|f| size(f) > 0).collect();
+    let calls = functions.iter().map(|f| CCall::of(f, sizes, size(f)));
+    let program = CProgram::of(model, calls.collect());
+    let rows: Vec<Vec<T>> = states.iter().map(numbers).collect();
     for compiler in compilers() {
-        let program = compile::<T>(compiler, name, &files, model, &sizes);
-        let found = run(&program, &states);
+        let program = compile::<T>(compiler, name, &files, &program);
+        let found = run(&program, &rows);
         assert_eq!(found.len(), states.len(), "{compiler}: {name}");
         for (state, found) in states.iter().zip(found) {
             let what = |f: &Function| format!("{compiler}: {name}: {}\n{state:?}", f.name());
             let mut found = found.into_iter();
-            for function in &model.functions {
-                let Expected { status, values } = expected(function, nv, state);
+            for function in &functions {
+                let Expected { status, values } = expected(function, model, state);
                 let status = Some(i128::from(status));
                 assert_eq!(found.next(), status, "{}", what(function));
                 let size = values.iter().fold(0.0_f64, |size, x| size.max(x.size()));
@@ -91,7 +112,7 @@ fn compare<T: CNumber>(
     }
 }
 
-fn files(model: &Model, options: &[(&str, &str)]) -> Vec<GeneratedFile> {
+pub fn files(model: &Model, options: &[(&str, &str)]) -> Vec<GeneratedFile> {
     let backend = backend_named("c").expect("a backend");
     let pairs = options.iter();
     let pairs = pairs.map(|(name, value)| (name.to_string(), value.to_string()));
@@ -136,7 +157,7 @@ fn mechanisms_in_float() {
     }
 }
 
-fn name(path: &str) -> String {
+pub fn name(path: &str) -> String {
     path.replace(['/', '.'], "_")
 }
 

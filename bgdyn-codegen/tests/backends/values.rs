@@ -5,12 +5,16 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Shape;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::random::Random;
-use bgdyn_runtime::Scalar;
+use bgdyn_runtime::{ACTUATORS, Dd, Scalar};
+
+use crate::c_program::velocity_count;
 
 /// A type of numbers that C has as well.
 pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
     /// Its name in C.
     const NAME: &'static str;
+    /// Half the spacing of numbers at 1.
+    const ROUNDING: f64;
     fn bits(self) -> u64;
     fn of_bits(bits: u64) -> Self;
     fn is_finite(self) -> bool;
@@ -25,6 +29,7 @@ pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
 
 impl CNumber for f64 {
     const NAME: &'static str = "double";
+    const ROUNDING: f64 = f64::EPSILON / 2.0;
     fn bits(self) -> u64 {
         self.to_bits()
     }
@@ -44,6 +49,7 @@ impl CNumber for f64 {
 
 impl CNumber for f32 {
     const NAME: &'static str = "float";
+    const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
     fn bits(self) -> u64 {
         u64::from(self.to_bits())
     }
@@ -68,13 +74,8 @@ pub fn state<T: CNumber>(random: &mut Random, model: &Model, reach: f64) -> Inpu
             .map(|_| T::from_f64(size * random.signed()))
             .collect()
     };
-    let (nq, nv) = (model.mechanism.nq(), model.mechanism.nv());
-    let (q, v, a, u) = (
-        some(nq, reach),
-        some(nv, 4.0),
-        some(nv, 9.0),
-        some(nv, 50.0),
-    );
+    let (nq, n) = (model.mechanism.nq(), velocity_count(model));
+    let (q, v, a, u) = (some(nq, reach), some(n, 4.0), some(n, 9.0), some(n, 50.0));
     let parameters = model.mechanism.parameters().iter();
     let parameters =
         parameters.map(|p| T::from_f64(p.default.to_f64() * (1.0 + 0.3 * random.unit())));
@@ -88,22 +89,44 @@ pub fn state<T: CNumber>(random: &mut Random, model: &Model, reach: f64) -> Inpu
     }
 }
 
+/// Moves the positions of a state to one at which loops close, and by up to `off` beside it; without loops and contacts
+/// it does nothing.
+pub fn close_to<T: CNumber>(state: &mut Inputs<T>, model: &Model, random: &mut Random, off: f64) {
+    let Some(closed) = model.bond_graph.closed.as_deref() else {
+        return;
+    };
+    let samples: Vec<&Vec<Dd>> = closed
+        .closure
+        .samples
+        .iter()
+        .chain([&closed.closure.start])
+        .collect();
+    let number = (random.unit() * samples.len() as f64) as usize;
+    let sample = samples[number.min(samples.len() - 1)];
+    for (q, x) in state.q.iter_mut().zip(sample) {
+        *q = T::from_f64(x.to_f64() + off * random.signed());
+    }
+}
+
 /// The result that C must give: what it returns, and its array.
 pub struct Expected<T> {
     pub status: i64,
     pub values: Vec<T>,
 }
 
-pub fn expected<T: CNumber>(function: &Function, nv: usize, state: &Inputs<T>) -> Expected<T> {
+pub fn expected<T: CNumber>(function: &Function, model: &Model, state: &Inputs<T>) -> Expected<T> {
+    let (nv, nt) = (model.mechanism.nv(), velocity_count(model));
     let (values, refused) = function.evaluate(state.clone());
     let checked = match function.shape() {
-        Shape::CheckedVector => values.len(),
-        Shape::CheckedSquares | Shape::CheckedWrenches => nv,
+        Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => values.len(),
+        Shape::CheckedTreeAndRows => nt,
+        Shape::CheckedSquares | Shape::CheckedSlopesByTree | Shape::CheckedWrenches => nv,
         _ => 0,
     };
     let is_wild = values[..checked].iter().any(|x| !x.is_finite());
     let status = match refused {
-        Some(joint) => joint as i64 + 1,
+        // Kinds of causes begin at multiples of this number; C has the place among the names.
+        Some(pivot) => (pivot % ACTUATORS) as i64 + 1,
         None => -i64::from(is_wild),
     };
     let flat: Vec<T> = match function.shape() {
@@ -111,7 +134,9 @@ pub fn expected<T: CNumber>(function: &Function, nv: usize, state: &Inputs<T>) -
             let of_triangle = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
             (0..nv * nv).map(|k| of_triangle(k / nv, k % nv)).collect()
         }
-        Shape::CheckedSquares | Shape::CheckedWrenches => values[nv..].to_vec(),
+        Shape::CheckedSquares | Shape::CheckedSlopesByTree | Shape::CheckedWrenches => {
+            values[nv..].to_vec()
+        }
         _ => values,
     };
     Expected {

@@ -4,6 +4,7 @@ use super::style::Style;
 use super::words::{RESERVED, in_comment};
 use crate::expr::{Node, NodeId, Signed};
 use crate::function::Function;
+use crate::method::Argument;
 use crate::plan::{
     AnglePair, ArgumentNames, BlockPlan, BlockStep, Comments, Listing, LoopArrays, Naming, Place,
 };
@@ -15,6 +16,8 @@ pub(super) struct BlockText<'a> {
     pub(super) naming: &'a Naming<'a>,
     /// Whether the block is a function of its own, so that `refused` is a pointer.
     pub(super) separate: bool,
+    /// Statements after those that read the arguments.
+    pub(super) others: &'a [String],
     /// The arrays that a column of a loop reads.
     pub(super) arrays: Option<LoopArrays>,
 }
@@ -43,6 +46,7 @@ impl<'a> BlockText<'a> {
             style,
             naming,
             separate: false,
+            others: &[],
             arrays: None,
         }
     }
@@ -61,6 +65,7 @@ impl<'a> BlockText<'a> {
         for argument in &self.listing.arguments {
             lines.extend(self.argument(argument));
         }
+        lines.extend_from_slice(self.others);
         let mut sines = 0;
         for step in &self.listing.lines {
             lines.extend(comments(&step.comments));
@@ -76,9 +81,14 @@ impl<'a> BlockText<'a> {
     /// Binds the components of an argument that are read, so that a result may be stored over them.
     fn argument(&self, argument: &ArgumentNames) -> Vec<String> {
         let (real, array) = (self.style.real(), argument.argument.name());
+        let is_number = argument.argument == Argument::Time;
         let components = argument.components.iter().enumerate();
         let read = components.filter_map(|(k, (_, name))| Some((k, name.as_ref()?)));
-        read.map(|(k, name)| format!("const {real} {name} = {array}[{k}];"))
+        let value = |k: usize| match is_number {
+            true => array.to_string(),
+            false => format!("{array}[{k}]"),
+        };
+        read.map(|(k, name)| format!("const {real} {name} = {};", value(k)))
             .collect()
     }
 

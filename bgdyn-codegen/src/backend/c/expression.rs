@@ -1,5 +1,7 @@
 //! Operands and operations in C.
 
+use bgdyn_runtime::ACTUATORS;
+
 use super::block::BlockText;
 use crate::column_loop::SHARED;
 use crate::expr::{Leaf, Node, NodeId, Signed};
@@ -111,8 +113,10 @@ impl BlockText<'_> {
             Node::Pivot(value, magnitude, joint) => {
                 let name = self.style.global("checked_pivot");
                 let by = if self.separate { "" } else { "&" };
-                let (value, magnitude, joint) = (sum(*value), sum(*magnitude), joint + 1);
-                let text = format!("{name}({value}, {magnitude}, {joint}, {by}refused)");
+                let (value, magnitude) = (sum(*value), sum(*magnitude));
+                // Kinds of causes begin at multiples of this number; C has the place among the names.
+                let cause = joint % ACTUATORS + 1;
+                let text = format!("{name}({value}, {magnitude}, {cause}, {by}refused)");
                 (text, Tightness::Whole)
             }
             Node::Constant(_) | Node::Leaf(_) | Node::Angle(..) | Node::Sin(_) | Node::Cos(_) => {

@@ -3,7 +3,7 @@
 use super::block::BlockText;
 use super::context::FunctionContext;
 use super::parameters::{CParameter, block_parameters, parameters};
-use super::result::FlatResult;
+use super::result::{CheckedValues, FlatResult};
 use super::style::Style;
 use super::tail::{self, BeforeLoops};
 use crate::function::Function;
@@ -16,6 +16,15 @@ pub(super) const LIMITS: PlanLimits = PlanLimits {
     store_from: 0,
 };
 
+/// Returns the functions that have a result: without joints there are no efforts, and C has no empty arrays.
+pub(super) fn written_functions<'a>(
+    functions: &'a [Function],
+    context: &FunctionContext<'_>,
+) -> impl Iterator<Item = &'a Function> {
+    let has_result = |function: &&Function| !FlatResult::new(function, context).is_empty();
+    functions.iter().filter(has_result)
+}
+
 /// Returns the signature of a function, without a semicolon.
 pub(super) fn signature(function: &Function, context: &FunctionContext<'_>) -> String {
     let style = context.style;
@@ -26,7 +35,7 @@ pub(super) fn signature(function: &Function, context: &FunctionContext<'_>) -> S
     };
     let name = style.global(function.name());
     let parameters = parameters(function, context.naming, style);
-    let size = FlatResult::new(function, context.nv, style).size;
+    let size = FlatResult::new(function, context).size;
     let result = format!("{} result[{size}]", style.real());
     let all = declarations(&parameters, [result]);
     format!("{kind} {name}({all})")
@@ -43,7 +52,7 @@ pub(super) struct CFunction {
 /// Returns the definitions of a function and of its blocks.
 pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> CFunction {
     let style = context.style;
-    let flat = FlatResult::new(function, context.nv, style);
+    let flat = FlatResult::new(function, context);
     let plan = FunctionPlan::new(function, Some(flat.elements()), &LIMITS);
     let mut blocks = String::new();
     let mut lines = Vec::new();
@@ -55,7 +64,8 @@ pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> 
     }
     match plan.blocks.as_slice() {
         [block] if function.blocks.len() == 1 => {
-            let block = BlockText::new(block, function, style, context.naming);
+            let mut block = BlockText::new(block, function, style, context.naming);
+            block.others = &flat.others;
             lines.extend(whole(&plan, block, &flat, context));
         }
         _ => {
@@ -64,6 +74,7 @@ pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> 
                 blocks += &definition;
                 lines.extend(call);
             }
+            lines.extend(flat.others.iter().cloned());
             lines.extend(after_blocks(&plan, &flat, context));
         }
     }
@@ -128,16 +139,16 @@ fn after_blocks(
 
 /// Returns the statement that returns 0, or why there is no result.
 fn returned(plan: &FunctionPlan<'_>, flat: &FlatResult, style: &Style) -> String {
-    let is_stored = flat
-        .places
-        .get(flat.checked.start)
-        .is_some_and(|p| !p.is_empty());
-    let (name, array) = (
-        style.global("status"),
-        if is_stored { "result" } else { "checked" },
-    );
+    let (array, count) = match &flat.checked {
+        CheckedValues::Elements(range) if range.start == 0 => ("result".into(), range.len()),
+        CheckedValues::Elements(range) => (format!("&result[{}]", range.start), range.len()),
+        CheckedValues::Outputs(range) => ("checked".to_string(), range.len()),
+    };
     let refused = if plan.refuses() { "refused" } else { "0" };
-    format!("return {name}({refused}, {array}, {});", flat.checked.len())
+    format!(
+        "return {}({refused}, {array}, {count});",
+        style.global("status")
+    )
 }
 
 /// Returns the definition of a block as a function, and the lines that call it.

@@ -2,10 +2,12 @@
 //!
 //! They compute what the runtime of bgdyn computes, in the same order, so that results have the same bits.
 
+use bgdyn_runtime::Dd;
+
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 9] = [
+const HELPERS: [&str; 24] = [
     "mul_add",
     "smaller",
     "larger",
@@ -15,7 +17,25 @@ const HELPERS: [&str; 9] = [
     "add_angle",
     "sin_cos_near",
     "sin_cos",
+    "sines",
+    "sine_ratio",
+    "cross",
+    "quaternion_turn",
+    "quaternion_product",
+    "quaternion_exponential",
+    "spherical_normalize",
+    "spherical_position_rates",
+    "spherical_integrate",
+    "floating_normalize",
+    "floating_position_rates",
+    "floating_integrate",
+    "planar_normalize",
+    "planar_position_rates",
+    "planar_integrate",
 ];
+
+/// Number of terms of the series of sines.
+const SERIES: u32 = 18;
 
 /// Returns the helpers that a text calls, directly or by others.
 pub(super) fn helpers(text: &str, style: &Style) -> String {
@@ -45,8 +65,40 @@ fn template(name: &str, style: &Style) -> &'static str {
         ("sin_cos", _) if style.libm => include_str!("helpers/sin_cos_of_library.h"),
         ("sin_cos", Real::Double) => include_str!("helpers/sin_cos_double.h"),
         ("sin_cos", Real::Float) => include_str!("helpers/sin_cos_float.h"),
+        (name, _) => manifold_template(name),
+    }
+}
+
+/// Returns the template of a function of joints with several velocities, those of `bgdyn_runtime::manifold`.
+fn manifold_template(name: &str) -> &'static str {
+    match name {
+        "sines" => include_str!("helpers/sines.h"),
+        "sine_ratio" => include_str!("helpers/sine_ratio.h"),
+        "cross" => include_str!("helpers/cross.h"),
+        "quaternion_turn" => include_str!("helpers/quaternion_turn.h"),
+        "quaternion_product" => include_str!("helpers/quaternion_product.h"),
+        "quaternion_exponential" => include_str!("helpers/quaternion_exponential.h"),
+        "spherical_normalize" => include_str!("helpers/spherical_normalize.h"),
+        "spherical_position_rates" => include_str!("helpers/spherical_position_rates.h"),
+        "spherical_integrate" => include_str!("helpers/spherical_integrate.h"),
+        "floating_normalize" => include_str!("helpers/floating_normalize.h"),
+        "floating_position_rates" => include_str!("helpers/floating_position_rates.h"),
+        "floating_integrate" => include_str!("helpers/floating_integrate.h"),
+        "planar_normalize" => include_str!("helpers/planar_normalize.h"),
+        "planar_position_rates" => include_str!("helpers/planar_position_rates.h"),
+        "planar_integrate" => include_str!("helpers/planar_integrate.h"),
         _ => unreachable!("the names of HELPERS"),
     }
+}
+
+/// Returns 1/first!, 1/(first + 2)!, …
+fn inverse_factorials(first: u32, style: &Style) -> String {
+    let inverse = |n: u32| {
+        let factors = (2..=n).map(|k| Dd::from(f64::from(k)));
+        style.number(factors.fold(Dd::ONE, |x, k| x / k).to_f64())
+    };
+    let all = (0..SERIES).map(|k| inverse(first + 2 * k));
+    all.collect::<Vec<_>>().join(", ")
 }
 
 fn written(name: &str, style: &Style) -> String {
@@ -58,6 +110,9 @@ fn written(name: &str, style: &Style) -> String {
     let text = text.replace("REAL", style.real());
     let text = text.replace("LARGEST", &style.number(largest));
     let text = text.replace("PIVOT_FLOOR", &style.number(floor));
+    let text = text.replace("SERIES", &SERIES.to_string());
+    let text = text.replace("EVEN", &inverse_factorials(2, style));
+    let text = text.replace("ODD", &inverse_factorials(3, style));
     let quoted = |(place, part): (usize, &str)| match (place % 2 == 1, part.parse::<f64>()) {
         (false, _) => part.to_string(),
         (true, Ok(number)) => style.number(number),

@@ -1,15 +1,22 @@
 //! C99: a header and a source file, without heap, static variables, or a library but libm.
 
 mod block;
+mod closing;
 mod context;
 mod expression;
+mod files;
 mod function;
-mod header;
 mod helpers;
+mod mechanism;
 mod parameters;
+mod position_function;
+mod positions;
 mod result;
-mod source;
+mod scene;
+mod scene_result;
+mod scene_tables;
 mod style;
+mod tables;
 mod tail;
 mod words;
 
@@ -57,19 +64,24 @@ impl Backend for C99 {
         input: &BackendInput<'_>,
         given: &GivenOptions,
     ) -> Result<Vec<GeneratedFile>, BackendError> {
-        let BackendInput::Mechanism(model) = input else {
-            let what = "the backend `c` writes mechanisms, no scenes: use the backend `rust`";
-            return Err(BackendError::Unsupported(what.into()));
-        };
-        let style = Style::new(model.mechanism.name(), given)?;
-        source::check_supported(model)?;
-        let name = model.mechanism.name();
+        let (style, files);
+        match input {
+            BackendInput::Mechanism(model) => {
+                style = Style::new(model.mechanism.name(), given)?;
+                files = mechanism::mechanism_files(model, &style);
+            }
+            BackendInput::Scene(system, functions) => {
+                style = Style::new(&system.scene.name, given)?;
+                files = scene::scene_files(system, functions, &style);
+            }
+        }
         let file = |ending: &str, text| GeneratedFile {
-            name: format!("{name}.{ending}"),
+            name: format!("{}.{ending}", style.file),
             text,
         };
-        let header = header::header(model, &style);
-        let source = source::source(model, &style);
-        Ok(vec![file("h", header), file("c", source)])
+        Ok(vec![
+            file("h", files.header(&style)),
+            file("c", files.source(&style)),
+        ])
     }
 }

@@ -32,10 +32,12 @@ pub(super) fn parameters(
 ) -> Vec<CParameter> {
     let read = leaves_of(function);
     let of_model = of_model(naming, style, read.iter().any(is_parameter));
-    let arguments = function.method.arguments().iter().map(|&argument| {
+    let arguments = function.method.arguments().iter().filter_map(|&argument| {
         let components = naming.components(argument);
         let is_read = components.iter().any(|(leaf, _)| read.contains(leaf));
-        self::argument(argument, components.len(), style, is_read)
+        // C has no empty arrays.
+        let count = components.len();
+        (count > 0).then(|| self::argument(argument, count, style, is_read))
     });
     of_model.into_iter().chain(arguments).collect()
 }
@@ -69,7 +71,7 @@ fn is_parameter(leaf: &Leaf) -> bool {
 }
 
 /// Returns the run-time parameters, if the mechanism has any.
-fn of_model(naming: &Naming<'_>, style: &Style, is_read: bool) -> Option<CParameter> {
+pub(super) fn of_model(naming: &Naming<'_>, style: &Style, is_read: bool) -> Option<CParameter> {
     let declaration = format!("const struct {} *parameters", style.global("parameters"));
     let has_any = !naming.parameters.is_empty();
     has_any.then(|| CParameter::new(declaration, "parameters", is_read))
@@ -77,10 +79,20 @@ fn of_model(naming: &Naming<'_>, style: &Style, is_read: bool) -> Option<CParame
 
 fn argument(argument: Argument, count: usize, style: &Style, is_read: bool) -> CParameter {
     let (real, name) = (style.real(), argument.name());
+    if argument == Argument::Time {
+        return CParameter::new(format!("{real} {name}"), name, is_read);
+    }
     let size = match argument {
         Argument::Q => style.constant("NQ"),
         Argument::V | Argument::A | Argument::Tau => style.constant("NV"),
-        _ => count.to_string(),
+        Argument::TreeV | Argument::TreeTau => style.constant("NT"),
+        Argument::ActuatedTau => style.constant("NA"),
+        Argument::State => style.sized("N + NM"),
+        Argument::Canonical => style.constant("N"),
+        Argument::Input => style.constant("NU"),
+        Argument::Accelerations => style.constant("NV"),
+        Argument::Modes => style.constant("NM"),
+        Argument::Time => count.to_string(),
     };
     CParameter::new(format!("const {real} {name}[{size}]"), name, is_read)
 }

@@ -2,24 +2,42 @@
 
 use std::ops::Range;
 
+use super::context::FunctionContext;
+use super::scene_result::SceneResult;
 use super::style::Style;
 use crate::function::Function;
-use crate::method::Shape;
+use crate::layout::StateLayout;
+use crate::method::{Method, SceneFunction, Shape};
 use crate::plan::{Place, matrix_places};
 
 /// The flat result of a function.
 pub(super) struct FlatResult {
     /// Places of each output; none for one that is only checked.
     pub(super) places: Vec<Vec<usize>>,
-    /// Number of elements, in C.
+    /// Number of elements.
+    elements: usize,
+    /// The same in C.
     pub(super) size: String,
-    /// The outputs that must be finite.
-    pub(super) checked: Range<usize>,
+    /// The values that must be finite.
+    pub(super) checked: CheckedValues,
+    /// Statements that store the elements that are no outputs.
+    pub(super) others: Vec<String>,
+}
+
+/// The values that must be finite.
+pub(super) enum CheckedValues {
+    /// Elements of the result.
+    Elements(Range<usize>),
+    /// Outputs that are no part of the result.
+    Outputs(Range<usize>),
 }
 
 impl FlatResult {
-    pub(super) fn new(function: &Function, nv: usize, style: &Style) -> Self {
-        let shape = function.shape();
+    pub(super) fn new(function: &Function, context: &FunctionContext<'_>) -> Self {
+        if let (Some(scene), Method::Scene(role)) = (context.scene, function.method) {
+            return FlatResult::of_scene(function, role, &scene.layout, context.style);
+        }
+        let (shape, nv) = (function.shape(), context.nv);
         let count = output_count(function);
         let places = matrix_places(shape, nv);
         let flat = |place: &Place| match *place {
@@ -43,24 +61,48 @@ impl FlatResult {
             None => (0..count).map(in_order).collect(),
         };
         let elements = places.iter().map(Vec::len).sum::<usize>();
-        let n = style.constant("NV");
-        let size = match shape {
-            Shape::Vector | Shape::CheckedVector => n,
-            Shape::Symmetric | Shape::Square => format!("{n} * {n}"),
-            Shape::SquarePair => format!("2 * {n} * {n}"),
-            Shape::CheckedSquares => format!("3 * {n} * {n}"),
-            Shape::Jacobian => format!("6 * {n}"),
-            _ => elements.to_string(),
-        };
         let checked = match shape {
-            Shape::CheckedVector | Shape::CheckedActuated(_) => 0..count,
-            _ => 0..only_checked,
+            Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => {
+                CheckedValues::Elements(0..count)
+            }
+            Shape::CheckedTreeAndRows => CheckedValues::Elements(0..context.nt),
+            _ => CheckedValues::Outputs(0..only_checked),
         };
         FlatResult {
             places,
-            size,
+            size: size(shape)
+                .map_or_else(|| elements.to_string(), |size| context.style.sized(size)),
+            elements,
             checked,
+            others: Vec::new(),
         }
+    }
+
+    fn of_scene(
+        function: &Function,
+        role: SceneFunction,
+        layout: &StateLayout,
+        style: &Style,
+    ) -> Self {
+        let result = SceneResult::new(role, layout, output_count(function));
+        let store = |(k, value): &(usize, String)| {
+            let value = value
+                .parse()
+                .map_or_else(|_| value.clone(), |x| style.number(x));
+            format!("result[{k}] = {value};")
+        };
+        FlatResult {
+            elements: result.places.len() + result.others.len(),
+            places: result.places.iter().map(|&k| vec![k]).collect(),
+            size: style.sized(result.size),
+            checked: CheckedValues::Elements(result.checked),
+            others: result.others.iter().map(store).collect(),
+        }
+    }
+
+    /// Returns whether the function has no result, so that C does not have it.
+    pub(super) fn is_empty(&self) -> bool {
+        self.elements == 0
     }
 
     /// Returns the places for a plan.
@@ -70,6 +112,30 @@ impl FlatResult {
             .map(|places| places.iter().map(|&k| Place::Element(k)).collect())
             .collect()
     }
+}
+
+/// Returns the number of a result's elements, by names of sizes; `None` if they do not tell it.
+fn size(shape: Shape) -> Option<&'static str> {
+    Some(match shape {
+        Shape::Vector | Shape::CheckedVector => "NV",
+        Shape::Symmetric | Shape::Square => "NV * NV",
+        Shape::SquarePair => "2 * NV * NV",
+        Shape::CheckedSquares => "3 * NV * NV",
+        Shape::SlopesByTree => "NV * NT + NV * NV",
+        Shape::CheckedSlopesByTree => "NV * NT + 2 * NV * NV",
+        Shape::Jacobian => "6 * NV",
+        Shape::TreeVector | Shape::CheckedTree => "NT",
+        Shape::TreeMatrix => "NT * NV",
+        Shape::RowVector => "NC",
+        Shape::RowMatrix => "NC * NT",
+        Shape::CheckedTreeAndRows => "NT + NC",
+        Shape::CheckedWrenches => "6 * NR",
+        Shape::LinkWrenches => "6 * NL",
+        Shape::CheckedActuated(_) => "NA",
+        Shape::Drives(_) => "NP",
+        Shape::Scalar | Shape::Pose | Shape::Spatial => return None,
+        Shape::Parts | Shape::CheckedParts => return None,
+    })
 }
 
 /// Returns the number of a function's outputs.

@@ -64,6 +64,16 @@ impl Style {
         format!("{}_{name}", self.prefix.to_uppercase())
     }
 
+    /// Returns an expression of sizes, such as "NT + 2 * NC", with the prefix before each of its names.
+    pub(super) fn sized(&self, sizes: &str) -> String {
+        let with_prefix = |word: &str| match word.starts_with(|c: char| c.is_ascii_uppercase()) {
+            true => self.constant(word),
+            false => word.to_string(),
+        };
+        let words = sizes.split(' ').map(with_prefix);
+        words.collect::<Vec<_>>().join(" ")
+    }
+
     /// Returns a function of `math.h` for the type of all numbers.
     pub(super) fn of_library(&self, name: &str) -> String {
         match self.real {
@@ -72,11 +82,24 @@ impl Style {
         }
     }
 
-    /// Returns a number in its shortest form that has all digits of the type.
+    /// Returns a number in its shortest form that has all digits of the type; an infinite one if it is too large.
     pub(super) fn number(&self, x: f64) -> String {
+        let is_finite = match self.real {
+            Real::Double => x.is_finite(),
+            Real::Float => (x as f32).is_finite(),
+        };
+        match (is_finite, self.real) {
+            (true, Real::Double) => format!("{x:?}"),
+            (true, Real::Float) => format!("{:?}F", x as f32),
+            (false, _) => format!("{}{}", if x < 0.0 { "-" } else { "" }, self.infinite()),
+        }
+    }
+
+    /// Returns the macro of `math.h` for an infinite number.
+    fn infinite(&self) -> &'static str {
         match self.real {
-            Real::Double => format!("{x:?}"),
-            Real::Float => format!("{:?}F", x as f32),
+            Real::Double => "HUGE_VAL",
+            Real::Float => "HUGE_VALF",
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::block::BlockText;
 use super::context::FunctionContext;
-use super::result::FlatResult;
+use super::result::{CheckedValues, FlatResult};
 use super::style::Style;
 use crate::column_loop::ResultSource;
 use crate::expr::Signed;
@@ -29,11 +29,14 @@ pub(super) fn stores(values: &[String], flat: &FlatResult) -> Vec<String> {
 
 /// Returns an array of the outputs that must be finite and are no part of the result.
 pub(super) fn checked(values: &[String], flat: &FlatResult, style: &Style) -> Vec<String> {
-    let range = flat.checked.clone();
-    if range.is_empty() || !flat.places[range.start].is_empty() {
+    let CheckedValues::Outputs(range) = &flat.checked else {
+        return Vec::new();
+    };
+    if range.is_empty() {
         return Vec::new();
     }
-    let (real, count, all) = (style.real(), range.len(), values[range].join(", "));
+    let (real, count) = (style.real(), range.len());
+    let all = values[range.clone()].join(", ");
     vec![format!("const {real} checked[{count}] = {{{all}}};")]
 }
 

@@ -1,0 +1,368 @@
+//! Positions of mechanisms with loops, wheels or knife edges: Newton's method for those that close, and ways along
+//! velocities that constraints allow.
+//!
+//! They are `bgdyn_runtime::closure` around the functions `closing_step` and `tree_velocity` of the file.
+
+use super::context::ModelContext;
+use super::parameters::of_model;
+use super::position_function::{PositionFunction, joint_by_joint, signature};
+use super::style::{Real, Style};
+use crate::bond_graph::ClosedTree;
+use crate::method::Method;
+use crate::plan::{ClosingJoint, closing_joint, independent_positions, joint_segments};
+
+/// Largest number of steps before the last one.
+const STEPS: usize = 10;
+
+/// What a function that closes returns.
+const CAUSES: [&str; 2] = [
+    "Returns 0; the number, from 1, in the table of closing names, of the first loop or contact that does not close: it",
+    "is out of reach or at a singular position; or -1 where a position is not finite.",
+];
+
+/// Newton's method for positions that close, in a function of the file itself.
+pub(super) struct Newton<'a> {
+    pub(super) style: &'a Style,
+    /// The joints that close, with the place of each velocity in a step.
+    pub(super) joints: Vec<ClosingJoint>,
+    /// The place of the first loop among the causes.
+    pub(super) first: usize,
+    /// The name of the vector that has the positions, and its size in C.
+    pub(super) argument: &'static str,
+    pub(super) size: String,
+    /// The statement that computes the step `change`, and its size in C.
+    pub(super) step: String,
+    pub(super) steps: String,
+    /// The statement that moves positions by `change`; `None` where each joint that closes has one position, less its
+    /// step.
+    pub(super) moved: Option<String>,
+    /// The declaration of the run-time parameters, with a comma.
+    pub(super) parameters: String,
+}
+
+impl Newton<'_> {
+    /// The function returns 0, or the number of the first loop that does not close.
+    pub(super) fn function(&self) -> PositionFunction {
+        let (style, real) = (self.style, self.style.real());
+        let [zero, half, one] = [0.0, 0.5, 1.0].map(|x| style.number(x));
+        let closed = style.number(match style.real {
+            Real::Double => 1e-8,
+            Real::Float => 1e-4,
+        });
+        let row = |joint: &ClosingJoint| {
+            let cause = self.first + joint.closes + 1;
+            format!("{{{}, {}, {cause}}}", joint.velocity, joint.position)
+        };
+        let rows: Vec<String> = self.joints.iter().map(row).collect();
+        let (count, absolute) = (rows.len(), style.of_library("fabs"));
+        let [larger, pivot] = ["larger", "checked_pivot"].map(|name| style.global(name));
+        let mut body = vec![
+            "/* velocity, position and cause of each joint that closes */".into(),
+            format!("const int joints[{count}][3] = {{{}}};", rows.join(", ")),
+            format!("{real} change[{}];", self.steps),
+            "int refused = 1;".into(),
+            format!("for (int k = 0; refused != 0 && k < {STEPS}; ++k) {{"),
+            format!("    {real} last = {zero};"),
+            "    refused = 0;".into(),
+            format!("    {}", self.step),
+            format!("    for (int i = 0; i < {count}; ++i) {{"),
+            format!("        const {real} size = {absolute}(change[joints[i][0]]);"),
+            format!("        last = {larger}(last, size);"),
+            format!("        (void){pivot}({closed} - size, {zero}, joints[i][2], &refused);"),
+            "    }".into(),
+            format!("    const {real} scale = ({half} < last) ? {half} / last : {one};"),
+        ];
+        let back = self.step_back("change[@] * scale");
+        body.extend(back.iter().map(|line| format!("    {line}")));
+        body.extend(["}".into(), self.step.clone()]);
+        body.extend(self.step_back("change[@]"));
+        body.push("return refused;".into());
+        let (name, parameters) = (style.global("newton"), &self.parameters);
+        let (argument, size) = (self.argument, &self.size);
+        PositionFunction {
+            about: Vec::new(),
+            signature: format!("static int {name}({parameters}{real} {argument}[{size}])"),
+            body,
+        }
+    }
+
+    /// Returns the statements that subtract a step from the positions; `@` is the index of a velocity in it.
+    fn step_back(&self, step: &str) -> Vec<String> {
+        if let Some(moved) = &self.moved {
+            let step = step.replace('@', "j");
+            return vec![
+                format!("for (int j = 0; j < {}; ++j) {{", self.steps),
+                format!("    change[j] = -({step});"),
+                "}".into(),
+                moved.clone(),
+            ];
+        }
+        let (q, step) = (self.argument, step.replace('@', "joints[i][0]"));
+        vec![
+            format!("for (int i = 0; i < {}; ++i) {{", self.joints.len()),
+            format!("    {q}[joints[i][1]] = {q}[joints[i][1]] - {step};"),
+            "}".into(),
+        ]
+    }
+}
+
+/// A mechanism with loops or contacts.
+struct ClosingText<'a> {
+    closed: &'a ClosedTree,
+    context: &'a ModelContext<'a>,
+    /// The joints whose positions close.
+    joints: Vec<ClosingJoint>,
+}
+
+/// Returns the functions of positions, each after those that it calls.
+pub(super) fn closing_functions(
+    closed: &ClosedTree,
+    context: &ModelContext<'_>,
+) -> Vec<PositionFunction> {
+    let joints = closed.closure.closing().map(|j| closing_joint(closed, j));
+    let text = ClosingText {
+        closed,
+        context,
+        joints: joints.collect(),
+    };
+    let has = |method| context.model.function(method).is_some();
+    let closes = has(Method::ClosingStep);
+    let slips = closed.closure.nonholonomic();
+    let is_along_tree = has(Method::TreeVelocity);
+    let integrates = is_along_tree && (closes || closed.closure.position_rows().is_empty());
+    let mut functions = Vec::new();
+    if (closes && slips) || integrates {
+        functions.push(text.moved());
+    }
+    if closes {
+        functions.extend([text.newton(), text.close()]);
+    }
+    if is_along_tree {
+        functions.push(text.position_rates());
+    }
+    if integrates {
+        functions.push(match slips {
+            true => text.follow(closes),
+            false => text.integrate(),
+        });
+    }
+    functions
+}
+
+impl ClosingText<'_> {
+    fn style(&self) -> &Style {
+        self.context.style
+    }
+
+    /// Returns a call of a function of the file, with the run-time parameters if there are any.
+    fn call(&self, name: &str, arguments: &str) -> String {
+        let parameters = match self.context.naming.parameters.is_empty() {
+            true => "",
+            false => "parameters, ",
+        };
+        format!("{}({parameters}{arguments})", self.style().global(name))
+    }
+
+    /// Returns the declaration of an array with this size.
+    fn array(&self, name: &str, size: &str) -> String {
+        let (real, size) = (self.style().real(), self.style().constant(size));
+        format!("{real} {name}[{size}];")
+    }
+
+    /// Returns the loop over the velocities of the open tree with this statement.
+    fn each_velocity(&self, statement: &str) -> Vec<String> {
+        let count = self.style().constant("NT");
+        vec![
+            format!("for (int j = 0; j < {count}; ++j) {{"),
+            format!("    {statement}"),
+            "}".into(),
+        ]
+    }
+
+    /// The position after constant velocities of the open tree.
+    fn moved(&self) -> PositionFunction {
+        let (style, real) = (self.style(), self.style().real());
+        let (nq, nt) = (style.constant("NQ"), style.constant("NT"));
+        let joints = joint_segments(&self.closed.tree);
+        PositionFunction {
+            about: Vec::new(),
+            signature: format!(
+                "static void {}(const {real} q[{nq}], const {real} moved[{nt}], {real} result[{nq}])",
+                style.global("moved")
+            ),
+            body: joint_by_joint(&joints, "integrate", "moved", style),
+        }
+    }
+
+    /// Newton's method.
+    fn newton(&self) -> PositionFunction {
+        let style = self.style();
+        let parameters = of_model(self.context.naming, style, true);
+        let slips = self.closed.closure.nonholonomic();
+        let newton = Newton {
+            style,
+            joints: self.joints.clone(),
+            first: self.context.model.mechanism.nq(),
+            argument: "q",
+            size: style.constant("NQ"),
+            step: self.call("closing_step", "q, change") + ";",
+            steps: style.constant("NT"),
+            moved: slips.then(|| format!("{}(q, change, q);", style.global("moved"))),
+            parameters: parameters.map_or(String::new(), |p| p.declaration + ", "),
+        };
+        newton.function()
+    }
+
+    fn close(&self) -> PositionFunction {
+        let about = match self.closed.closure.nonholonomic() {
+            true => "The positions, changed so that all wheels touch and all loops close:",
+            false => {
+                "The positions with the dependent ones changed so that all loops close, from those in q:"
+            }
+        };
+        let mut body = vec![
+            self.array("found", "NQ"),
+            "memcpy(found, q, sizeof found);".into(),
+        ];
+        body.push(format!(
+            "const int refused = {};",
+            self.call("newton", "found")
+        ));
+        body.extend(self.returned());
+        PositionFunction {
+            about: [
+                about,
+                "Newton's method, at most 11 steps of at most 0.5 rad or m.",
+            ]
+            .into_iter()
+            .chain(CAUSES)
+            .collect(),
+            signature: signature(self.context, "int", "close", "q", "NQ"),
+            body,
+        }
+    }
+
+    /// Returns the statements that return the positions `found`, and the cause `refused`.
+    fn returned(&self) -> [String; 2] {
+        let (status, nq) = (self.style().global("status"), self.style().constant("NQ"));
+        [
+            "memcpy(result, found, sizeof found);".into(),
+            format!("return {status}(refused, found, {nq});"),
+        ]
+    }
+
+    fn position_rates(&self) -> PositionFunction {
+        let joints = joint_segments(&self.closed.tree);
+        let mut body = vec![
+            self.array("moved", "NT"),
+            self.call("tree_velocity", "q, v, moved") + ";",
+        ];
+        body.extend(joint_by_joint(
+            &joints,
+            "position_rates",
+            "moved",
+            self.style(),
+        ));
+        body.retain(|line| line != "(void)q;");
+        PositionFunction {
+            about: vec!["Rates of the positions of all joints at the independent velocities v."],
+            signature: signature(self.context, "void", "position_rates", "q v", "NQ"),
+            body,
+        }
+    }
+
+    /// The position after independent velocities; along those of the others at q, then closed.
+    fn integrate(&self) -> PositionFunction {
+        let moved = self.style().global("moved");
+        let mut body = vec![
+            self.array("rates", "NT"),
+            self.array("found", "NQ"),
+            self.call("tree_velocity", "q, dv, rates") + ";",
+            format!("{moved}(q, rates, found);"),
+            format!("const int refused = {};", self.call("newton", "found")),
+        ];
+        body.extend(self.not_closed(&independent_positions(self.closed)));
+        body.extend(self.returned());
+        let about = [
+            "Positions after the independent velocities dv for one unit of time: along the velocities at q, then closed by",
+            "Newton's method. Positions in loops are NaN where a loop does not close.",
+        ];
+        PositionFunction {
+            about: about.into_iter().chain(CAUSES).collect(),
+            signature: signature(self.context, "int", "integrate", "q dv", "NQ"),
+            body,
+        }
+    }
+
+    /// Returns the statements that make positions NaN where a loop is open: those that close, and `others`.
+    fn not_closed(&self, others: &[usize]) -> Vec<String> {
+        let real = self.style().real();
+        let mut positions: Vec<usize> = self.joints.iter().map(|joint| joint.position).collect();
+        positions.extend(others);
+        positions.sort_unstable();
+        positions.dedup();
+        let store = |p: &usize| format!("    found[{p}] = ({real})NAN;");
+        let lines = ["if (refused != 0) {".to_string()].into_iter();
+        lines
+            .chain(positions.iter().map(store))
+            .chain(["}".into()])
+            .collect()
+    }
+
+    /// The position after independent velocities along a way that conditions on velocities allow: order 4, without
+    /// commutators (Celledoni, Marthinsen and Owren 2003).
+    fn follow(&self, closes: bool) -> PositionFunction {
+        let style = self.style();
+        let [half, one, three, twelve] = [0.5, 1.0, 3.0, 12.0].map(|x| style.number(x));
+        let (real, moved) = (style.real(), style.global("moved"));
+        let rates = |q: &str, k: &str| self.call("tree_velocity", &format!("{q}, dv, {k}")) + ";";
+        let move_by = |q: &str, found: &str| format!("{moved}({q}, part, {found});");
+        let mut body: Vec<String> = ["k1", "k2", "k3", "k4", "part"]
+            .iter()
+            .map(|name| self.array(name, "NT"))
+            .collect();
+        body.extend(["middle", "found"].map(|name| self.array(name, "NQ")));
+        body.push(format!("const {real} twelfth = {one} / {twelve};"));
+        body.push(rates("q", "k1"));
+        body.extend(self.each_velocity(&format!("part[j] = k1[j] * {half};")));
+        body.extend([move_by("q", "middle"), rates("middle", "k2")]);
+        body.extend(self.each_velocity(&format!("part[j] = k2[j] * {half};")));
+        body.extend([move_by("q", "found"), rates("found", "k3")]);
+        body.extend(self.each_velocity(&format!("part[j] = k3[j] - k1[j] * {half};")));
+        body.extend([move_by("middle", "found"), rates("found", "k4")]);
+        for (first, last, from, to) in
+            [("k1", "k4", "q", "middle"), ("k4", "k1", "middle", "found")]
+        {
+            body.extend(self.each_velocity(&format!(
+                "part[j] = ((k2[j] + k2[j] + k3[j] + k3[j]) + ({three} * {first}[j] - {last}[j])) * twelfth;"
+            )));
+            body.push(move_by(from, to));
+        }
+        let about = [
+            "Positions after the independent velocities dv for one unit of time, along the way that the constraints allow: to",
+            "fourth order in dv.",
+        ];
+        let about = about.into_iter();
+        if !closes {
+            body.push("memcpy(result, found, sizeof found);".into());
+            return PositionFunction {
+                about: about.collect(),
+                signature: signature(self.context, "void", "integrate", "q dv", "NQ"),
+                body,
+            };
+        }
+        body.push(format!(
+            "const int refused = {};",
+            self.call("newton", "found")
+        ));
+        body.extend(self.not_closed(&[]));
+        body.extend(self.returned());
+        let closed =
+            ["Then it closes; positions that close are NaN where a wheel or loop does not."];
+        PositionFunction {
+            about: about.chain(closed).chain(CAUSES).collect(),
+            signature: signature(self.context, "int", "integrate", "q dv", "NQ"),
+            body,
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The files of a mechanism: its functions, and those of its positions.
+
+use super::context::ModelContext;
+use super::files::{CFiles, comment, lines_of};
+use super::function::{CFunction, definition, signature, written_functions};
+use super::positions::position_functions;
+use super::style::Style;
+use super::tables::{sizes, tables};
+use crate::function::Function;
+use crate::method::{Method, Shape};
+use crate::model::Model;
+use crate::plan::{Naming, summary_of, unread};
+
+/// Returns what the files of a mechanism have.
+pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a> {
+    let naming = Naming::of_model(model);
+    let context = ModelContext::new(model, style, &naming);
+    let (mut prototypes, mut functions) = (Vec::new(), String::new());
+    for function in written_functions(&model.functions, &context) {
+        let about = documentation(function, &context);
+        prototypes.extend(about.iter().cloned());
+        prototypes.extend([format!("{};", signature(function, &context)), String::new()]);
+        let CFunction { blocks, whole } = definition(function, &context);
+        functions += &(blocks + &lines_of(about) + &whole);
+    }
+    for function in position_functions(&context) {
+        prototypes.extend(function.prototype());
+        functions += &function.definition();
+    }
+    CFiles {
+        title: format!("Dynamics of `{}`", model.mechanism.name()),
+        description: model.mechanism.description().unwrap_or_default(),
+        sizes: sizes(&context),
+        tables: tables(&context),
+        parameters: model.mechanism.parameters(),
+        prototypes,
+        functions,
+    }
+}
+
+/// Returns the documentation of a function.
+fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String> {
+    let (method, model) = (function.method, context.model);
+    let mut lines = vec![
+        with_tables(&summary_of(method, model), context.style),
+        format!("Units: {}.", method.units()),
+        format!(
+            "Operations: {} ({}).",
+            function.operations(),
+            function.formulation
+        ),
+    ];
+    let unread = unread(function, model);
+    if !unread.is_empty() {
+        lines.push(format!("Does not read: {}.", unread.join(", ")));
+    }
+    lines.extend(result_order(function.shape()).map(String::from));
+    if function.shape().checked() {
+        lines.extend(causes(function, context));
+    }
+    comment(&lines)
+}
+
+/// Returns a sentence with the tables of C in place of the constants of Rust.
+fn with_tables(sentence: &str, style: &Style) -> String {
+    const TABLES: [(&str, &str); 4] = [
+        ("[`CONSTRAINT_NAMES`]", "constraint_names"),
+        ("[`REACTION_NAMES`]", "reaction_names"),
+        ("[`LINK_NAMES`]", "link_names"),
+        ("[`ACTUATED`]", "actuated_names"),
+    ];
+    let replaced = |text: String, (constant, table): &(&str, &str)| {
+        text.replace(constant, &format!("`{}`", style.global(table)))
+    };
+    TABLES.iter().fold(sentence.to_string(), replaced)
+}
+
+/// Describes the order of a result that consists of several parts.
+fn result_order(shape: Shape) -> Option<&'static str> {
+    Some(match shape {
+        Shape::SlopesByTree => {
+            "Result: the NV x NT matrix by positions, along the velocities of the open tree; then the NV x NV matrix by v."
+        }
+        Shape::CheckedSlopesByTree => {
+            "Result: the NV x NT matrix by positions, along the velocities of the open tree; then those by v and by tau."
+        }
+        Shape::CheckedTreeAndRows => "Result: NT accelerations, then NC multipliers.",
+        Shape::TreeMatrix => "Result: NT x NV.",
+        Shape::RowMatrix => "Result: NC x NT.",
+        Shape::CheckedWrenches => {
+            "Result: for each loop and contact a force, then a moment, each x, y, z; axes as in docs/methods.md."
+        }
+        Shape::LinkWrenches => {
+            "Result: for each link a force, then a moment, each x, y, z; axes as in docs/methods.md."
+        }
+        _ => return None,
+    })
+}
+
+/// Describes what a function returns that may have no result.
+fn causes(function: &Function, context: &ModelContext<'_>) -> Vec<String> {
+    let method = function.method;
+    let names = match method {
+        _ if context.model.bond_graph.closed.is_none() => {
+            return [
+                "Returns 0; the number, from 1, of the joint whose pivot vanishes where the mass matrix is singular;",
+                "or -1 where the result is not finite.",
+            ]
+            .map(String::from)
+            .to_vec();
+        }
+        Method::ActuatedInverse(_) => "actuated_pivot_names",
+        method if method.of_tree() => "tree_pivot_names",
+        _ => "pivot_names",
+    };
+    let what = match method {
+        Method::ActuatedInverse(_) => "a joint that does not follow the actuated ones",
+        _ => "a joint whose pivot vanishes where the mass matrix is singular",
+    };
+    vec![
+        format!(
+            "Returns 0; the number, from 1, of the cause among {}: {what},",
+            context.style.global(names)
+        ),
+        "or a loop or contact at a singular position or beyond one; or -1 where the result is not finite.".into(),
+    ]
+}
