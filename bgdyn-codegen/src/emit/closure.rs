@@ -9,9 +9,9 @@ use quote::quote;
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
-use super::joint_segments::{JointSegment, joint_by_joint, segments};
+use super::joint_segments::joint_by_joint;
 use super::polygon_closing::{PolygonClosing, polygon_closing};
-use crate::bond_graph::{ClosedTree, Multibody};
+use crate::bond_graph::{ClosedTree, JointSegment, Multibody, joint_segments};
 use crate::method::Method;
 
 /// Returns the constants of the module, and the functions of the struct.
@@ -119,7 +119,7 @@ pub(super) fn position_body(
     if closed.closure.nonholonomic() {
         return contact_position_body(closed, name);
     }
-    let of_tree = segments(&closed.tree);
+    let of_tree = joint_segments(&closed.tree);
     let q = quote! { &__na::SVector<T, NQ> };
     let moved = quote! { &__na::SVector<T, NT> };
     let tree_arguments = [("q", &q, true), ("moved", &moved, false)];

@@ -9,8 +9,8 @@ use quote::quote;
 
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
-use super::joint_segments::{joint_by_joint, segments};
-use crate::bond_graph::{ClosedTree, Multibody};
+use super::joint_segments::joint_by_joint;
+use crate::bond_graph::{ClosedTree, Multibody, joint_segments};
 use crate::method::Method;
 
 /// Returns the constants of the module, and the functions of the struct.
@@ -84,12 +84,12 @@ pub(super) fn argument_types() -> [TokenStream; 2] {
 pub(super) fn tree_integration(closed: &ClosedTree) -> TokenStream {
     let [q, moved] = argument_types();
     let arguments = [("q", &q, true), ("moved", &moved, false)];
-    joint_by_joint(&segments(&closed.tree), "integrate", &arguments, true)
+    joint_by_joint(&joint_segments(&closed.tree), "integrate", &arguments, true)
 }
 
 /// Returns the body of a method of the trait `Dynamics` that computes a vector joint by joint.
 pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStream {
-    let of_tree = segments(&closed.tree);
+    let of_tree = joint_segments(&closed.tree);
     let [q, moved] = argument_types();
     let arguments = [("q", &q, true), ("moved", &moved, false)];
     let body = |arguments: &[(&str, &TokenStream, bool)], positions| {

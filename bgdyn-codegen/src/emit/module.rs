@@ -11,8 +11,8 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{assembly, body, closure, code, constants, explain, joint_segments, traits};
-use crate::bond_graph::{LinkFrame, PositionVariable};
+use super::{assembly, body, closure, code, constants, explain, traits};
+use crate::bond_graph::{LinkFrame, PositionVariable, joint_segments};
 use crate::function::Function;
 use crate::mechanism::Motion;
 use crate::method::Method;
@@ -38,7 +38,7 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
         name: &struct_name,
         methods: &present,
         sites: &model.bond_graph.sites,
-        joints: Some(joint_segments::segments(&model.bond_graph)),
+        joints: Some(joint_segments(&model.bond_graph)),
         closed: model.bond_graph.closed.as_deref(),
     };
     let traits = traits.tokens();

@@ -10,12 +10,11 @@ use quote::quote;
 
 use super::base_access::base_access;
 use super::constants::{operations, size};
-use super::joint_segments::JointSegment;
 use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::prescribed_constants;
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
 use super::traits::Traits;
-use crate::bond_graph::Site;
+use crate::bond_graph::{JointSegment, Site};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;

@@ -6,9 +6,9 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::closure;
-use super::joint_segments::{JointSegment, joint_by_joint};
+use super::joint_segments::joint_by_joint;
 use super::tokens::{argument_type, ident, return_type};
-use crate::bond_graph::{ClosedTree, Site, SiteId};
+use crate::bond_graph::{ClosedTree, JointSegment, Site, SiteId};
 use crate::method::Method;
 
 /// The parts of a module that its traits provide.
