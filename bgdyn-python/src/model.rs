@@ -14,7 +14,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::errors::{refused, spec_error};
 use crate::method::PyMethod;
-use crate::position_calls::{Way, each_state};
+use crate::position_calls::{Way, each_state, random_numbers};
 use crate::positions::Positions;
 use crate::spec::{ModelData, Spec};
 
@@ -89,28 +89,12 @@ impl Model {
     /// The model with these values of run-time parameters, SI units.
     #[pyo3(signature = (**parameters))]
     fn with_parameters(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let all = self.data.spec.mechanism.parameters();
-        let mut values = self.data.parameters.to_vec();
-        for (name, value) in parameters.into_iter().flatten() {
-            let (name, value): (String, f64) = (name.extract()?, value.extract()?);
-            let found = all.iter().position(|p| p.name == name);
-            let found = found.ok_or_else(|| {
-                let known: Vec<&str> = all.iter().map(|p| p.name.as_str()).collect();
-                PyValueError::new_err(match known.as_slice() {
-                    [] => format!("no parameter `{name}`: the spec has none"),
-                    known => format!("no parameter `{name}`; there are {}", known.join(", ")),
-                })
-            })?;
-            if !value.is_finite() {
-                return Err(PyValueError::new_err(format!("`{name}` is {value}")));
-            }
-            values[found] = value;
-        }
+        let given = parameters.into_iter().flatten();
+        let given = given.map(|(name, value)| Ok((name.extract()?, value.extract()?)));
+        let given: Vec<(String, f64)> = given.collect::<PyResult<_>>()?;
+        let data = self.data.with_parameters(&given);
         Ok(Model {
-            data: ModelData {
-                spec: Arc::clone(&self.data.spec),
-                parameters: values.into(),
-            },
+            data: data.map_err(PyValueError::new_err)?,
             warnings: Arc::clone(&self.warnings),
         })
     }
@@ -233,9 +217,15 @@ impl Model {
         if self.data.spec.mechanism.closure().is_none() {
             return Err(PyValueError::new_err("the mechanism has no loops"));
         }
-        let way = Way { out, threads, on_singular };
+        let way = Way {
+            out,
+            threads,
+            on_singular,
+        };
         let given = [("q", q, self.nq())];
-        each_state(q.py(), &self.data, &given, self.nq(), &way, |of, x| of.close(x[0]))
+        each_state(q.py(), &self.data, &given, self.nq(), &way, |of, x| {
+            of.close(x[0])
+        })
     }
 
     /// q after the constant velocities `dv` for one unit of time.
@@ -248,7 +238,11 @@ impl Model {
         threads: usize,
         on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let way = Way { out, threads, on_singular };
+        let way = Way {
+            out,
+            threads,
+            on_singular,
+        };
         let given = [("q", q, self.nq()), ("dv", dv, self.nv())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| of.integrate(x[0], x[1]);
         each_state(q.py(), &self.data, &given, self.nq(), &way, one)
@@ -265,7 +259,14 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q1", q1, self.nq()), ("q0", q0, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.difference(x[0], x[1]));
-        each_state(q1.py(), &self.data, &given, self.nv(), &Way::plain(out, threads), one)
+        each_state(
+            q1.py(),
+            &self.data,
+            &given,
+            self.nv(),
+            &Way::plain(out, threads),
+            one,
+        )
     }
 
     /// q̇ = N(q) v.
@@ -279,7 +280,14 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq()), ("v", v, self.nv())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.position_rates(x[0], x[1]));
-        each_state(q.py(), &self.data, &given, self.nq(), &Way::plain(out, threads), one)
+        each_state(
+            q.py(),
+            &self.data,
+            &given,
+            self.nq(),
+            &Way::plain(out, threads),
+            one,
+        )
     }
 
     /// q with quaternions of length 1.
@@ -292,7 +300,14 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.normalize(x[0]));
-        each_state(q.py(), &self.data, &given, self.nq(), &Way::plain(out, threads), one)
+        each_state(
+            q.py(),
+            &self.data,
+            &given,
+            self.nq(),
+            &Way::plain(out, threads),
+            one,
+        )
     }
 
     /// Random positions; with loops closed ones.
@@ -304,16 +319,11 @@ impl Model {
         seed: Option<&Bound<'py, PyAny>>,
         threads: usize,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let generator = py.import("numpy.random")?.call_method1("default_rng", (seed,))?;
-        let mut shape: Vec<usize> = match n {
-            None => vec![],
-            Some(n) => n.extract::<usize>().map(|n| vec![n]).or_else(|_| n.extract())?,
-        };
-        shape.push(self.nv());
-        let u = generator.call_method1("random", (PyTuple::new(py, shape)?,))?;
+        let u = random_numbers(py, n, self.nv(), seed)?;
         let given = [("u", &u, self.nv())];
+        let way = Way::plain(None, threads);
         let one = |of: &Positions<'_>, x: &[&[f64]]| of.sample(x[0]);
-        each_state(py, &self.data, &given, self.nq(), &Way::plain(None, threads), one)
+        each_state(py, &self.data, &given, self.nq(), &way, one)
     }
 
     fn __getattr__(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {

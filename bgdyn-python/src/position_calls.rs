@@ -2,6 +2,7 @@
 
 use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::arrays::{checked_threads, leading_shape, read, target, unravelled, writable};
 use crate::errors::{OnSingular, Singular};
@@ -68,10 +69,13 @@ pub fn each_state<'py>(
     let positions = positions.map_err(pyo3::exceptions::PyValueError::new_err)?;
     let widths: Vec<usize> = arguments.iter().map(|(.., width)| *width).collect();
     let one = |state: usize, out: &mut [f64]| -> Option<Refused> {
-        let own = given.iter().zip(&widths).map(|(&(values, shared), &width)| {
-            let first = if shared { 0 } else { state * width };
-            &values[first..first + width]
-        });
+        let own = given
+            .iter()
+            .zip(&widths)
+            .map(|(&(values, shared), &width)| {
+                let first = if shared { 0 } else { state * width };
+                &values[first..first + width]
+            });
         let own: Vec<&[f64]> = own.collect();
         match compute(&positions, &own) {
             Ok(found) => {
@@ -100,6 +104,29 @@ pub fn each_state<'py>(
     }
 }
 
+/// Returns numbers in [0, 1) of the shape (n, width), (n…, width) or (width,), by `numpy.random.default_rng(seed)`.
+///
+/// # Errors
+/// What NumPy raises for such a seed, and `TypeError` if `n` is neither a number nor a shape.
+pub fn random_numbers<'py>(
+    py: Python<'py>,
+    n: Option<&Bound<'py, PyAny>>,
+    width: usize,
+    seed: Option<&Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let mut shape: Vec<usize> = match n {
+        None => vec![],
+        Some(n) => match n.extract() {
+            Ok(n) => vec![n],
+            Err(_) => n.extract()?,
+        },
+    };
+    shape.push(width);
+    let generator = py.import("numpy.random")?;
+    let generator = generator.call_method1("default_rng", (seed,))?;
+    generator.call_method1("random", (PyTuple::new(py, shape)?,))
+}
+
 /// Computes the states of `out`, which have `width` numbers each, and returns the refused ones in their order.
 fn in_threads(
     out: &mut [f64],
@@ -114,7 +141,9 @@ fn in_threads(
     let share = count.div_ceil(threads.min(count));
     let part = |(first, out): (usize, &mut [f64])| -> Vec<Refused> {
         let states = out.chunks_exact_mut(width).enumerate();
-        states.filter_map(|(k, out)| one(first * share + k, out)).collect()
+        states
+            .filter_map(|(k, out)| one(first * share + k, out))
+            .collect()
     };
     std::thread::scope(|scope| {
         let mut parts = out.chunks_mut(share * width).enumerate();
@@ -135,7 +164,9 @@ fn singular(data: &ModelData, index: Vec<usize>, open: Open) -> Singular {
     let loops = data.spec.mechanism.closure().map(|closure| &closure.loops);
     let name = open.0.zip(loops).map(|(k, loops)| loops[k].name.clone());
     let message = match &name {
-        Some(name) => format!("the loops do not close from here: `{name}` is out of reach, or at a singular position"),
+        Some(name) => format!(
+            "the loops do not close from here: `{name}` is out of reach, or at a singular position"
+        ),
         None => "the loops do not close on the branch of the given position".to_owned(),
     };
     Singular {

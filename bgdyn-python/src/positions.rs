@@ -64,7 +64,10 @@ impl<'a> Positions<'a> {
                     tree: JointPositions::new(joint_segments(&closed.tree)),
                     tree_velocity: spec.prepared(Method::TreeVelocity)?,
                     free: independents.filter_map(|j| positions(j.0)).collect(),
-                    dependent: closure.dependents().filter_map(|j| positions(j.0)).collect(),
+                    dependent: closure
+                        .dependents()
+                        .filter_map(|j| positions(j.0))
+                        .collect(),
                 })
             }
             _ => None,
@@ -135,7 +138,12 @@ impl<'a> Positions<'a> {
         match &self.loops {
             Some(loops) if loops.closure.nonholonomic() => {
                 let moved = loops.tree.difference(q1, q0);
-                loops.closure.independents.iter().map(|j| moved[j.0]).collect()
+                loops
+                    .closure
+                    .independents
+                    .iter()
+                    .map(|j| moved[j.0])
+                    .collect()
             }
             _ => self.own.difference(q1, q0),
         }

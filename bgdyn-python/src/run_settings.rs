@@ -32,10 +32,7 @@ impl Settings {
             }
         }
         if points < 2 {
-            return wrong(format!(
-                "points={}: the start and the end are 2",
-                points
-            ));
+            return wrong(format!("points={}: the start and the end are 2", points));
         }
         let own = scene.integration;
         let step_control = match (step, tolerance) {

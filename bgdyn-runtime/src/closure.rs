@@ -281,11 +281,7 @@ pub fn follow<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
 }
 
 /// Combines two vectors component by component.
-fn zipped<Z: StateVector>(
-    a: &Z,
-    b: &Z,
-    with: impl Fn(Z::Scalar, Z::Scalar) -> Z::Scalar,
-) -> Z {
+fn zipped<Z: StateVector>(a: &Z, b: &Z, with: impl Fn(Z::Scalar, Z::Scalar) -> Z::Scalar) -> Z {
     let mut all = a.clone();
     for (x, &y) in all.entries_mut().iter_mut().zip(b.entries()) {
         *x = with(*x, y);
