@@ -32,7 +32,7 @@ def test_unknown_parameters() -> None:
     scene = bgdyn.Scene(SPECS / "scenes" / "crane.scene.yaml")
     with pytest.raises(ValueError, match="load_mass"):
         scene.simulate(parameters={"load_maas": 1.0})
-    with pytest.raises(ValueError, match="`load_mass` is nan"):
+    with pytest.raises(ValueError, match="`load_mass` is NaN"):
         scene.simulate(parameters={"load_mass": float("nan")})
     with pytest.raises(TypeError):
         scene.simulate(parameters={"load_mass": "heavy"})  # type: ignore[dict-item]

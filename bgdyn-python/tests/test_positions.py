@@ -32,12 +32,12 @@ def cross(w: Array) -> Array:
 
 
 def exponential(a: Array) -> Array:
-    """Returns the exponential of a matrix: its series at a / 2¹⁰, squared ten times."""
-    small, total, term = a / 1024, np.eye(len(a)), np.eye(len(a))
-    for k in range(1, 20):
+    """Returns the exponential of a matrix: its series at a / 8, squared three times."""
+    small, total, term = a / 8, np.eye(len(a)), np.eye(len(a))
+    for k in range(1, 30):
         term = term @ small / k
         total = total + term
-    for _ in range(10):
+    for _ in range(3):
         total = total @ total
     return total
 

@@ -174,12 +174,8 @@ print(len(found))
 
 
 def test_the_line_of_progress() -> None:
-    class Terminal(io.StringIO):
-        def isatty(self) -> bool:
-            return True
-
-    stream = Terminal()
-    line = _progress._Line(stream)
+    stream = io.StringIO()
+    line = _progress._Line(_progress._Written(stream))
     line(250, 1000)
     line(251, 1000)  # too early for another line
     line(1000, 1000)

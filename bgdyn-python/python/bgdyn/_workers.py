@@ -47,17 +47,17 @@ def computed(compute: Callable[[Any], Any], parts: Sequence[Any], workers: int) 
             worker.stop()
 
 
-class _Worker(threading.Thread):
+class _Worker:
     """A process, and the thread that gives it parts; a process that died is replaced."""
 
     def __init__(self, compute: Any, parts: Sequence[Any], todo: Any, done: Any) -> None:
-        super().__init__(daemon=True)
         self.compute, self.parts, self.todo, self.done = pickle.dumps(compute), parts, todo, done
         self.stopped = False
-        self.process = self._started()
-        self.start()
+        self.process = self._new_process()
+        self.thread = threading.Thread(target=self._run, daemon=True)
+        self.thread.start()
 
-    def _started(self) -> subprocess.Popen[bytes]:
+    def _new_process(self) -> subprocess.Popen[bytes]:
         paths = os.pathsep.join(path for path in sys.path if path)
         return subprocess.Popen(
             [sys.executable, "-m", "bgdyn._worker"],
@@ -66,7 +66,7 @@ class _Worker(threading.Thread):
             env=os.environ | {"PYTHONPATH": paths},
         )
 
-    def run(self) -> None:
+    def _run(self) -> None:
         first = True
         while not self.stopped:
             try:
@@ -81,7 +81,8 @@ class _Worker(threading.Thread):
                 if self.stopped:
                     return
                 first = True
-                self.process = self._replaced()
+                _ended(self.process)
+                self.process = self._new_process()
                 self._again(index, attempts - 1)
             except Exception as error:  # a part that cannot be pickled
                 self.done.put((index, None, error))
@@ -104,15 +105,11 @@ class _Worker(threading.Thread):
         message = f"part {index} of {len(self.parts)} ended its process {ATTEMPTS} times: is there memory enough for it?"
         self.done.put((index, None, RuntimeError(message)))
 
-    def _replaced(self) -> subprocess.Popen[bytes]:
-        _ended(self.process)
-        return self._started()
-
     def stop(self) -> None:
         """Ends the process, which loses what it computes."""
         self.stopped = True
         self.process.kill()
-        self.join()
+        self.thread.join()
         _ended(self.process)
 
 

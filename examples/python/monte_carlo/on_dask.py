@@ -7,6 +7,9 @@ Dask starts a worker anew that dies, and computes its parts again.
 
 from __future__ import annotations
 
+from functools import partial
+from itertools import islice
+
 import bgdyn
 from dask.distributed import Client, LocalCluster, as_completed
 from study import Progress, Study, computed, main
@@ -21,14 +24,13 @@ def run(study: Study, scene: bgdyn.Scene, workers: int, progress: Progress) -> N
         Client(cluster) as client,
     ):
         # Few parts at a time: finished ones do not wait in memory.
-        first = [client.submit(computed, study, scene, part, pure=False) for part, _ in zip(waiting, range(2 * workers))]
-        running = as_completed(first)
+        submit = partial(client.submit, computed, study, scene, pure=False)
+        running = as_completed(map(submit, islice(waiting, 2 * workers)))
         for future in running:
             study.write(*future.result())
             progress(total - len(study.left()), total)
-            for part in waiting:
-                running.add(client.submit(computed, study, scene, part, pure=False))
-                break
+            for part in islice(waiting, 1):
+                running.add(submit(part))
 
 
 if __name__ == "__main__":

@@ -93,6 +93,7 @@ def main(run: Callable[[Study, bgdyn.Scene, int, Progress], None]) -> None:
     options.add_argument("--workers", type=int, default=2, help="number of processes")
     given = options.parse_args()
     study, begin = Study(given.folder, given.runs), time.monotonic()
+    runs = min(study.runs, len(study.left()) * study.part)  # others have their files
 
     def line(done: int, total: int) -> None:
         passed = time.monotonic() - begin
@@ -101,5 +102,5 @@ def main(run: Callable[[Study, bgdyn.Scene, int, Progress], None]) -> None:
     run(study, bgdyn.Scene(SCENE), given.workers, line)
     passed, memory = time.monotonic() - begin, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     compression = 1e3 * study.read("compression")
-    print(f"\n{passed:.1f} s, {passed / study.runs * 1e6:.1f} µs a run, at most {memory:.0f} MB in this process")
+    print(f"\n{passed:.1f} s, {passed / max(runs, 1) * 1e6:.1f} µs a run, at most {memory:.0f} MB in this process")
     print(f"compression: mean {compression.mean():.3f} mm, 99.9 % below {np.quantile(compression, 0.999):.3f} mm")
