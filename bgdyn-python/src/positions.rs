@@ -232,8 +232,9 @@ fn closed(closure: &Closure, q: &[f64]) -> Found {
         return Ok(exact.iter().map(|x| x.to_f64()).collect());
     }
     let residuals = closure.values(&rows, &exact).0;
-    let open = |x: &Dd| !(x.to_f64().abs() <= CLOSED);
-    let first = residuals.iter().position(open);
+    // NaN is not closed either.
+    let is_open = |x: f64| x.abs() > CLOSED || x.is_nan();
+    let first = residuals.iter().position(|x| is_open(x.to_f64()));
     Err(Open(first.map(|row| rows[row].closes)))
 }
 

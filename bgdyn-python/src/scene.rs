@@ -23,6 +23,9 @@ use crate::arrays::read;
 use crate::errors::{scene_refused, spec_error};
 use crate::run_settings::{Settings, named, overrides};
 
+/// The numbers of many runs, and number and reason of each that failed.
+type Summaries<'py> = (Bound<'py, PyArray2<f64>>, Vec<(usize, String)>);
+
 /// A scene: a mechanism with the effects of one run. It does not change.
 #[pyclass(frozen, module = "bgdyn._bgdyn", name = "Scene", subclass)]
 #[derive(Debug)]
@@ -171,7 +174,7 @@ impl PyScene {
         initial: Vec<String>,
         values: &Bound<'py, PyAny>,
         settings: Settings,
-    ) -> PyResult<(Bound<'py, PyArray2<f64>>, Vec<(usize, String)>)> {
+    ) -> PyResult<Summaries<'py>> {
         let varied = self.varied(&parameters, &initial)?;
         let way = settings.way(&self.system.scene)?;
         let values = read("values", values, varied.len())?;
