@@ -238,6 +238,13 @@ impl PyMethod {
                     ),
                 )
             },
+            Cause::OutOfReach(name) => Singular {
+                closes: Some(name.clone()),
+                ..Singular::new(
+                    index,
+                    &format!("the loop `{name}` is out of reach, or at the end of its reach"),
+                )
+            },
             Cause::NotActuated(name) => Singular {
                 joint: Some(name.clone()),
                 ..Singular::new(

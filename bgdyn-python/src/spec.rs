@@ -11,7 +11,7 @@ use bgdyn_codegen::method::{Argument, Method};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
 use bgdyn_codegen::tape::Tape;
-use bgdyn_runtime::ACTUATORS;
+use bgdyn_runtime::Cause as Refused;
 
 use crate::lanes::LaneCall;
 use crate::parts::{Parts, Sizes};
@@ -66,6 +66,8 @@ pub enum Cause {
     Joint(String),
     /// A loop at a singular position, or on another branch.
     Loop(String),
+    /// A loop that is out of reach.
+    OutOfReach(String),
     /// A joint that does not follow the actuated ones.
     NotActuated(String),
 }
@@ -236,12 +238,12 @@ impl Spec {
             _ => rates.len(),
         };
         let loops = closed.map_or(&[][..], |closed| &closed.closure.loops);
-        if let Some(k) = pivot.checked_sub(ACTUATORS + joints + loops.len()) {
-            return Cause::NotActuated(names(own, k));
-        }
-        match pivot.checked_sub(joints) {
-            None => Cause::Joint(names(rates, pivot)),
-            Some(k) => Cause::Loop(loops.get(k).map_or_else(String::new, |l| l.name.clone())),
+        let named = |k: usize| loops.get(k).map_or_else(String::new, |l| l.name.clone());
+        match Refused::of_pivot(pivot, joints) {
+            (Refused::Pivot, k) => Cause::Joint(names(rates, k)),
+            (Refused::Actuators, k) => Cause::NotActuated(names(own, k - joints - loops.len())),
+            (Refused::OutOfReach, k) => Cause::OutOfReach(named(k - joints)),
+            (_, k) => Cause::Loop(named(k - joints)),
         }
     }
 }

@@ -8,6 +8,7 @@ use nalgebra::SVector;
 
 pub use assembly::{BranchBlock, Conditions, Mechanism, assemble};
 
+use crate::singular::OUT_OF_REACH;
 use crate::{Scalar, StateVector};
 
 /// Largest number of steps.
@@ -80,7 +81,7 @@ pub fn close<T: Scalar, const NQ: usize, const NT: usize>(
 /// after them. Where a loop does not close, the dependent positions are NaN.
 ///
 /// # Errors
-/// The first loop that does not close, with the cause [`crate::Cause::Loop`]; per lane.
+/// The first loop that does not close, with the cause [`crate::Cause::OutOfReach`]; per lane.
 #[inline]
 pub fn close_state<T: Scalar, const N: usize, const NQ: usize, const M: usize>(
     y: &mut SVector<T, N>,
@@ -151,7 +152,8 @@ fn largest<Z: StateVector>(
     for d in dependents {
         if let Some(&x) = change.entries().get(d.velocity) {
             last = last.max(x.abs());
-            (closed::<Z::Scalar>() - x.abs()).checked_pivot(zero, first + d.closes, &mut refused);
+            let place = OUT_OF_REACH + first + d.closes;
+            (closed::<Z::Scalar>() - x.abs()).checked_pivot(zero, place, &mut refused);
         }
     }
     (last, refused)
@@ -180,7 +182,7 @@ impl<T: Scalar, const NQ: usize> Closing<SVector<T, NQ>> {
     /// of the loops after them.
     ///
     /// # Errors
-    /// The loop, with the cause [`crate::Cause::Loop`]; per lane.
+    /// The loop, with the cause [`crate::Cause::OutOfReach`]; per lane.
     #[inline]
     pub fn finish(self, names: &'static [&'static str]) -> Result<SVector<T, NQ>, T::Singular<NQ>> {
         T::finish(self.q, self.refused, names, |_| ())

@@ -82,7 +82,7 @@ pub use serde;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use serial::{__read_fields, __write_fields};
-pub use singular::{ACTUATORS, Cause, Singular};
+pub use singular::{ACTUATORS, Cause, OUT_OF_REACH, Singular};
 pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
 pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
 pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};

@@ -32,9 +32,14 @@ pub struct Singular {
 pub enum Cause {
     /// The pivot of the joint was refused: the joint has no inertia left to accelerate.
     Pivot,
-    /// The dependent joints of a kinematic loop, a wheel or a knife edge do not follow from the independent ones: the
-    /// position is singular, on the other side of a singular one, or does not close.
+    /// The dependent velocities of a kinematic loop, a wheel or a knife edge do not follow from the independent ones:
+    /// the position is singular, or on the other side of a singular one.
     Loop,
+    /// A kinematic loop is out of reach, or at the end of its reach: functions in closed form. A loop or a wheel did not
+    /// close in the bounded number of steps: `close`.
+    OutOfReach,
+    /// `assemble` found no position at which the kinematic loop or the wheel closes.
+    NotAssembled,
     /// A kinematic loop closes, but on another branch than that of the mechanism.
     Branch,
     /// The actuated joints of a mechanism with loops cannot produce every acceleration here: the matrix from their
@@ -60,11 +65,19 @@ pub const ACTUATORS: usize = 1 << 16;
 /// The same for loops on another branch.
 pub(crate) const BRANCHES: usize = 2 * ACTUATORS;
 
+/// The same for loops that are out of reach.
+pub const OUT_OF_REACH: usize = 3 * ACTUATORS;
+
+/// The same for loops that were not assembled.
+pub(crate) const NOT_ASSEMBLED: usize = 4 * ACTUATORS;
+
 /// A [`Cause`] without its index: four bytes, so that `Option` and `Result` can use its unused values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Pivot,
     Loop,
+    OutOfReach,
+    NotAssembled,
     Branch,
     Actuators,
     NotFinite,
@@ -72,15 +85,39 @@ enum Kind {
 }
 
 impl Kind {
+    const fn of_pivot(pivot: usize, joints: usize) -> (Self, usize) {
+        let kind = match pivot / ACTUATORS {
+            0 if pivot < joints => Kind::Pivot,
+            0 => Kind::Loop,
+            1 => Kind::Actuators,
+            2 => Kind::Branch,
+            3 => Kind::OutOfReach,
+            _ => Kind::NotAssembled,
+        };
+        (kind, pivot % ACTUATORS)
+    }
+
     const fn cause(self, index: usize) -> Cause {
         match self {
             Kind::Pivot => Cause::Pivot,
             Kind::Loop => Cause::Loop,
+            Kind::OutOfReach => Cause::OutOfReach,
+            Kind::NotAssembled => Cause::NotAssembled,
             Kind::Branch => Cause::Branch,
             Kind::Actuators => Cause::Actuators,
             Kind::NotFinite => Cause::NotFinite,
             Kind::Argument(argument) => Cause::Argument { argument, index },
         }
+    }
+}
+
+impl Cause {
+    /// Returns the cause of a refused pivot of a function with `joints` joints, and the index of its joint or loop among
+    /// the names: joints come first, then loops. Pivots of the matrix of the actuators begin at [`ACTUATORS`], those of
+    /// loops out of reach at [`OUT_OF_REACH`].
+    pub const fn of_pivot(pivot: usize, joints: usize) -> (Self, usize) {
+        let (kind, index) = Kind::of_pivot(pivot, joints);
+        (kind.cause(index), index)
     }
 }
 
@@ -91,17 +128,10 @@ impl Singular {
         Singular::of_kind(Kind::Pivot, joint, names)
     }
 
-    /// Returns the error of a refused pivot: that of one of `joints` joints, of a loop after them, of the matrix of
-    /// the actuators from [`ACTUATORS`] on, of a loop on another branch from [`BRANCHES`] on.
+    /// Returns the error of a refused pivot; see [`Cause::of_pivot`].
     pub(crate) fn refused(pivot: usize, joints: usize, names: &'static [&'static str]) -> Self {
-        if let Some(place) = pivot.checked_sub(BRANCHES) {
-            return Singular::of_kind(Kind::Branch, place, names);
-        }
-        match pivot.checked_sub(ACTUATORS) {
-            Some(place) => Singular::of_kind(Kind::Actuators, place, names),
-            None if pivot < joints => Singular::of_kind(Kind::Pivot, pivot, names),
-            None => Singular::of_kind(Kind::Loop, pivot, names),
-        }
+        let (kind, index) = Kind::of_pivot(pivot, joints);
+        Singular::of_kind(kind, index, names)
     }
 
     /// Returns the error that the joint with this index has an acceleration that is not finite.
@@ -142,7 +172,13 @@ impl Singular {
     ) {
         if let (
             Some(index),
-            Kind::Pivot | Kind::Loop | Kind::Branch | Kind::Actuators | Kind::NotFinite,
+            Kind::Pivot
+            | Kind::Loop
+            | Kind::OutOfReach
+            | Kind::NotAssembled
+            | Kind::Branch
+            | Kind::Actuators
+            | Kind::NotFinite,
         ) = (index, self.kind)
         {
             *self = Singular::of_kind(Kind::Argument(argument), index, components);
@@ -158,7 +194,9 @@ impl fmt::Display for Singular {
                 f,
                 "singular mass matrix: joint `{name}` (number {joint}) has {cause}"
             ),
-            Cause::Loop | Cause::Branch => write!(f, "loop or constraint `{name}` {cause}"),
+            Cause::Loop | Cause::OutOfReach | Cause::NotAssembled | Cause::Branch => {
+                write!(f, "loop or constraint `{name}` {cause}")
+            }
             Cause::Actuators => write!(f, "no efforts of the actuated joints: `{name}` {cause}"),
             Cause::Argument {
                 argument: Argument::Time,
@@ -183,7 +221,9 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Cause::Pivot => f.write_str("no inertia left to accelerate"),
-            Cause::Loop => f.write_str("is singular or does not close here"),
+            Cause::Loop => f.write_str("is singular here"),
+            Cause::OutOfReach => f.write_str("is out of reach here, or at the end of its reach"),
+            Cause::NotAssembled => f.write_str("closes at no position that was found"),
             Cause::Branch => f.write_str("closes here on another branch only"),
             Cause::Actuators => f.write_str("does not follow the actuated joints here"),
             Cause::Argument { argument, index } => write!(

@@ -3,6 +3,13 @@
 use bgdyn_runtime::nalgebra::{SMatrix, SVector};
 use bgdyn_runtime::{Balance, Contact, HybridSystem, resolve_stiction};
 
+// That of the generator, whose crate depends on this one.
+#[path = "../../bgdyn-codegen/src/random.rs"]
+#[allow(dead_code)]
+mod random;
+
+use random::Random;
+
 /// Blocks coupled by a mass matrix under given forces, each with dry friction: M a = f − m ⊙ F_k where
 /// it slips, a = 0 where it is held.
 struct Blocks<const K: usize> {
@@ -182,30 +189,17 @@ impl<const K: usize> Blocks<K> {
     }
 }
 
-/// Random numbers in −1 … 1 by a linear congruential generator (Knuth's MMIX).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    /// Returns blocks with a random positive definite mass matrix; `more` is the excess of static
-    /// friction.
-    fn blocks<const K: usize>(&mut self, more: f64) -> Blocks<K> {
-        let root = SMatrix::<f64, K, K>::from_fn(|_, _| self.unit());
-        let kinetic = SVector::from_fn(|_, _| self.unit().abs());
-        Blocks {
-            mass: root * root.transpose() + SMatrix::identity() * 0.02,
-            force: SVector::from_fn(|_, _| 2.0 * self.unit()),
-            limit: kinetic * (1.0 + more),
-            kinetic,
-            slip: SVector::zeros(),
-        }
+/// Returns blocks with a random positive definite mass matrix; `more` is the excess of static
+/// friction.
+fn random_blocks<const K: usize>(random: &mut Random, more: f64) -> Blocks<K> {
+    let root = SMatrix::<f64, K, K>::from_fn(|_, _| random.signed());
+    let kinetic = SVector::from_fn(|_, _| random.signed().abs());
+    Blocks {
+        mass: root * root.transpose() + SMatrix::identity() * 0.02,
+        force: SVector::from_fn(|_, _| 2.0 * random.signed()),
+        limit: kinetic * (1.0 + more),
+        kinetic,
+        slip: SVector::zeros(),
     }
 }
 
@@ -214,7 +208,7 @@ fn the_only_one<const K: usize>(tries: usize) {
     let mut random = Random(K as u64);
     let mut slipping = 0;
     for _ in 0..tries {
-        let blocks = random.blocks::<K>(0.0);
+        let blocks = random_blocks::<K>(&mut random, 0.0);
         let found = blocks.resolved(&SVector::zeros(), 0.0);
         assert_eq!(blocks.consistent(), [found]);
         slipping += found.iter().filter(|m| **m != 0.0).count();
@@ -236,7 +230,7 @@ fn more_friction_at_rest_settles_consistently() {
     let mut random = Random(9);
     let (mut several, mut held) = (0, 0);
     for _ in 0..4000 {
-        let blocks = random.blocks::<3>(0.5);
+        let blocks = random_blocks::<3>(&mut random, 0.5);
         let found = blocks.resolved(&SVector::zeros(), 0.0);
         let all = blocks.consistent();
         assert!(all.contains(&found), "{found:?} is none of {all:?}");

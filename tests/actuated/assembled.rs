@@ -133,7 +133,10 @@ fn out_of_reach_and_on_another_branch_are_different_errors() {
     let error = model
         .assemble(&guess, &cranks_held)
         .expect_err("0.8 m apart");
-    assert_eq!((error.name(), error.cause()), ("tip_pin", Cause::Loop));
+    assert_eq!(
+        (error.name(), error.cause()),
+        ("tip_pin", Cause::NotAssembled)
+    );
     assert_eq!(error.joint(), five_bar::NQ);
     // The mirror image of the rods, with everything held but one crank and its rod.
     let q = model.neutral();

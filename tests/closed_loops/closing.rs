@@ -355,7 +355,10 @@ fn the_end_of_the_reach_is_exact() {
     ends::<f32>(f64::from(f32::EPSILON) / 2.0, f64::from);
     let error = ShortRod::<f64>::default().close(&SVector::from([0.9, -1.5, 0.2]));
     let error = error.expect_err("beyond the end");
-    assert_eq!((error.name(), error.cause()), ("rod_pin", Cause::Loop));
+    assert_eq!(
+        (error.name(), error.cause()),
+        ("rod_pin", Cause::OutOfReach)
+    );
 }
 
 /// Steps of any length stay on the branch of the positions that they begin at: the root does not change its sign, on

@@ -15,12 +15,15 @@ fn a_position_out_of_reach_is_an_error_that_names_the_loop() {
     let mut q = model.neutral();
     (q[0], q[2]) = (3.1, 0.0);
     let error = model.close(&q).expect_err("0.8 m apart");
-    assert_eq!((error.name(), error.cause()), ("tip_pin", Cause::Loop));
+    assert_eq!(
+        (error.name(), error.cause()),
+        ("tip_pin", Cause::OutOfReach)
+    );
     assert_eq!(error.joint(), NQ);
     assert_eq!(CLOSING_NAMES[NQ], "tip_pin");
     assert_eq!(
         error.to_string(),
-        "loop or constraint `tip_pin` is singular or does not close here"
+        "loop or constraint `tip_pin` is out of reach here, or at the end of its reach"
     );
     // What cannot report an error makes the positions of the loop useless, those that accelerations in closed form read
     // too, and the next function says so.

@@ -75,7 +75,7 @@ fn a_disc_that_lies_flat_is_an_error() {
     assert_eq!((error.name(), error.cause()), ("rim", Cause::Loop));
     let nowhere = model.neutral() * f64::NAN;
     let error = model.close(&nowhere).expect_err("not a number");
-    assert_eq!((error.name(), error.cause()), ("rim", Cause::Loop));
+    assert_eq!((error.name(), error.cause()), ("rim", Cause::OutOfReach));
 }
 
 /// The disc on its steady circle, 10 s. The axle is the direction that the reference has.

@@ -11,7 +11,7 @@ use bgdyn_codegen::engine::{Callable, Status};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::mechanism::{Mechanism, Motion};
 use bgdyn_codegen::method::{Argument, Method, Shape};
-use bgdyn_runtime::ACTUATORS;
+use bgdyn_runtime::Cause;
 use serde_json::{Value, json};
 
 pub(crate) use self::arguments::Eval;
@@ -112,11 +112,11 @@ fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
             _ => rates.len(),
         };
         let loops = mechanism.closure().map_or(0, |closure| closure.loops.len());
-        let of_actuators = joint.checked_sub(ACTUATORS + results + loops);
-        return Err(match (of_actuators, joint.checked_sub(results)) {
-            (Some(k), _) => not_actuated(&own[k]),
-            (None, None) => singular(&rates[joint]),
-            (None, Some(closes)) => singular_loop(mechanism.closure(), closes),
+        let (cause, index) = Cause::of_pivot(joint, results);
+        return Err(match cause {
+            Cause::Pivot => singular(&rates[index]),
+            Cause::Actuators => not_actuated(&own[index - results - loops]),
+            _ => singular_loop(mechanism.closure(), index - results, cause),
         });
     }
     if let Status::NotFinite(_) = status {

@@ -41,7 +41,7 @@ impl Chart {
         let (mut lines, mut sites, mut loops) = (0, 0, 0);
         for port in network.ports.iter().filter(|p| !p.coordinates.is_empty()) {
             let own = unfolding.ports_of(port.junction);
-            let (name, symbol, partial, all) = match &port.place {
+            let (name, symbol, partial, all) = match &port.site {
                 PortSite::Line([a, b]) => {
                     lines += 1;
                     let n = subscript(lines);

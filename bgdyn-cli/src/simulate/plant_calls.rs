@@ -1,6 +1,7 @@
 //! Calls of a scene's functions: their arguments, and their errors by name.
 
 use bgdyn_codegen::engine::{CallArguments, Callable, Status};
+use bgdyn_runtime::Cause;
 use bgdyn_sim::Plant as _;
 
 use super::plant::{Evaluated, Evaluation, Numbers};
@@ -90,10 +91,11 @@ impl Evaluated<'_> {
     /// rates.
     pub(super) fn refused(&self, i: usize) -> Undefined {
         let layout = &self.system.scene.layout;
-        let closes = i.checked_sub(layout.nv() + layout.nx());
-        let (at, cause) = match closes {
-            Some(closes) => (&layout.loops[closes], UndefinedCause::Loop),
-            None => (&layout.coordinates[i].name, UndefinedCause::Singular),
+        let rates = layout.nv() + layout.nx();
+        let (at, cause) = match Cause::of_pivot(i, rates) {
+            (Cause::Pivot, i) => (&layout.coordinates[i].name, UndefinedCause::Singular),
+            (Cause::OutOfReach, i) => (&layout.loops[i - rates], UndefinedCause::OutOfReach),
+            (_, i) => (&layout.loops[i - rates], UndefinedCause::Loop),
         };
         let at = at.clone();
         Undefined { at, cause }

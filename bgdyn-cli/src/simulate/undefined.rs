@@ -16,8 +16,10 @@ pub struct Undefined {
 pub enum UndefinedCause {
     /// The mass matrix is singular.
     Singular,
-    /// A loop is at a singular position, or does not close.
+    /// A loop is at a singular position.
     Loop,
+    /// A loop is out of reach.
+    OutOfReach,
     /// The value is not finite.
     NotFinite,
 }
@@ -29,6 +31,11 @@ impl fmt::Debug for Undefined {
             UndefinedCause::Loop => write!(
                 f,
                 "the loop `{}` is at a singular position, or does not close",
+                self.at
+            ),
+            UndefinedCause::OutOfReach => write!(
+                f,
+                "the loop `{}` is out of reach, or at the end of its reach",
                 self.at
             ),
             UndefinedCause::NotFinite => write!(

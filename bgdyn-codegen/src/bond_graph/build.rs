@@ -56,9 +56,9 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
     for (i, link) in mechanism.links().iter().enumerate() {
         add_link(&mut graph, LinkId(i), &link.inertial);
     }
-    let places = places(&graph.frames);
+    let patterns = patterns(&graph.frames);
     for i in 0..graph.frames.len() {
-        add_transformers(&mut graph, &places, LinkId(i));
+        add_transformers(&mut graph, &patterns, LinkId(i));
     }
     // The transformers depend on the poses of all joints; formulations read those of prescribed joints from
     // the mechanism in which they are free.
@@ -85,13 +85,13 @@ fn sites(mechanism: &Mechanism) -> Vec<Site> {
     let link = |(i, link): (usize, &Link)| Site {
         name: link.name.clone(),
         link: Some(LinkId(i)),
-        place: Pose::IDENTITY,
+        pose: Pose::IDENTITY,
         exported_by_default: tip(i),
     };
     let frame = |frame: &Frame| Site {
         name: frame.name.clone(),
         link: frame.link,
-        place: frame.origin,
+        pose: frame.origin,
         exported_by_default: true,
     };
     let named = mechanism.frames().iter().map(frame);
@@ -201,8 +201,8 @@ pub(super) fn add_fixed_body(graph: &mut BondGraph, frame: LinkFrame, inertial: 
     graph.multibody.frames.push(frame);
     graph.multibody.inertials.push(inertial);
     add_link(graph, i, &inertial);
-    let places = places(&graph.frames);
-    add_transformers(graph, &places, i);
+    let patterns = patterns(&graph.frames);
+    add_transformers(graph, &patterns, i);
 }
 
 /// Pattern of a link frame's axes and origin in fixed axes.
@@ -214,16 +214,16 @@ struct PosePattern {
     axis: Vec3<Modulus>,
 }
 
-fn places(frames: &[LinkFrame]) -> Vec<PosePattern> {
-    let mut places: Vec<PosePattern> = Vec::with_capacity(frames.len());
+fn patterns(frames: &[LinkFrame]) -> Vec<PosePattern> {
+    let mut patterns: Vec<PosePattern> = Vec::with_capacity(frames.len());
     for frame in frames {
-        let parent = frame.parent.map(|p| places[p.0]);
-        places.push(place(frame, parent));
+        let parent = frame.parent.map(|p| patterns[p.0]);
+        patterns.push(pattern(frame, parent));
     }
-    places
+    patterns
 }
 
-fn place(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
+fn pattern(frame: &LinkFrame, parent: Option<PosePattern>) -> PosePattern {
     let Pose {
         rotation,
         translation,
@@ -271,15 +271,15 @@ fn identity(i: usize, j: usize) -> Modulus {
 }
 
 /// Returns the columns of a joint's motion subspace in fixed axes.
-fn columns(frame: &LinkFrame, place: &PosePattern) -> Vec<(CoordinateId, Column<Modulus>)> {
+fn columns(frame: &LinkFrame, pattern: &PosePattern) -> Vec<(CoordinateId, Column<Modulus>)> {
     if let Some(columns) = frame.degrees.axial(frame.motion) {
         let of = |(j, factors): (CoordinateId, [Dd; 2])| {
-            let [angular, linear] = factors.map(|k| place.axis.scale(Modulus::constant(k)));
+            let [angular, linear] = factors.map(|k| pattern.axis.scale(Modulus::constant(k)));
             (j, Column { angular, linear })
         };
         return columns.into_iter().map(of).collect();
     }
-    let fixed = |v: Vec3<Dd>| place.rotation * v.map(Modulus::constant);
+    let fixed = |v: Vec3<Dd>| pattern.rotation * v.map(Modulus::constant);
     let of = |(j, column): (CoordinateId, Column<Dd>)| {
         let (angular, linear) = (fixed(column.angular), fixed(column.linear));
         (j, Column { angular, linear })
@@ -320,7 +320,7 @@ impl PoseNumbers<Modulus> for Patterns {
 }
 
 /// Adds the transformers ρ_j^i and ∂r_i/∂q_j for every coordinate on the path from the base to link i.
-fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
+fn add_transformers(graph: &mut BondGraph, patterns: &[PosePattern], i: LinkId) {
     let com = graph.frames[i.0].com.map(|c| match c {
         Value::Fixed(c) => Modulus::constant(c),
         // The value of a parameter is not known at generation time.
@@ -335,11 +335,11 @@ fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
     // A coordinate moves link i through its own joint and through joints that follow it.
     let mut sums: Vec<(CoordinateId, Column<Modulus>)> = Vec::new();
     for l in path.into_iter().rev() {
-        let columns = columns(&graph.frames[l.0], &places[l.0]);
+        let columns = columns(&graph.frames[l.0], &patterns[l.0]);
         if columns.is_empty() {
             continue;
         }
-        let arm = lever(&graph.frames, places, l, i, com);
+        let arm = lever(&graph.frames, patterns, l, i, com);
         for (j, Column { angular, linear }) in columns {
             let linear = linear + angular.cross(arm);
             match sums.iter_mut().find(|(k, _)| *k == j) {
@@ -361,20 +361,20 @@ fn add_transformers(graph: &mut BondGraph, places: &[PosePattern], i: LinkId) {
 /// i. The sum runs over the links between them, so that common terms never enter.
 fn lever(
     frames: &[LinkFrame],
-    places: &[PosePattern],
+    patterns: &[PosePattern],
     l: LinkId,
     i: LinkId,
     com: Vec3<Modulus>,
 ) -> Vec3<Modulus> {
-    let mut lever = places[i.0].rotation * com;
+    let mut lever = patterns[i.0].rotation * com;
     let mut link = i;
     while link != l {
         let Some(parent) = frames[link.0].parent else {
             break;
         };
         let step = frames[link.0].origin.translation.map(Modulus::constant);
-        lever = lever + places[parent.0].rotation * step;
-        lever = lever + shifts(&frames[link.0], places[parent.0].rotation);
+        lever = lever + patterns[parent.0].rotation * step;
+        lever = lever + shifts(&frames[link.0], patterns[parent.0].rotation);
         link = parent;
     }
     lever

@@ -1,7 +1,7 @@
 //! Masses moved across the closing pins of planar loops (base parameters of loops).
 //!
 //! The closing pin belongs to both of its links: a point mass μ there may move from one link to the other. Efforts and
-//! accelerations of independent joints remain, because the two places coincide; loads of the pin change by μ (p̈ − g).
+//! accelerations of independent joints remain, because the two pins coincide; loads of the pin change by μ (p̈ − g).
 //! μ is chosen such that the first moment of a link, about its other pin, has no component along the line of its pins:
 //! it is then μ = m c·p / p·p.
 
@@ -21,11 +21,11 @@ pub fn with_moved_masses(tree: &BondGraph, closure: &Closure) -> Option<BondGrap
     let mut moved: Option<BondGraph> = None;
     for polygon in polygons(closure)? {
         let one = &closure.loops[polygon.closes];
-        let places = [
+        let pins = [
             one.links[0].map(|link| (link, one.chain.start.translation)),
             one.links[1].map(|link| (link, one.chain.end.translation)),
         ];
-        let [Some(a), Some(b)] = places else { continue };
+        let [Some(a), Some(b)] = pins else { continue };
         let dependent = |graph: &BondGraph, link: LinkId| {
             let own = &graph.frames[link.0].degrees.velocities;
             own.iter().any(|j| closure.dependents().any(|d| d == *j))
@@ -48,10 +48,10 @@ pub fn with_moved_masses(tree: &BondGraph, closure: &Closure) -> Option<BondGrap
     moved
 }
 
-/// Returns the mass at a place of a link with which the first moment about its origin has no component along the line
-/// from there to the place, and whether a component across it is left; `None` if the link turns about no pin, its mass
+/// Returns the mass at a pin of a link with which the first moment about its origin has no component along the line
+/// from there to the pin, and whether a component across it is left; `None` if the link turns about no pin, its mass
 /// is a run-time parameter, or it carries other links.
-fn movable(graph: &BondGraph, link: LinkId, place: Vec3<Dd>) -> Option<(Dd, bool)> {
+fn movable(graph: &BondGraph, link: LinkId, pin: Vec3<Dd>) -> Option<(Dd, bool)> {
     let frame = &graph.frames[link.0];
     let carries = graph.frames.iter().any(|other| other.parent == Some(link));
     let inertial = graph.inertial(link);
@@ -69,7 +69,7 @@ fn movable(graph: &BondGraph, link: LinkId, place: Vec3<Dd>) -> Option<(Dd, bool
         return None;
     }
     let across = |v: Vec3<Dd>| v - frame.axis.scale(v.dot(frame.axis));
-    let (line, com) = (across(place), across(Vec3(com)));
+    let (line, com) = (across(pin), across(Vec3(com)));
     let mu = mass * com.dot(line) / line.dot(line);
     let left = com.cross(line).dot(com.cross(line)).to_f64();
     let left = left > 1e-40 * (com.dot(com) * line.dot(line)).to_f64();
@@ -83,13 +83,13 @@ fn depth(graph: &BondGraph, link: LinkId) -> usize {
 }
 
 /// Adds a point mass, which may be negative, as a link without joint.
-fn add_point(graph: &mut BondGraph, (link, place): (LinkId, Vec3<Dd>), mass: Dd) {
+fn add_point(graph: &mut BondGraph, (link, point): (LinkId, Vec3<Dd>), mass: Dd) {
     let zero = Value::Fixed(Dd::ZERO);
     let point = LinkFrame {
         name: format!("{}_pin", graph.frames[link.0].name),
         parent: Some(link),
         origin: Pose {
-            translation: place,
+            translation: point,
             ..Pose::IDENTITY
         },
         motion: Motion::None,

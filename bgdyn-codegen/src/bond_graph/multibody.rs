@@ -20,7 +20,7 @@ pub struct Site {
     /// The link it is fixed to; `None` for the world.
     pub link: Option<LinkId>,
     /// Its pose in the link's axes.
-    pub place: Pose,
+    pub pose: Pose,
     /// Whether the spec names it as a frame, or it is the frame of a tip. Methods are generated for these
     /// sites by default.
     pub exported_by_default: bool,

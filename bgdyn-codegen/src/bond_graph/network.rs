@@ -257,24 +257,24 @@ impl BondNetwork {
 
     /// Returns the 1-junction of the flow at a site, with the transformers from the velocities that move
     /// it.
-    pub fn port(&mut self, place: PortSite) -> GraphNodeId {
-        if let Some(port) = self.ports.iter().find(|port| port.place == place) {
+    pub fn port(&mut self, site: PortSite) -> GraphNodeId {
+        if let Some(port) = self.ports.iter().find(|port| port.site == site) {
             return port.junction;
         }
         let of = |name: &String| self.movers.get(name).cloned().unwrap_or_default();
-        let coordinates: BTreeSet<CoordinateId> = match &place {
+        let coordinates: BTreeSet<CoordinateId> = match &site {
             PortSite::Line([a, b]) => of(a).symmetric_difference(&of(b)).copied().collect(),
             PortSite::Site(name) => of(name),
             PortSite::Loop(_) => BTreeSet::new(),
         };
-        self.add_port(place, coordinates)
+        self.add_port(site, coordinates)
     }
 
     /// Adds the flows of loops: the velocity of place b relative to place a, with a flow source 0.
     pub fn close(&mut self, closure: &Closure) {
         for (closes, one) in closure.loops.iter().enumerate() {
-            let place = PortSite::Loop(one.name.clone());
-            let junction = self.add_port(place, one.velocities().collect());
+            let site = PortSite::Loop(one.name.clone());
+            let junction = self.add_port(site, one.velocities().collect());
             let of_loop = |rows: &[LoopRow]| {
                 let own = rows.iter().filter(|row| row.closes == closes);
                 own.map(|row| row.name).collect::<Vec<_>>().join(", ")
@@ -294,7 +294,7 @@ impl BondNetwork {
     }
 
     /// Adds the 1-junction of a flow, with a transformer from each of these velocities.
-    fn add_port(&mut self, place: PortSite, coordinates: BTreeSet<CoordinateId>) -> GraphNodeId {
+    fn add_port(&mut self, site: PortSite, coordinates: BTreeSet<CoordinateId>) -> GraphNodeId {
         let part = NodePart::Port(self.ports.len());
         let junction = self.add_part(NodeKind::One, part);
         let feeds: Vec<(NodePart, GraphNodeId)> = coordinates
@@ -303,7 +303,7 @@ impl BondNetwork {
             .collect();
         self.feed(junction, &feeds, part);
         self.ports.push(PlacePort {
-            place,
+            site,
             coordinates,
             junction,
         });

@@ -99,7 +99,7 @@ pub enum NodePart {
     Store(usize),
     /// A source on a link, by its index in [`BondGraph::sources`](super::BondGraph::sources).
     Source(usize),
-    /// What joins a velocity and the flow at a place of [`BondNetwork::ports`](super::BondNetwork::ports), or sums these flows.
+    /// What joins a velocity and the flow at one of [`BondNetwork::ports`](super::BondNetwork::ports), or sums these flows.
     Port(usize),
     /// An element of an effect.
     Effect,
@@ -162,7 +162,7 @@ pub enum PortSite {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacePort {
     /// The site.
-    pub place: PortSite,
+    pub site: PortSite,
     /// The coordinates that move it.
     pub coordinates: BTreeSet<CoordinateId>,
     /// The 1-junction of its flow.

@@ -31,16 +31,16 @@ impl Coordinates {
 
     /// Returns the set with one coordinate.
     pub fn one(j: CoordinateId) -> Self {
-        let place = j.0.min(Self::PLACES - 1);
+        let bit = j.0.min(Self::PLACES - 1);
         let mut words = [0; 4];
-        words[place / 64] = 1 << (place % 64);
+        words[bit / 64] = 1 << (bit % 64);
         Coordinates(words)
     }
 
     /// Returns whether it may contain `j`.
     pub fn contains(self, j: CoordinateId) -> bool {
-        let place = j.0.min(Self::PLACES - 1);
-        self.0[place / 64] >> (place % 64) & 1 == 1
+        let bit = j.0.min(Self::PLACES - 1);
+        self.0[bit / 64] >> (bit % 64) & 1 == 1
     }
 
     /// Returns the union of two sets.

@@ -133,7 +133,7 @@ impl Effect for RotorEffect {
             let z = [Dd::ZERO, Dd::ZERO, Dd::ONE];
             let axis = Vec3(element.vector(&AXIS).unwrap_or(z));
             let length = axis.dot(axis).sqrt();
-            let axis = site.place.rotation * axis.map(|x| x / length);
+            let axis = site.pose.rotation * axis.map(|x| x / length);
             site.link.map(|link| Gyrostat { link, axis })
         });
         graph.multibody.rotors.push(RotorStore {

@@ -29,7 +29,7 @@ pub(super) fn assembly(closed: &ClosedTree) -> (TokenStream, TokenStream) {
         /// the way from there to the position `neutral`.
         ///
         /// # Errors
-        /// Names the first loop that does not close, with the cause `Loop`, or closes on another branch, with the
+        /// Names the first loop that does not close, with the cause `NotAssembled`, or closes on another branch, with the
         /// cause `Branch`, or the first position of `guess` that is NaN or infinite.
         pub fn assemble(
             &self,

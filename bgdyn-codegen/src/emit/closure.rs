@@ -57,7 +57,7 @@ pub(super) fn closure_access(
             #(#[doc = #docs])*
             ///
             /// # Errors
-            /// Names the first loop that does not close: it is out of reach, or at a singular position.
+            /// Names the first loop that does not close, with the cause `OutOfReach`.
             pub fn close(
                 &self,
                 q: &__na::SVector<T, NQ>,

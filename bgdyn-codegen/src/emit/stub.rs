@@ -87,7 +87,7 @@ fn sites(interface: &Interface) -> Vec<Site> {
     let site = |name: &String| Site {
         name: name.clone(),
         link: None,
-        place: Pose::IDENTITY,
+        pose: Pose::IDENTITY,
         exported_by_default: true,
     };
     names.filter(|n| is_identifier(n)).map(site).collect()

@@ -59,6 +59,11 @@ impl Builder {
         }
     }
 
+    /// Returns whether it keeps no names.
+    pub fn is_silent(&self) -> bool {
+        self.silent
+    }
+
     /// Returns the finished graph.
     pub fn into_graph(self) -> Graph {
         self.graph.into_inner()
@@ -182,6 +187,14 @@ impl<'g> Expr<'g> {
                 self
             }
             _ => self.named(name),
+        }
+    }
+
+    /// Says what a named number of the mechanism is the sum of.
+    pub fn containing(self, contents: impl FnOnce() -> String) {
+        if let (Operand::Number(x), false) = (self.value, self.builder.silent) {
+            let mut graph = self.builder.graph.borrow_mut();
+            graph.set_constant_contents(x, contents());
         }
     }
 

@@ -29,16 +29,16 @@ impl Index {
             if slot == 0 {
                 return None;
             }
-            let place = slot as u32;
-            if slot >> 32 == tag && is_sought(place - 1) {
-                return Some(place - 1);
+            let index = slot as u32;
+            if slot >> 32 == tag && is_sought(index - 1) {
+                return Some(index - 1);
             }
             at = (at + 1) & (self.slots.len() - 1);
         }
     }
 
     /// Adds a value that is not in the table.
-    pub fn insert(&mut self, hash: u64, place: u32) {
+    pub fn insert(&mut self, hash: u64, index: u32) {
         self.len += 1;
         if self.len * 3 > self.slots.len() * 2 {
             let size = (4 * self.slots.len()).max(256);
@@ -50,7 +50,7 @@ impl Index {
             }
         }
         let hash = hash & !u64::from(u32::MAX);
-        self.put(hash | (u64::from(place) + 1));
+        self.put(hash | (u64::from(index) + 1));
     }
 
     fn put(&mut self, slot: u64) {

@@ -20,6 +20,7 @@ impl Graph {
             let named = || Name {
                 text: text(),
                 negative: e.negative,
+                contents: None,
             };
             self.names.entry(e.node).or_insert_with(named);
         }
@@ -34,15 +35,29 @@ impl Graph {
             return;
         }
         let text = text();
-        let name = Name { text, negative };
+        let name = Name {
+            text,
+            negative,
+            contents: None,
+        };
         match self.constant_names.entry(Constant::new(size)) {
             Entry::Vacant(place) => {
                 place.insert(Some(name));
             }
-            Entry::Occupied(mut place) if alone && place.get().as_ref() != Some(&name) => {
-                place.insert(None);
+            Entry::Occupied(mut place) => {
+                let is_alike = |known: &Name| known.is_alike(&name);
+                if alone && !place.get().as_ref().is_some_and(is_alike) {
+                    place.insert(None);
+                }
             }
-            Entry::Occupied(_) => {}
+        }
+    }
+
+    /// Sets what a named number is the sum of.
+    pub(crate) fn set_constant_contents(&mut self, x: Dd, contents: String) {
+        let size = if x < Dd::ZERO { -x } else { x };
+        if let Some(Some(name)) = self.constant_names.get_mut(&Constant::new(size)) {
+            name.contents = Some(contents);
         }
     }
 
@@ -89,7 +104,11 @@ impl Graph {
         for (constant, name) in &from.constant_names {
             let kept = self.constant_names.entry(*constant);
             let kept = kept.or_insert_with(|| name.clone());
-            if kept != name {
+            let is_alike = match (kept.as_ref(), name) {
+                (Some(kept), Some(name)) => kept.is_alike(name),
+                (kept, name) => kept.is_none() && name.is_none(),
+            };
+            if !is_alike {
                 *kept = None;
             }
         }

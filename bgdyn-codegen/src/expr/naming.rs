@@ -9,9 +9,16 @@ pub struct Name {
     pub text: String,
     /// Whether the node is the value times −1.
     pub negative: bool,
+    /// What a number is the sum of, if this is more than its name says.
+    pub contents: Option<String>,
 }
 
 impl Name {
+    /// Returns whether both name the same quantity with the same sign.
+    pub(super) fn is_alike(&self, other: &Name) -> bool {
+        self.text == other.text && self.negative == other.negative
+    }
+
     /// Returns an identifier for the node: `neg_m_elbow_turn` for −m_elbow_turn.
     pub fn identifier(&self) -> String {
         let prefix = if self.negative { "neg_" } else { "" };

@@ -15,19 +15,19 @@ pub(super) fn outputs<'g>(
     x: &Arguments<'g>,
 ) -> Option<Vec<Expr<'g>>> {
     let site = &graph.sites[method.site()?.0];
-    let place = site.place.rotation.map(|x| b.constant(x));
-    let point = b.vector(site.place.translation);
+    let axes = site.pose.rotation.map(|x| b.constant(x));
+    let point = b.vector(site.pose.translation);
     let placement = Placement::new(b, graph, &x.q);
     let mut columns: Vec<Option<JacobianColumn<'g>>> = vec![None; graph.coordinates.len()];
     let Some(link) = site.link else {
         let motion = SiteMotion {
-            rotation: place,
+            rotation: axes,
             origin: point,
             columns,
         };
         return Some(motion.outputs(b, graph, method, &x.v));
     };
-    let rotation = placement.rotations[link.0] * place;
+    let rotation = placement.rotations[link.0] * axes;
     let origin = placement.point(link.0, point);
     let mut on_path = Some(link);
     while let Some(l) = on_path {

@@ -78,26 +78,26 @@ impl Mechanism {
             });
             all.parameters.push((p, false));
         }
-        let mut places = Vec::new();
+        let mut links = Vec::new();
         for (i, link) in self.links.iter().enumerate() {
-            let parent = link.parent.map(|p| (p, places[p.0]));
-            let carrier = parent.map(|(p, place)| all.displace(self, i, p, place));
+            let parent = link.parent.map(|p| (p, links[p.0]));
+            let carrier = parent.map(|(p, link)| all.displace(self, i, p, link));
             let mut copy = link.clone();
             copy.parent = carrier;
             if carrier.is_some() {
                 copy.joint.origin.translation = Vec3([Dd::ZERO; 3]);
             }
             all.letter_body((i, link.name.as_str()), &mut copy.inertial);
-            let place = LinkId(all.mechanism.links.len());
+            let link = LinkId(all.mechanism.links.len());
             if let Some(j) = copy.joint.coordinate {
-                all.mechanism.coordinates[j.0] = place;
-                all.mechanism.positions[j.0] = place;
+                all.mechanism.coordinates[j.0] = link;
+                all.mechanism.positions[j.0] = link;
             }
             all.mechanism.links.push(copy);
-            places.push(place);
+            links.push(link);
         }
         for frame in &mut all.mechanism.frames {
-            frame.link = frame.link.map(|l| places[l.0]);
+            frame.link = frame.link.map(|l| links[l.0]);
         }
         all
     }
@@ -106,7 +106,7 @@ impl Mechanism {
 impl SymbolicMechanism {
     /// Adds massless carriers from the parent's axes to the joint of link i: one prismatic joint for each
     /// nonzero component of the displacement. Returns the last one.
-    fn displace(&mut self, from: &Mechanism, i: usize, parent: LinkId, place: LinkId) -> LinkId {
+    fn displace(&mut self, from: &Mechanism, i: usize, parent: LinkId, link: LinkId) -> LinkId {
         let offsets = |l: &Link| l.joint.origin.translation.0.map(|x| x != Dd::ZERO);
         let beside = from.links.iter().filter(|l| l.parent == Some(parent));
         let several = beside.filter(|l| offsets(l).contains(&true)).count() > 1;
@@ -116,7 +116,7 @@ impl SymbolicMechanism {
             vec![parent.0 + 1]
         };
         let step = from.links[i].joint.origin.translation;
-        let mut last = place;
+        let mut last = link;
         for axis in 0..3 {
             if step.0[axis] == Dd::ZERO {
                 continue;
@@ -144,11 +144,11 @@ impl SymbolicMechanism {
     /// Adds a massless link that slides along `axis` of `parent`.
     fn slide(&mut self, parent: LinkId, axis: Vec3<Dd>) -> LinkId {
         let zero = Value::Fixed(Dd::ZERO);
-        let place = LinkId(self.mechanism.links.len());
+        let link = LinkId(self.mechanism.links.len());
         let coordinate = CoordinateId(self.mechanism.coordinates.len());
         let name = format!("displacement {}", coordinate.0);
-        self.mechanism.coordinates.push(place);
-        self.mechanism.positions.push(place);
+        self.mechanism.coordinates.push(link);
+        self.mechanism.positions.push(link);
         self.mechanism.links.push(Link {
             name: name.clone(),
             label: None,
@@ -177,7 +177,7 @@ impl SymbolicMechanism {
             },
             hidden: true,
         });
-        place
+        link
     }
 
     /// Replaces the numbers of a link's body by letters.

@@ -53,12 +53,14 @@ impl ConstantNames {
 /// Describes a number with this name: its meaning, its owner, its unit.
 fn about(name: &Name, length: f64) -> String {
     let sign = if name.negative { ", times −1" } else { "" };
+    let contents = name.contents.iter();
+    let contents: String = contents.map(|links| format!("; {links}")).collect();
     match LegendQuantity::of_name(&name.text) {
         Some((quantity, owner)) => {
             let (meaning, unit) = (quantity.meaning, quantity.unit_in(length));
-            format!("`{owner}`: {meaning}, {unit}{sign}")
+            format!("`{owner}`: {meaning}, {unit}{sign}{contents}")
         }
-        None => format!("`{}`{sign}", name.text),
+        None => format!("`{}`{sign}{contents}", name.text),
     }
 }
 

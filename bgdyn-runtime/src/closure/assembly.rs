@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::{Closing, LARGEST, all_positive};
 use crate::Scalar;
-use crate::singular::BRANCHES;
+use crate::singular::{BRANCHES, NOT_ASSEMBLED};
 
 /// The attempts: the share of the way from the guess to a closed position at which one begins, and its number of
 /// steps; 64 in all.
@@ -55,7 +55,7 @@ pub struct Mechanism<C, J, M> {
 /// Changes the positions of the velocities that are `free` so that all loops close on the branch of the mechanism, each
 /// step the shortest one for its damping. The first attempt begins at `ends.0`, the guess, further ones on the way to
 /// `ends.1`, a closed position; together they have at most 64 steps. Where there is no such position, the error has the
-/// first loop that remains open, with the cause [`crate::Cause::Loop`], or is on another branch, with
+/// first loop that remains open, with the cause [`crate::Cause::NotAssembled`], or is on another branch, with
 /// [`crate::Cause::Branch`], at the end of the first attempt.
 pub fn assemble<T, C, J, M, const NQ: usize, const NT: usize, const NC: usize>(
     ends: [SVector<T, NQ>; 2],
@@ -125,7 +125,7 @@ fn check<T, C, J, M, const NQ: usize, const NT: usize, const NC: usize>(
     let residual = (of.residual)(q);
     for (row, c) in conditions.rows.iter().zip(residual.iter()) {
         if let Some(closes) = row {
-            see(tolerance - c.abs(), NQ + closes);
+            see(tolerance - c.abs(), NOT_ASSEMBLED + NQ + closes);
         }
     }
     if conditions.blocks.is_empty() {

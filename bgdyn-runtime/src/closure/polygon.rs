@@ -7,7 +7,7 @@ use nalgebra::SVector;
 
 use super::{Closing, all_positive, closed};
 use crate::Scalar;
-use crate::singular::zero_if_finite;
+use crate::singular::{OUT_OF_REACH, zero_if_finite};
 
 /// A constant in two words.
 pub type Constant = (f64, f64);
@@ -206,7 +206,7 @@ impl<T: Scalar> Polygons<T> {
         let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
         // 1, −1 or NaN.
         let holds = T::select(x.less(zero), -one, one + zero_if_finite(x));
-        holds.checked_pivot(zero, place, &mut self.refused);
+        holds.checked_pivot(zero, OUT_OF_REACH + place, &mut self.refused);
         self.closes = T::select(zero.less(holds), self.closes, zero);
     }
 

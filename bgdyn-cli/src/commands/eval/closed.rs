@@ -1,7 +1,7 @@
 //! Positions of mechanisms and scenes with loops: closed if they are open by rounding.
 
 use bgdyn_codegen::mechanism::closure::{Closure, polygons};
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Cause, Dd};
 
 use super::states::{Failure, plain};
 
@@ -9,12 +9,17 @@ use super::states::{Failure, plain};
 const OPEN: f64 = 1e-6;
 
 /// Returns the failure at a singular position of a loop, or beyond one.
-pub(super) fn singular_loop(closure: Option<&Closure>, closes: usize) -> Failure {
+pub(super) fn singular_loop(closure: Option<&Closure>, closes: usize, cause: Cause) -> Failure {
     let one = closure.and_then(|closure| closure.loops.get(closes));
     let name = one.map_or("", |one| &one.name);
-    plain(format!(
-        "the loop `{name}` is at a singular position, or on another branch than that of the start"
-    ))
+    plain(match cause {
+        Cause::OutOfReach => {
+            format!("the loop `{name}` is out of reach, or at the end of its reach")
+        }
+        _ => format!(
+            "the loop `{name}` is at a singular position, or on another branch than that of the start"
+        ),
+    })
 }
 
 /// Returns the failure where the actuated joints do not determine this independent joint.
@@ -50,7 +55,7 @@ pub(super) fn closed(closure: &Closure, q: &[f64]) -> Result<Vec<f64>, Failure> 
     if let (Some(block), true) = (pairs.position(|(x, y)| x != y), polygons(closure).is_some()) {
         let row = closure.blocks[block].rows.first();
         let closes = row.map_or(0, |&r| closure.rows[r].closes);
-        return Err(singular_loop(Some(closure), closes));
+        return Err(singular_loop(Some(closure), closes, Cause::Branch));
     }
     Ok(exact.into_iter().map(Dd::to_f64).collect())
 }

@@ -11,7 +11,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::options::Preference;
 use bgdyn_codegen::scene::QuasiJoint;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Cause, Dd};
 use serde_json::{Value, json};
 
 use super::arguments::Eval;
@@ -118,9 +118,11 @@ impl SceneCall<'_> {
             Status::Done => Ok(self.shaped(&at, &values)),
             Status::Refused(j) => {
                 let layout = &self.system.scene.layout;
-                Err(match j.checked_sub(layout.nv() + layout.nx()) {
-                    None => singular(&self.names.coordinates[j]),
-                    Some(closes) => singular_loop(self.system.scene.mechanism.closure(), closes),
+                let rates = layout.nv() + layout.nx();
+                let closure = self.system.scene.mechanism.closure();
+                Err(match Cause::of_pivot(j, rates) {
+                    (Cause::Pivot, j) => singular(&self.names.coordinates[j]),
+                    (cause, i) => singular_loop(closure, i - rates, cause),
                 })
             }
             Status::NotFinite(_) => Err(plain(

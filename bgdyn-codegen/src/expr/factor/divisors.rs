@@ -12,7 +12,7 @@ use crate::expr::index::{Index, mix};
 /// A divisor, with the variables whose sums may contain it.
 struct Divisor {
     key: DivisorKey,
-    places: Vec<Var>,
+    occurrences: Vec<Var>,
     /// Upper bound of the saving.
     bound: isize,
 }
@@ -60,7 +60,7 @@ impl Divisors {
                 self.by_key.insert(hash, id as u32);
                 self.all.push(Divisor {
                     key,
-                    places: Vec::new(),
+                    occurrences: Vec::new(),
                     bound: cost,
                 });
                 id
@@ -71,8 +71,8 @@ impl Divisors {
             divisor.bound = cost;
         }
         divisor.bound += saved;
-        if divisor.places.last() != Some(&var) {
-            divisor.places.push(var);
+        if divisor.occurrences.last() != Some(&var) {
+            divisor.occurrences.push(var);
         }
         if divisor.bound > 0 {
             self.queue.push((divisor.bound, Reverse(id)));
@@ -80,11 +80,11 @@ impl Divisors {
     }
 
     /// Returns the variables whose sums may contain it, each once, in order.
-    pub fn places(&mut self, id: usize) -> Vec<Var> {
-        let places = &mut self.all[id].places;
-        places.sort_unstable();
-        places.dedup();
-        places.clone()
+    pub fn occurrences(&mut self, id: usize) -> Vec<Var> {
+        let occurrences = &mut self.all[id].occurrences;
+        occurrences.sort_unstable();
+        occurrences.dedup();
+        occurrences.clone()
     }
 
     /// Returns the id of a number.

@@ -127,7 +127,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         bound: isize,
     ) -> isize {
         let mut found: Vec<(Var, usize)> = Vec::new();
-        for var in self.divisors.places(id) {
+        for var in self.divisors.occurrences(id) {
             let terms = self.terms(var);
             let holds = |t: &NetworkTerm| self.without(t, a, b).is_some();
             found.extend(
@@ -212,9 +212,9 @@ impl<'a, 'g> Extraction<'a, 'g> {
         var_of: impl Fn(&F) -> Var,
         new: impl Fn(&Self, &F) -> Option<(Vec<usize>, NetworkTerm)>,
     ) {
-        for places in found.chunk_by(|x, y| var_of(x) == var_of(y)) {
-            let var = var_of(&places[0]);
-            let new: Vec<_> = places.iter().filter_map(|p| new(self, p)).collect();
+        for candidates in found.chunk_by(|x, y| var_of(x) == var_of(y)) {
+            let var = var_of(&candidates[0]);
+            let new: Vec<_> = candidates.iter().filter_map(|p| new(self, p)).collect();
             let gone: Vec<usize> = new.iter().flat_map(|(terms, _)| terms.clone()).collect();
             let terms = self.network.sums[var as usize].take().unwrap_or_default();
             let kept = terms.into_iter().enumerate();
@@ -240,7 +240,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         );
         let r = self.divisors.number(r);
         let mut found: Vec<Occurrence> = Vec::new();
-        for var in self.divisors.places(id) {
+        for var in self.divisors.occurrences(id) {
             self.find(var, &a, &b, r, &mut found);
         }
         let mut best: (isize, Dd) = (0, Dd::ONE);
@@ -257,7 +257,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
         let whole =
             |p: &&Occurrence| p.rest.is_empty() && near(p.k, scale) && self.terms(p.var).len() == 2;
         let sum = match found.iter().find(whole) {
-            Some(place) => place.var,
+            Some(candidate) => candidate.var,
             None => self.define(vec![
                 NetworkTerm {
                     k: scale,
@@ -316,10 +316,10 @@ impl<'a, 'g> Extraction<'a, 'g> {
     fn saved(&self, found: &[Occurrence], (a, b, r): (&[Var], &[Var], Dd), scale: Dd) -> isize {
         let cost = 1 + product_cost(scale, a.len()) + product_cost(scale * r, b.len());
         let mut saved = -(cost as isize);
-        for place in found {
-            let terms = self.terms(place.var);
-            let [s, t] = place.terms;
-            let after = product_cost(quotient_of(place.k, scale), place.rest.len() + 1);
+        for candidate in found {
+            let terms = self.terms(candidate.var);
+            let [s, t] = candidate.terms;
+            let after = product_cost(quotient_of(candidate.k, scale), candidate.rest.len() + 1);
             saved += (terms[s].cost() + terms[t].cost() + 1) as isize - after as isize;
         }
         saved

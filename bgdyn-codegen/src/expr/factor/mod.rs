@@ -69,11 +69,11 @@ impl Best {
         let (mut i, mut unchanged) = (0, 0);
         let mut tries = 4 * MAX_POLISHED_OPERATIONS;
         while unchanged < self.graph.len() && tries > 0 {
-            let place = i % self.graph.len();
+            let index = i % self.graph.len();
             (i, unchanged) = (i + 1, unchanged + 1);
-            if (1..=3).contains(&readers[place]) {
+            if (1..=3).contains(&readers[index]) {
                 tries -= 1;
-                if self.improve(Inline::One(NodeId(place as u32))) {
+                if self.improve(Inline::One(NodeId(index as u32))) {
                     readers = self::readers(&self.graph, &self.outputs);
                     unchanged = 0;
                 }

@@ -10,7 +10,7 @@
 //! H = first × second. The dependent angles are not needed: a sum of angles is one of independent angles and those of
 //! the directions, and its cosine and sine are a product of complex numbers.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, OUT_OF_REACH};
 
 use super::plane::{InPlane, direction};
 use super::sums::{JointSum, JointSums, unknown};
@@ -247,7 +247,7 @@ impl<'a, 'g> ClosedPositions<'a, 'g> {
                 let sampled = samples.map(|q| at(b, &[argument.signed()], q)[0]);
                 let size = size.map(Dd::to_f64);
                 let size = size.unwrap_or_else(|| sampled.fold(0.0, f64::max));
-                argument.pivot(b.number(size), first + polygon.closes)
+                argument.pivot(b.number(size), OUT_OF_REACH + first + polygon.closes)
             }
         };
         let root = checked.sqrt();

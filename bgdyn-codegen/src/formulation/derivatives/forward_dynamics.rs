@@ -88,7 +88,7 @@ impl ForwardDerivatives {
         let inverse_at = n + (by_position + n) * n;
         let mut parts = vec![ResultSource::Stage(0); inverse_at + n * n];
         // The index of row i of a column; columns of both matrices are numbered consecutively.
-        let place = |c: usize, i: usize| match c.checked_sub(by_position) {
+        let index = |c: usize, i: usize| match c.checked_sub(by_position) {
             None => n + i * by_position + c,
             Some(c) => n + by_position * n + i * n + c,
         };
@@ -102,7 +102,7 @@ impl ForwardDerivatives {
                 looped[c] = true;
                 for row in 0..n {
                     let group = loops.len();
-                    parts[place(c, row)] = ResultSource::Column { group, column, row };
+                    parts[index(c, row)] = ResultSource::Column { group, column, row };
                 }
             }
             loops.push(found);
@@ -112,7 +112,7 @@ impl ForwardDerivatives {
         }
         for c in (0..self.columns.len()).filter(|&c| !looped[c]) {
             for (i, e) in self.along(&self.columns[c]).into_iter().enumerate() {
-                parts[place(c, i)] = ResultSource::Stage(stage.add(e));
+                parts[index(c, i)] = ResultSource::Stage(stage.add(e));
             }
         }
         // Of two symmetric entries of M⁻¹ use the one nearer to the base, which needs fewer operations.
@@ -195,16 +195,16 @@ impl Stage {
     /// Returns the index of the expression among the results; adds it if it is new.
     fn add(&mut self, e: Signed) -> usize {
         match self.known.get(&e) {
-            Some(&place) => place,
+            Some(&index) => index,
             None => self.add_anew(e),
         }
     }
 
     /// Adds the expression as a separate result.
     fn add_anew(&mut self, e: Signed) -> usize {
-        let place = self.results.len();
+        let index = self.results.len();
         self.results.push(e);
-        self.known.entry(e).or_insert(place);
-        place
+        self.known.entry(e).or_insert(index);
+        index
     }
 }

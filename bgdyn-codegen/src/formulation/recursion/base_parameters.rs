@@ -16,7 +16,7 @@ use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::value;
 use crate::math::Vec3;
 use crate::mechanism::joint::Column;
-use crate::mechanism::{Inertial, Motion, ParameterId, Pose, Tensor, Value};
+use crate::mechanism::{Inertial, LinkId, Motion, ParameterId, Pose, Tensor, Value};
 
 /// Inertia of a body about its origin, in its axes.
 pub(super) struct Parts<'g> {
@@ -62,7 +62,7 @@ pub(super) fn regrouped<'g>(
     plan: &Plan,
 ) -> (Vec<Parts<'g>>, Expr<'g>) {
     if !graph.parameters.is_empty() {
-        return regroup(b, graph, geometry, plan);
+        return regroup(b, graph, geometry, plan, |_| true);
     }
     let before = &geometry.regrouped;
     if let Some(known) = before.find(&plan.slides, plan.base_parameters) {
@@ -73,7 +73,7 @@ pub(super) fn regrouped<'g>(
         });
         return (parts.collect(), b.constant(known.energy));
     }
-    let (bodies, energy) = regroup(b, graph, geometry, plan);
+    let (bodies, energy) = regroup(b, graph, geometry, plan, |_| true);
     let numbers = bodies.iter().map(|parts| parts.known.numbers());
     if let (Some(bodies), Some(energy)) = (numbers.collect(), energy.as_constant()) {
         before.keep(Numbers {
@@ -86,14 +86,15 @@ pub(super) fn regrouped<'g>(
     (bodies, energy)
 }
 
-/// Regroups the inertia.
-fn regroup<'g>(
+/// Regroups the inertia of these links.
+pub(super) fn regroup<'g>(
     b: &'g Builder,
     graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
+    counts: impl Fn(LinkId) -> bool,
 ) -> (Vec<Parts<'g>>, Expr<'g>) {
-    let parts = |j: usize| parts(b, graph, &geometry.bodies[j], plan, j);
+    let parts = |j: usize| parts(b, graph, &geometry.bodies[j], (plan, j), &counts);
     let mut bodies: Vec<Parts<'g>> = (0..geometry.bodies.len()).map(parts).collect();
     let mut energy = constant_energy(b, graph, geometry, plan);
     if !plan.base_parameters {
@@ -133,9 +134,15 @@ fn regroup<'g>(
     (bodies, energy)
 }
 
-/// Returns the parts of body j in the spec. A tensor is divided by its parameters: multiples of one
+/// Returns the parts of body j in the spec, of these links. A tensor is divided by its parameters: multiples of one
 /// parameter remain multiples when they move, and their factors fold.
-fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usize) -> Parts<'g> {
+fn parts<'g>(
+    b: &'g Builder,
+    graph: &Multibody,
+    body: &Body,
+    (plan, j): (&Plan, usize),
+    counts: &impl Fn(LinkId) -> bool,
+) -> Parts<'g> {
     let mut parts = Parts {
         known: BodyInertia::zero(b),
         varying: Vec::new(),
@@ -143,11 +150,11 @@ fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usi
     };
     let to_body = body.axes.transpose();
     let slide = b.vector(Vec3([Dd::ZERO, Dd::ZERO, plan.slides[j]]));
-    for (link, place) in &body.links {
+    for (link, pose) in body.links.iter().filter(|(link, _)| counts(*link)) {
         let inertial = graph.inertial(*link);
-        let point = point(b, &inertial, place);
+        let point = point(b, &inertial, pose);
         let point = Point {
-            place: to_body.map(|x| b.constant(x)) * point.place - slide,
+            position: to_body.map(|x| b.constant(x)) * point.position - slide,
             ..point
         };
         if plan.apart[j] && !point.is_constant() {
@@ -158,7 +165,7 @@ fn parts<'g>(b: &'g Builder, graph: &Multibody, body: &Body, plan: &Plan, j: usi
         }
         let tensor = inertial.inertia;
         let turned = |entries| {
-            BodyInertia::of_tensor(b, entries).rotated(b, to_body * place.rotation * tensor.axes)
+            BodyInertia::of_tensor(b, entries).rotated(b, to_body * pose.rotation * tensor.axes)
         };
         let only = |wanted: Option<ParameterId>| {
             tensor.entries.map(|x| match (x, wanted) {
@@ -190,11 +197,11 @@ fn parameters(tensor: &Tensor) -> Vec<ParameterId> {
 }
 
 /// Returns a link's mass at its centre, in the axes in which the link's pose is given.
-fn point<'g>(b: &'g Builder, inertial: &Inertial, place: &Pose) -> Point<'g> {
+fn point<'g>(b: &'g Builder, inertial: &Inertial, pose: &Pose) -> Point<'g> {
     let com = inertial.com.map(|x| value(b, x));
     Point {
         mass: value(b, inertial.mass),
-        place: place.rotation.map(|x| b.constant(x)) * com + b.vector(place.translation),
+        position: pose.rotation.map(|x| b.constant(x)) * com + b.vector(pose.translation),
     }
 }
 
@@ -206,11 +213,11 @@ fn constant_energy<'g>(
     plan: &Plan,
 ) -> Expr<'g> {
     let gravity = b.vector(graph.gravity);
-    let weigh = |mass: Expr<'g>, place: Vec3<Expr<'g>>| gravity.dot(place.scale(mass));
+    let weigh = |mass: Expr<'g>, at: Vec3<Expr<'g>>| gravity.dot(at.scale(mass));
     let mut energy = b.zero();
-    for (link, place) in &geometry.fixed {
-        let point = point(b, &graph.inertial(*link), place);
-        energy = energy - weigh(point.mass, point.place);
+    for (link, pose) in &geometry.fixed {
+        let point = point(b, &graph.inertial(*link), pose);
+        energy = energy - weigh(point.mass, point.position);
     }
     for (j, body) in geometry.bodies.iter().enumerate() {
         let mut root = j;

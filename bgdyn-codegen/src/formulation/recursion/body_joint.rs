@@ -58,20 +58,20 @@ impl BodyJoint<'_> {
     pub fn slid<'g>(
         &self,
         b: &'g Builder,
-        mut place: Vec3<Expr<'g>>,
+        mut at: Vec3<Expr<'g>>,
         x: &Arguments<'g>,
     ) -> Vec3<Expr<'g>> {
         let per_position = match self.body.motion {
-            Motion::Rotation => return place,
+            Motion::Rotation => return at,
             Motion::Translation => Dd::ONE / self.unit,
             _ => self.link.degrees.advance / self.unit,
         };
         let moved = self.position(b, x) * per_position;
-        place.0[2] = place.0[2] + moved;
+        at.0[2] = at.0[2] + moved;
         if self.offset() != Dd::ZERO {
-            place.0[2] = place.0[2] + b.constant(self.offset() * per_position);
+            at.0[2] = at.0[2] + b.constant(self.offset() * per_position);
         }
-        place
+        at
     }
 
     /// Returns rate and second rate about or along z; zero for a joint with several velocities.

@@ -108,14 +108,14 @@ fn outputs(
 fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     let placed = placed(b, frames);
     let axes: Vec<Axis<'g>> = (frames.bodies.iter().zip(&placed))
-        .map(|(frame, place)| axis(b, frame, place))
+        .map(|(frame, axes)| axis(b, frame, axes))
         .collect();
     let units = composites(b, frames);
-    let momenta = units.iter().zip(&placed).map(|(unit, place)| {
+    let momenta = units.iter().zip(&placed).map(|(unit, axes)| {
         let frame = &frames.bodies[unit.joint];
         b.section(|| format!("{}: momentum in common axes", frame.name));
-        let turned = unit.map(|v| (place.basis * v).map(|x| x * frame.effort));
-        turned.carried(place.origin)
+        let turned = unit.map(|v| (axes.basis * v).map(|x| x * frame.effort));
+        turned.carried(axes.origin)
     });
     let momenta: Vec<Momentum<'g>> = momenta.collect();
     let rows = units.iter().zip(&momenta);
@@ -155,7 +155,7 @@ fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<PlacedAxis<'g>> {
         b.section(|| format!("{}: its axes and origin", frame.name));
         let rows_turned =
             |m: &Mat3<Expr<'g>>| Mat3(m.0.map(|row| frame.turn.apply_back(Vec3(row)).0));
-        let place = match frame.parent {
+        let axes = match frame.parent {
             None => PlacedAxis {
                 basis: rows_turned(&unit).transpose(),
                 own: unit,
@@ -175,7 +175,7 @@ fn placed<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<PlacedAxis<'g>> {
                 }
             }
         };
-        placed.push(place);
+        placed.push(axes);
     }
     placed
 }
@@ -188,13 +188,13 @@ struct Axis<'g> {
 }
 
 /// Returns the axis of a joint from the pose of its body; forces along it count as efforts.
-fn axis<'g>(b: &'g Builder, frame: &BodyFrame<'g>, place: &PlacedAxis<'g>) -> Axis<'g> {
+fn axis<'g>(b: &'g Builder, frame: &BodyFrame<'g>, axes: &PlacedAxis<'g>) -> Axis<'g> {
     b.section(|| format!("`{}`: its axis", frame.joint));
-    let z = place.basis.column(2).map(|x| x * frame.effort);
+    let z = axes.basis.column(2).map(|x| x * frame.effort);
     match frame.motion {
         Motion::Rotation => Axis {
             angular: z,
-            linear: place.origin.cross(z),
+            linear: axes.origin.cross(z),
         },
         _ => Axis {
             angular: Vec3([b.zero(); 3]),

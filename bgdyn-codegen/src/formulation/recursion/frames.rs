@@ -6,10 +6,11 @@ use bgdyn_runtime::Dd;
 
 use super::base_parameters::{Parts, regrouped};
 use super::body_joint::BodyJoint;
+use super::contents::contents;
 use super::geometry::Geometry;
 use super::inertia::{BodyInertia, Point};
 use super::joint_columns::{ColumnDirection, JointColumn, joint_columns};
-use super::names::{name_body, name_number};
+use super::names::{name_body, name_contents, name_number};
 use super::plan::{Plan, origin_offset};
 use super::rotation::{JointPose, Rotation, joint_pose};
 use super::rotors::Rotors;
@@ -17,8 +18,8 @@ use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
 use crate::math::{Mat3, Vec3, angle_of};
-use crate::mechanism::Motion;
 use crate::mechanism::joint::Column;
+use crate::mechanism::{LinkId, Motion};
 
 /// A body of the recursion. Lengths are in units of the plan.
 pub(super) struct BodyFrame<'g> {
@@ -194,6 +195,9 @@ impl<'g> Frames<'g> {
             names: graph.coordinates.iter().map(|c| c.name.clone()).collect(),
         };
         name_data(&frames);
+        if !b.is_silent() {
+            describe_data(&frames, graph, geometry, (plan, &aims));
+        }
         frames
     }
 }
@@ -293,5 +297,22 @@ fn name_data(frames: &Frames<'_>) {
         }
         name_number(&frame.position, "r", &frame.name);
         name_body(&frame.inertia, &frame.name);
+    }
+}
+
+/// Says which links the numbers of each body are sums of.
+fn describe_data(
+    frames: &Frames<'_>,
+    graph: &Multibody,
+    geometry: &Geometry,
+    (plan, aims): (&Plan, &[(Dd, Dd)]),
+) {
+    let contents = contents(graph, geometry, plan);
+    let bodies = frames.bodies.iter().zip(&geometry.bodies);
+    for (((frame, body), contents), aim) in bodies.zip(&contents).zip(aims) {
+        let own: Vec<LinkId> = body.links.iter().map(|(link, _)| *link).collect();
+        let aimed = *aim != (Dd::ONE, Dd::ZERO);
+        let name = |link: LinkId| graph.frames[link.0].name.clone();
+        name_contents(&frame.inertia, (&own, aimed), contents, name);
     }
 }

@@ -91,11 +91,11 @@ impl Body {
     /// almost perpendicular to that coordinate's, the displacement is as far as in
     /// [`Body::normal_feet`], and left out for the same reason.
     pub fn near_parent(&self) -> Vec<Dd> {
-        let [place, z] = [self.twist * self.offset, self.twist.column(2)].map(|v| v.0);
+        let [origin, z] = [self.twist * self.offset, self.twist.column(2)].map(|v| v.0);
         let size = largest(self.offset);
         let near =
-            |k: &usize| z[*k] != Dd::ZERO && place[*k].hi().abs() <= FAR * size * z[*k].hi().abs();
-        let zeros = (0..3).filter(near).map(|k| -place[k] / z[k]);
+            |k: &usize| z[*k] != Dd::ZERO && origin[*k].hi().abs() <= FAR * size * z[*k].hi().abs();
+        let zeros = (0..3).filter(near).map(|k| -origin[k] / z[k]);
         [-self.offset.0[2]].into_iter().chain(zeros).collect()
     }
 }
@@ -133,22 +133,22 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
     let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();
     let mut placed: Vec<Pose> = Vec::new();
     for (i, frame) in graph.frames.iter().enumerate() {
-        let (parent, place) = match frame.parent {
+        let (parent, pose) = match frame.parent {
             None => (None, frame.origin),
             Some(p) => (homes[p.0].0, compose(&homes[p.0].1, &frame.origin)),
         };
         if frame.motion == Motion::None {
-            homes.push((parent, place));
+            homes.push((parent, pose));
             match parent {
-                Some(body) => made.bodies[body].links.push((LinkId(i), place)),
-                None => made.fixed.push((LinkId(i), place)),
+                Some(body) => made.bodies[body].links.push((LinkId(i), pose)),
+                None => made.fixed.push((LinkId(i), pose)),
             }
             continue;
         }
         let still = Pose::IDENTITY;
         let axial = frame.motion.has_axis();
         homes.push((Some(made.bodies.len()), still));
-        placed.push(place);
+        placed.push(pose);
         made.bodies.push(Body {
             name: frame.name.clone(),
             joint: match frame.coordinate {
@@ -162,7 +162,7 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
             opposite: false,
             planar: false,
             twist: identity(),
-            offset: place.translation,
+            offset: pose.translation,
             phase: (Dd::ONE, Dd::ZERO),
             axes: match axial {
                 true => basis_with_z(frame.axis),

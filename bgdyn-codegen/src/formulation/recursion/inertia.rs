@@ -35,20 +35,20 @@ pub(super) struct Point<'g> {
     /// m, kg
     pub mass: Expr<'g>,
     /// s, m
-    pub place: Vec3<Expr<'g>>,
+    pub position: Vec3<Expr<'g>>,
 }
 
 impl<'g> Point<'g> {
     /// Returns whether everything is known at generation time.
     pub fn is_constant(&self) -> bool {
-        let mut entries = self.place.0.iter().chain([&self.mass]);
+        let mut entries = self.position.0.iter().chain([&self.mass]);
         entries.all(|e| e.as_constant().is_some())
     }
 
     /// Returns it rotated.
     pub fn turned(&self, turn: Rotation<'g>) -> Self {
         Point {
-            place: turn.apply(self.place),
+            position: turn.apply(self.position),
             ..*self
         }
     }
@@ -57,7 +57,7 @@ impl<'g> Point<'g> {
     pub fn in_units_of(&self, length: Dd) -> Self {
         Point {
             mass: self.mass * (length * length),
-            place: self.place.map(|s| s * (Dd::ONE / length)),
+            position: self.position.map(|s| s * (Dd::ONE / length)),
         }
     }
 }
@@ -81,7 +81,7 @@ impl<'g> BodyInertia<'g> {
             axial: point.mass,
             ..BodyInertia::zero(b)
         }
-        .shifted(point.place)
+        .shifted(point.position)
     }
 
     /// Returns the inertia about the centre of mass, without the mass, from the tensor J about it.
@@ -223,13 +223,17 @@ impl<'g> BodyInertia<'g> {
         }
     }
 
-    /// Returns mass, axial mass, first moment and D, if all are known at generation time.
-    pub fn numbers(&self) -> Option<[Dd; 11]> {
+    /// Returns mass, axial mass, first moment and D.
+    pub fn entries(&self) -> [Expr<'g>; 11] {
         let [hx, hy, hz] = self.first.0;
         let [xx, yy, zz, xy, xz, yz] = self.pseudo;
-        let entries = [self.mass, self.axial, hx, hy, hz, xx, yy, zz, xy, xz, yz];
+        [self.mass, self.axial, hx, hy, hz, xx, yy, zz, xy, xz, yz]
+    }
+
+    /// Returns [`BodyInertia::entries`], if all are known at generation time.
+    pub fn numbers(&self) -> Option<[Dd; 11]> {
         let mut numbers = [Dd::ZERO; 11];
-        for (number, entry) in numbers.iter_mut().zip(entries) {
+        for (number, entry) in numbers.iter_mut().zip(self.entries()) {
             *number = entry.as_constant()?;
         }
         Some(numbers)

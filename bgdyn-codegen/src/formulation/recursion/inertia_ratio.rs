@@ -85,24 +85,24 @@ struct LumpedBody {
 impl LumpedBody {
     fn new(graph: &Multibody, body: &Body) -> Self {
         let mut sum = LumpedBody::default();
-        for (link, place) in &body.links {
-            sum.add(graph, body, *link, place);
+        for (link, pose) in &body.links {
+            sum.add(graph, body, *link, pose);
         }
         sum
     }
 
-    fn add(&mut self, graph: &Multibody, body: &Body, link: LinkId, place: &Pose) {
+    fn add(&mut self, graph: &Multibody, body: &Body, link: LinkId, pose: &Pose) {
         let inertial = graph.inertial(link);
         let number = |x: Value| match x {
             Value::Fixed(x) => x,
             Value::Parameter(p) => graph.parameters[p.0].default,
         };
-        let r = place.translation + place.rotation * inertial.com.map(number);
+        let r = pose.translation + pose.rotation * inertial.com.map(number);
         let z = body.axes.column(2);
         let mass = number(inertial.mass).to_f64();
         let tensor = &inertial.inertia;
         let [xx, yy, zz, xy, xz, yz] = tensor.entries.map(|x| number(x).to_f64());
-        let in_tensor_axes = tensor.axes.transpose() * (place.rotation.transpose() * z);
+        let in_tensor_axes = tensor.axes.transpose() * (pose.rotation.transpose() * z);
         let [u, v, w] = in_tensor_axes.0.map(|x| x.to_f64());
         let across = z.cross(r);
         self.mass += mass;

@@ -178,10 +178,10 @@ pub(super) fn dynamics<'g>(
 
 /// Returns F = m (a + U s) and N = s × F of a point mass.
 fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Expr<'g>>) -> BodyWrench<'g> {
-    let force = (a + spin.u * point.place).scale(point.mass);
+    let force = (a + spin.u * point.position).scale(point.mass);
     BodyWrench {
         force,
-        moment: point.place.cross(force),
+        moment: point.position.cross(force),
     }
 }
 

@@ -85,7 +85,7 @@ fn motion<'g>(
     b.section(|| format!("{}: its axes and place in the world", site.name));
     let n = graph.coordinates.len();
     let mut columns: Vec<Option<JacobianColumn<'g>>> = vec![None; n];
-    let (body, in_body) = home(geometry, site.link, &site.place);
+    let (body, in_body) = home(geometry, site.link, &site.pose);
     let (rotation, origin) = in_body;
     let (mut rotation, mut origin) = (rotation.map(|x| b.constant(x)), b.vector(origin));
     if let Some(body) = body {
@@ -174,15 +174,15 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
 fn home(
     geometry: &Geometry,
     link: Option<LinkId>,
-    place: &Pose,
+    pose: &Pose,
 ) -> (Option<usize>, (Mat3<Dd>, Vec3<Dd>)) {
-    let still = (place.rotation, place.translation);
+    let still = (pose.rotation, pose.translation);
     let Some(link) = link else {
         return (None, still);
     };
     let within = |outer: &Pose| {
-        let p = outer.translation + outer.rotation * place.translation;
-        (outer.rotation * place.rotation, p)
+        let p = outer.translation + outer.rotation * pose.translation;
+        (outer.rotation * pose.rotation, p)
     };
     for (j, body) in geometry.bodies.iter().enumerate() {
         if let Some((_, outer)) = body.links.iter().find(|(l, _)| *l == link) {

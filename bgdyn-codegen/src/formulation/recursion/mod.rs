@@ -34,6 +34,7 @@ mod base_parameter_cache;
 mod base_parameters;
 mod body_joint;
 mod common_axes;
+mod contents;
 mod derivatives;
 mod energies;
 pub(crate) mod expressions;

@@ -238,7 +238,7 @@ fn still(b: &Builder) -> Spin<'_> {
 fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
     let back = twist.transpose().map(|x| b.constant(x));
     let (omega, omega_dot) = (back * parent.omega, back * parent.omega_dot);
-    let Some(places) = permutation(twist) else {
+    let Some(indices) = permutation(twist) else {
         // For a general rotation, computing U again costs less than rotating it.
         let u = u_of(omega, omega_dot);
         return Spin {
@@ -251,9 +251,9 @@ fn twisted<'g>(b: &'g Builder, parent: &Spin<'g>, twist: Mat3<Dd>) -> Spin<'g> {
     let u = back * parent.u * back.transpose();
     // Each difference is a difference of the parent, with the sign of the permutation of its two axes.
     let difference = |k: usize| {
-        let (upper, lower) = (places[(k + 2) % 3], places[(k + 1) % 3]);
+        let (upper, lower) = (indices[(k + 2) % 3], indices[(k + 1) % 3]);
         let kept = (lower + 1) % 3 == upper;
-        let d = parent.differences.0[places[k]];
+        let d = parent.differences.0[indices[k]];
         if kept { d } else { -d }
     };
     Spin {

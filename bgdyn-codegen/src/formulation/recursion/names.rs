@@ -1,10 +1,18 @@
 //! Names vectors, tensors and inertias for readers of the output; `legend.rs` defines their meaning.
 
+use std::collections::BTreeSet;
+
+use super::contents::Contents;
 use super::inertia::BodyInertia;
 use crate::expr::Expr;
 use crate::math::{Mat3, Vec3};
+use crate::mechanism::LinkId;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// The numbers of a body that a turn about z mixes: h_x, h_y; D_xx, D_yy, D_xy; D_xz, D_yz.
+const ALIKE: [&[usize]; 3] = [&[2, 3], &[5, 6, 8], &[9, 10]];
+
 const PAIRS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
 
 /// Names the components of a vector: `h_x_forearm`.
@@ -33,6 +41,31 @@ pub(super) fn name_body(inertia: &BodyInertia<'_>, body: &str) {
     }
     let j_zz = inertia.d(0, 0) + inertia.d(1, 1);
     j_zz.named(|| format!("j_zz_{body}"));
+}
+
+/// Says which links the named numbers of a body are sums of, where these are others than those fixed to it. `aimed`: its
+/// axes are turned about z.
+pub(super) fn name_contents(
+    inertia: &BodyInertia<'_>,
+    (own, aimed): (&[LinkId], bool),
+    contents: &Contents,
+    name: impl Fn(LinkId) -> String,
+) {
+    let describe = |x: Expr<'_>, components: &[usize]| {
+        let links = components.iter().flat_map(|&k| &contents[k]);
+        let links: BTreeSet<LinkId> = links.copied().collect();
+        if links.iter().any(|link| !own.contains(link)) {
+            let names: Vec<String> = links.into_iter().map(&name).collect();
+            x.containing(|| format!("of {}", names.join(", ")));
+        }
+    };
+    for (k, x) in inertia.entries().into_iter().enumerate() {
+        match ALIKE.iter().find(|alike| aimed && alike.contains(&k)) {
+            Some(alike) => describe(x, alike),
+            None => describe(x, &[k]),
+        }
+    }
+    describe(inertia.d(0, 0) + inertia.d(1, 1), &[5, 6]);
 }
 
 /// Names given numbers of a mechanism, unless another quantity has the value.

@@ -44,15 +44,15 @@ impl BestPlan {
         };
         let weight = cost.weighted();
         let above = |all: &[Tried]| all.partition_point(|t| t.cost.weighted() <= weight);
-        let place = above(&self.plans);
-        if place < KEPT && self.plans.iter().all(|t| t.plan != *plan) {
-            self.plans.insert(place, tried());
+        let rank = above(&self.plans);
+        if rank < KEPT && self.plans.iter().all(|t| t.plan != *plan) {
+            self.plans.insert(rank, tried());
             self.plans.truncate(KEPT);
         }
-        let place = above(&self.steps);
-        let known = place > 0 && self.steps[place - 1].cost.weighted() == weight;
-        if place < KEPT && !known {
-            self.steps.insert(place, tried());
+        let rank = above(&self.steps);
+        let known = rank > 0 && self.steps[rank - 1].cost.weighted() == weight;
+        if rank < KEPT && !known {
+            self.steps.insert(rank, tried());
             self.steps.truncate(KEPT);
         }
     }
@@ -105,7 +105,7 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestP
     }
     if !few && free {
         let start = best.taken().clone();
-        improve(&mut best, start, &places(geometry), 1, &cost);
+        improve(&mut best, start, &slide_changes(geometry), 1, &cost);
     }
     best
 }
@@ -148,7 +148,7 @@ fn improve(
 pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
     let mut best = BestPlan::default();
     let changes = match geometry.bodies.len() <= SEARCHED {
-        true => places(geometry),
+        true => slide_changes(geometry),
         false => Vec::new(),
     };
     improve(&mut best, start.clone(), &changes, 1, cost);
@@ -173,19 +173,19 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         linear_first: false,
         views: vec![PartialsPlan::default(); n],
     };
-    let mut places = vec![(0..n).map(|j| slides(geometry, j)[0]).collect::<Vec<Dd>>()];
+    let mut all_slides = vec![(0..n).map(|j| slides(geometry, j)[0]).collect::<Vec<Dd>>()];
     if geometry.bodies.iter().any(|body| !body.axial) {
         let mut next = vec![Dd::ZERO; n];
         for j in 0..n {
             next[j] = next_to_parent(geometry, j, &next);
         }
-        places.push(next);
+        all_slides.push(next);
     }
     let groups = geometry.bodies.iter().any(|b| b.parallel);
     let grouped: &[bool] = if groups { &[true, false] } else { &[false] };
     let all = grouped
         .iter()
-        .flat_map(|&g| places.iter().map(move |p| (g, p)));
+        .flat_map(|&g| all_slides.iter().map(move |p| (g, p)));
     all.map(|(grouped, slides)| plan(grouped, slides.clone()))
         .collect()
 }
@@ -206,7 +206,7 @@ fn next_to_parent(geometry: &Geometry, j: usize, slides: &[Dd]) -> Dd {
 type PlanChange<'a> = Box<dyn Fn(&mut Plan) + 'a>;
 
 /// Returns every position of an origin and every unit of length, as a change of a plan.
-fn places(geometry: &Geometry) -> Vec<PlanChange<'_>> {
+fn slide_changes(geometry: &Geometry) -> Vec<PlanChange<'_>> {
     let mut changes: Vec<PlanChange<'_>> = Vec::new();
     for j in 0..geometry.bodies.len() {
         for h in slides(geometry, j) {
@@ -227,7 +227,7 @@ fn places(geometry: &Geometry) -> Vec<PlanChange<'_>> {
 /// Returns every single choice, as a change of a plan.
 fn changes(geometry: &Geometry) -> Vec<PlanChange<'_>> {
     let n = geometry.bodies.len();
-    let mut changes = places(geometry);
+    let mut changes = slide_changes(geometry);
     for j in (0..n).filter(|&j| geometry.bodies[j].axial) {
         changes.push(Box::new(move |plan| plan.in_basis[j] ^= true));
     }

@@ -148,6 +148,6 @@ fn product<'g>(first: [Dd; 4], second: [Expr<'g>; 4]) -> [Expr<'g>; 4] {
 pub(super) fn permutation(twist: Mat3<Dd>) -> Option<[usize; 3]> {
     // A rotation that differs by 1e-17 from a quarter turn has ones, but no zeros.
     let only = |k: usize, i: usize| (0..3).all(|l| l == i || twist.0[l][k] == Dd::ZERO);
-    let place = |k: usize| (0..3).find(|&i| only(k, i));
-    Some([place(0)?, place(1)?, place(2)?])
+    let index_of = |k: usize| (0..3).find(|&i| only(k, i));
+    Some([index_of(0)?, index_of(1)?, index_of(2)?])
 }

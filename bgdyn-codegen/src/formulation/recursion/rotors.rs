@@ -80,8 +80,8 @@ impl<'g> Rotors<'g> {
                 continue;
             };
             for (body, of) in geometry.bodies.iter().enumerate() {
-                if let Some((_, place)) = of.links.iter().find(|(l, _)| *l == carrier.link) {
-                    let [px, py, pz] = (of.axes.transpose() * (place.rotation * carrier.axis)).0;
+                if let Some((_, pose)) = of.links.iter().find(|(l, _)| *l == carrier.link) {
+                    let [px, py, pz] = (of.axes.transpose() * (pose.rotation * carrier.axis)).0;
                     let (c, s) = aims[body];
                     let axis = Vec3([c * px + s * py, c * py - s * px, pz]);
                     rotors.full.push(FullRotor {

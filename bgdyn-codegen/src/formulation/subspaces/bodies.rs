@@ -99,14 +99,14 @@ impl<'a, 'g> Bodies<'a, 'g> {
         // The body of each link, and the pose of the link in its axes.
         let mut homes: Vec<(Option<usize>, Pose)> = Vec::new();
         for (i, frame) in graph.frames.iter().enumerate() {
-            let (parent, place) = match frame.parent {
+            let (parent, pose) = match frame.parent {
                 None => (None, frame.origin),
                 Some(LinkId(p)) => (homes[p].0, after(homes[p].1, frame.origin)),
             };
-            let mut home = (parent, place);
+            let mut home = (parent, pose);
             if is_joint(frame) {
                 home = (Some(all.bodies.len()), Pose::IDENTITY);
-                all.bodies.push(body(b, frame, (parent, place), q));
+                all.bodies.push(body(b, frame, (parent, pose), q));
             }
             let inertia = Inertia::of_link(b, &graph.inertial(LinkId(i)), &home.1);
             let whole = match home.0 {
@@ -130,11 +130,11 @@ impl<'a, 'g> Bodies<'a, 'g> {
     }
 }
 
-/// Returns the body that a joint moves, without inertia. `place` is the joint's origin in the parent body.
+/// Returns the body that a joint moves, without inertia. `pose` is the joint's origin in the parent body.
 fn body<'g>(
     b: &'g Builder,
     frame: &LinkFrame,
-    (parent, place): (Option<usize>, Pose),
+    (parent, pose): (Option<usize>, Pose),
     q: &[Expr<'g>],
 ) -> SubspaceBody<'g> {
     let own = joint_positions(b, frame, q);
@@ -149,7 +149,7 @@ fn body<'g>(
         Motion::Translation => (Mat3::from_fn(one), b.vector(frame.axis).scale(own[0])),
         Motion::Compound(motion) => motion.pose(&frame.constants(), &own, &b),
     };
-    let fixed = place.rotation.map(|x| b.constant(x));
+    let fixed = pose.rotation.map(|x| b.constant(x));
     let column = |(j, column): (crate::mechanism::CoordinateId, Column<Dd>)| {
         let column = Column {
             angular: b.vector(column.angular),
@@ -160,8 +160,8 @@ fn body<'g>(
     SubspaceBody {
         parent,
         turned,
-        fixed: place.rotation,
-        position: b.vector(place.translation) + fixed * shift,
+        fixed: pose.rotation,
+        position: b.vector(pose.translation) + fixed * shift,
         columns: frame.columns().into_iter().map(column).collect(),
         axial: frame.motion.has_axis(),
         given: frame.motion.is_given(),

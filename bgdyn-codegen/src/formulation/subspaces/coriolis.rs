@@ -191,6 +191,6 @@ fn dot<'g>(a: Spatial<'g>, b: Spatial<'g>) -> Expr<'g> {
     a.0.dot(b.0) + a.1.dot(b.1)
 }
 
-fn add<'g>(matrix: &mut [Expr<'g>], place: usize, more: Expr<'g>) {
-    matrix[place] = matrix[place] + more;
+fn add<'g>(matrix: &mut [Expr<'g>], index: usize, more: Expr<'g>) {
+    matrix[index] = matrix[index] + more;
 }

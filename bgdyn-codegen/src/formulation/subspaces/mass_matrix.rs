@@ -16,11 +16,11 @@ impl<'g> Bodies<'_, 'g> {
         let composites = self.composites();
         for (i, body) in self.bodies.iter().enumerate() {
             let composite = &composites[i];
-            for (place, (j, s)) in body.columns.iter().enumerate() {
+            for (index, (j, s)) in body.columns.iter().enumerate() {
                 // p = m s + s × h, L = J s + h × s
                 let linear = s.linear.scale(composite.mass) + s.angular.cross(composite.first);
                 let angular = composite.tensor_times(s.angular) + composite.first.cross(s.linear);
-                for (k, other) in &body.columns[..=place] {
+                for (k, other) in &body.columns[..=index] {
                     let entry = other.angular.dot(angular) + other.linear.dot(linear);
                     let (row, column) = ((*j).max(*k), (*j).min(*k));
                     mass[row][column] = mass[row][column] + entry;

@@ -100,7 +100,7 @@ fn pass<'g>(
                 frame.name, frame.joint
             )
         });
-        let place = JointContext {
+        let context = JointContext {
             b,
             index: j,
             frame,
@@ -109,7 +109,7 @@ fn pass<'g>(
             factor,
             view: views[j],
         };
-        let axis = place.axis_of_body();
+        let axis = context.axis_of_body();
         for rotor in frames.rotors.on(j) {
             let seen = OutboardJoint::of_rotor(b, rotor, &axis);
             own[j].beyond.push(seen);
@@ -117,8 +117,8 @@ fn pass<'g>(
         for rotor in frames.rotors.on(j) {
             own[j].whole.add_rotor(b, rotor, factor);
         }
-        let mut beyond = derivatives.enter_beyond(&place, frames, &own[j], &basis[j]);
-        let partials = JointPartials::new(&place, &own[j], &basis[j]);
+        let mut beyond = derivatives.enter_beyond(&context, frames, &own[j], &basis[j]);
+        let partials = JointPartials::new(&context, &own[j], &basis[j]);
         let diagonal = partials.joint.diagonal(frame);
         derivatives.add(frames, (j, j), diagonal.own);
         beyond.push(partials.joint.entered(b, frame.motion, diagonal));
@@ -136,7 +136,7 @@ fn pass<'g>(
         } else {
             home.others = home.others.plus(&handed);
         }
-        let drift = drift(frame, place.before, factor);
+        let drift = drift(frame, context.before, factor);
         let twist = frame.twist.map(|x| b.constant(x));
         home.beyond.extend(beyond.into_iter().map(|joint| {
             let moved = joint.moved(frame.position, drift);
@@ -154,18 +154,18 @@ impl<'g> EffortDerivatives<'g> {
     /// Adds the entries of a joint with all outboard joints, and returns these in the axes of its basis.
     fn enter_beyond(
         &mut self,
-        place: &JointContext<'_, 'g>,
+        context: &JointContext<'_, 'g>,
         frames: &Frames<'g>,
         inner: &Subtree<'g>,
         outer: &Subtree<'g>,
     ) -> Vec<OutboardJoint<'g>> {
-        let (b, j, frame) = (place.b, place.index, place.frame);
-        let (own, basis) = (place.axis_of_body(), place.axis_in_basis());
+        let (b, j, frame) = (context.b, context.index, context.frame);
+        let (own, basis) = (context.axis_of_body(), context.axis_in_basis());
         let mut beyond = Vec::new();
         for joint in &inner.beyond {
             let entries = joint.entries(b, frame, &own);
             self.enter(frames, j, joint, entries);
-            let turned = joint.turned(frame.turn.angle(), place.view.keep_body_axes);
+            let turned = joint.turned(frame.turn.angle(), context.view.keep_body_axes);
             beyond.push(turned.entered(b, frame.motion, entries));
         }
         for &joint in &outer.beyond {

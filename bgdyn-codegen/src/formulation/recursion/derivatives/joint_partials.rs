@@ -69,37 +69,37 @@ pub(super) struct JointPartials<'g> {
 
 impl<'g> JointPartials<'g> {
     /// Computes it from the outboard bodies in the body's own axes and in those of its basis.
-    pub fn new(place: &JointContext<'_, 'g>, own: &Subtree<'g>, basis: &Subtree<'g>) -> Self {
-        let (frame, axis) = (place.frame, place.axis_in_basis());
+    pub fn new(context: &JointContext<'_, 'g>, own: &Subtree<'g>, basis: &Subtree<'g>) -> Self {
+        let (frame, axis) = (context.frame, context.axis_in_basis());
         let carried = CompositeFlow {
             inertia: frame.inertia.plus(&own.whole.inertia),
             ..own.whole
         };
-        let (after, momentum) = place.joined(&carried, &basis.whole);
+        let (after, momentum) = context.joined(&carried, &basis.whole);
         let (omega, h) = (axis.spin.omega, after.inertia.first);
         let force = axis.spin.u * h
             + after.inertia.weigh(axis.a)
             + omega.cross(after.flow.linear)
             + after.rest.force;
-        let mut joint = if place.view.reuse_neighbour && frame.motion == Motion::Rotation {
-            let share = place.share(&carried, &basis.others, force);
+        let mut joint = if context.view.reuse_neighbour && frame.motion == Motion::Rotation {
+            let share = context.share(&carried, &basis.others, force);
             let taken = basis.next.iter();
-            let taken = taken.map(|next| OutboardJoint::from_neighbour(place.b, next, &axis));
+            let taken = taken.map(|next| OutboardJoint::from_neighbour(context.b, next, &axis));
             taken.fold(share, |sum, part| sum.with(&part))
         } else {
-            place.share(&carried, &basis.whole, force)
+            context.share(&carried, &basis.whole, force)
         };
         joint.momentum = momentum;
         let next = GroupNeighbour {
             joint,
             inertia: after.inertia,
-            flow: after.flow.linear + omega.map(|x| x * place.factor).cross(h),
+            flow: after.flow.linear + omega.map(|x| x * context.factor).cross(h),
             force,
             offset: frame.position,
         };
         JointPartials {
             joint,
-            before: place.before(&after, &momentum),
+            before: context.before(&after, &momentum),
             next,
         }
     }
