@@ -36,6 +36,24 @@ pub fn read<'py>(
         .map_err(|_| PyValueError::new_err(format!("`{name}` is being written to by another call")))
 }
 
+/// Returns the leading shape of the arguments with these shapes so far, `batch`, and of one more with `shape`.
+///
+/// # Errors
+/// `ValueError` if they differ. An argument without one is shared by all states.
+pub fn leading_shape(name: &str, batch: Vec<usize>, shape: &[usize]) -> PyResult<Vec<usize>> {
+    let leading = &shape[..shape.len() - 1];
+    if batch.is_empty() {
+        return Ok(leading.to_vec());
+    }
+    if leading.is_empty() || leading == batch {
+        return Ok(batch);
+    }
+    let (own, others) = (shown(leading), shown(&batch));
+    Err(PyValueError::new_err(format!(
+        "`{name}` has the leading shape {own}, the arguments before it {others}: give all the same, or one state for all"
+    )))
+}
+
 /// Returns the array for a result of this shape: a new one, or `out`.
 ///
 /// # Errors
@@ -102,6 +120,17 @@ pub fn unravelled(state: usize, batch: &[usize]) -> Vec<usize> {
     }
     index.reverse();
     index
+}
+
+/// Checks a number of threads.
+///
+/// # Errors
+/// `ValueError` for 0.
+pub fn checked_threads(threads: usize) -> PyResult<()> {
+    match threads {
+        0 => Err(PyValueError::new_err("`threads` is at least 1")),
+        _ => Ok(()),
+    }
 }
 
 fn aligned(array: &Array<'_>) -> bool {

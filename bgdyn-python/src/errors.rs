@@ -3,11 +3,36 @@
 use bgdyn_cli::spec_file::SpecFile;
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::refusal::Refusal;
-use pyo3::exceptions::PyImportError;
+use pyo3::exceptions::{PyImportError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arrays::shown;
+
+/// What happens at singular states.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OnSingular {
+    /// An exception.
+    Raise,
+    /// NaN, and a mask.
+    Nan,
+}
+
+impl OnSingular {
+    /// Returns the one with this name.
+    ///
+    /// # Errors
+    /// `ValueError` for another name.
+    pub fn named(name: &str) -> PyResult<Self> {
+        match name {
+            "raise" => Ok(OnSingular::Raise),
+            "nan" => Ok(OnSingular::Nan),
+            _ => Err(PyValueError::new_err(format!(
+                "on_singular=\"{name}\": it is \"raise\" or \"nan\""
+            ))),
+        }
+    }
+}
 
 /// Where a batch has no result.
 #[derive(Debug)]

@@ -2,18 +2,23 @@
 //!
 //! A method's function is prepared as a tape (`spec.rs`), computed at many states (`batch.rs`, four at once by
 //! `lanes.rs`) and its numbers put into arrays (`parts.rs`); these know nothing of Python. `arrays.rs` reads and provides
-//! NumPy arrays, `results.rs` returns them; `method.rs`, `model.rs` and `scene.rs` are the classes.
+//! NumPy arrays, `results.rs` returns them; `positions.rs` moves positions joint by joint (`joint_positions.rs`) and closes
+//! loops, `position_calls.rs` does so at many states; `method.rs`, `model.rs` and `scene.rs` are the classes.
 #![forbid(unsafe_code)]
 
 mod arrays;
 mod batch;
 mod errors;
 mod imported;
+mod joint_positions;
 mod lanes;
 mod method;
 mod model;
 mod parts;
+mod position_calls;
+mod positions;
 mod results;
+mod run_settings;
 mod scene;
 mod spec;
 

@@ -8,9 +8,9 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Array, read, shown, unravelled, writable};
+use crate::arrays::{Array, checked_threads, leading_shape, read, unravelled, writable};
 use crate::batch::{Batch, Given, Refusal};
-use crate::errors::Singular;
+use crate::errors::{OnSingular, Singular};
 use crate::results::{mask, result, targets};
 use crate::spec::{Cause, ModelData, Prepared};
 
@@ -33,13 +33,6 @@ struct Arguments<'py> {
     batch: Vec<usize>,
 }
 
-/// What happens at singular states.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum OnSingular {
-    Raise,
-    Nan,
-}
-
 #[pymethods]
 impl PyMethod {
     #[pyo3(signature = (*args, out=None, threads=1, on_singular="raise", **named))]
@@ -53,9 +46,7 @@ impl PyMethod {
         named: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let on_singular = OnSingular::named(on_singular)?;
-        if threads == 0 {
-            return Err(PyValueError::new_err("`threads` is at least 1"));
-        }
+        checked_threads(threads)?;
         let arguments = self.arguments(args, named)?;
         let prepared = self.prepared(py)?;
         let arrays = targets(py, &prepared.parts, &arguments.batch, out)?;
@@ -67,7 +58,7 @@ impl PyMethod {
         match on_singular {
             OnSingular::Raise => Ok(result),
             OnSingular::Nan => {
-                let mask = mask(py, &refused, &arguments.batch)?;
+                let mask = mask(py, refused.iter().map(|one| one.state), &arguments.batch)?;
                 Ok((result, mask).into_pyobject(py)?.into_any())
             }
         }
@@ -169,15 +160,7 @@ impl PyMethod {
                 (None, None) => return Err(self.wrong_arguments()),
             };
             let array = read(name, &value, self.data.spec.width(argument))?;
-            let leading = &array.shape()[..array.shape().len() - 1];
-            if batch.is_empty() {
-                batch = leading.to_vec();
-            } else if !leading.is_empty() && leading != batch {
-                let (own, others) = (shown(leading), shown(&batch));
-                return Err(PyValueError::new_err(format!(
-                    "`{name}` has the leading shape {own}, the arguments before it {others}: give all the same, or one state for all"
-                )));
-            }
+            batch = leading_shape(name, batch, array.shape())?;
             arrays.push((argument, array));
         }
         // Superfluous arguments, by place or by name.
@@ -271,18 +254,6 @@ impl PyMethod {
                     ),
                 )
             },
-        }
-    }
-}
-
-impl OnSingular {
-    fn named(name: &str) -> PyResult<Self> {
-        match name {
-            "raise" => Ok(OnSingular::Raise),
-            "nan" => Ok(OnSingular::Nan),
-            _ => Err(PyValueError::new_err(format!(
-                "on_singular=\"{name}\": it is \"raise\" or \"nan\""
-            ))),
         }
     }
 }

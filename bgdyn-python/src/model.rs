@@ -5,18 +5,17 @@ use std::sync::Arc;
 
 use bgdyn_cli::graph::mechanism_svg;
 use bgdyn_cli::spec_file::SpecFile;
-use bgdyn_codegen::mechanism::Motion;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::{Options, formulation_named, preference_named};
-use bgdyn_runtime::Dd;
-use numpy::{PyArray1, PyArrayDyn, PyUntypedArrayMethods};
+use numpy::PyArray1;
 use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::arrays::{Array, read, unravelled, writable};
-use crate::errors::{Singular, refused, spec_error};
+use crate::errors::{refused, spec_error};
 use crate::method::PyMethod;
+use crate::position_calls::{Way, each_state, random_numbers};
+use crate::positions::Positions;
 use crate::spec::{ModelData, Spec};
 
 /// A model: a mechanism with the values of its run-time parameters. It does not change.
@@ -90,28 +89,12 @@ impl Model {
     /// The model with these values of run-time parameters, SI units.
     #[pyo3(signature = (**parameters))]
     fn with_parameters(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let all = self.data.spec.mechanism.parameters();
-        let mut values = self.data.parameters.to_vec();
-        for (name, value) in parameters.into_iter().flatten() {
-            let (name, value): (String, f64) = (name.extract()?, value.extract()?);
-            let found = all.iter().position(|p| p.name == name);
-            let found = found.ok_or_else(|| {
-                let known: Vec<&str> = all.iter().map(|p| p.name.as_str()).collect();
-                PyValueError::new_err(match known.as_slice() {
-                    [] => format!("no parameter `{name}`: the spec has none"),
-                    known => format!("no parameter `{name}`; there are {}", known.join(", ")),
-                })
-            })?;
-            if !value.is_finite() {
-                return Err(PyValueError::new_err(format!("`{name}` is {value}")));
-            }
-            values[found] = value;
-        }
+        let given = parameters.into_iter().flatten();
+        let given = given.map(|(name, value)| Ok((name.extract()?, value.extract()?)));
+        let given: Vec<(String, f64)> = given.collect::<PyResult<_>>()?;
+        let data = self.data.with_parameters(&given);
         Ok(Model {
-            data: ModelData {
-                spec: Arc::clone(&self.data.spec),
-                parameters: values.into(),
-            },
+            data: data.map_err(PyValueError::new_err)?,
             warnings: Arc::clone(&self.warnings),
         })
     }
@@ -216,57 +199,131 @@ impl Model {
         text.map_err(PyValueError::new_err)
     }
 
-    /// q with every coordinate zero and every quaternion (0, 0, 0, 1); with loops their closed start.
-    fn neutral<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        if let Some(closure) = self.data.spec.mechanism.closure() {
-            let start = closure.start.iter().map(|x| x.to_f64());
-            return PyArray1::from_vec(py, start.collect());
-        }
-        let mut q = vec![0.0; self.data.spec.mechanism.nq()];
-        for joint in self.data.spec.mechanism.compound_joints() {
-            let Motion::Compound(motion) = joint.kind.motion else {
-                continue;
-            };
-            for (part, at) in motion.positions.iter().zip(&joint.degrees.positions) {
-                q[at.0] = f64::from(part.neutral);
-            }
-        }
-        PyArray1::from_vec(py, q)
+    /// q with every coordinate zero and every quaternion (0, 0, 0, 1); with loops or wheels their start.
+    fn neutral<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let positions = Positions::new(&self.data).map_err(PyValueError::new_err)?;
+        Ok(PyArray1::from_vec(py, positions.neutral()))
     }
 
     /// q with the dependent positions changed so that all loops close.
-    fn close<'py>(&self, py: Python<'py>, q: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
-        let Some(closure) = self.data.spec.mechanism.closure() else {
+    #[pyo3(signature = (q, *, out=None, threads=1, on_singular="raise"))]
+    fn close<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+        on_singular: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if self.data.spec.mechanism.closure().is_none() {
             return Err(PyValueError::new_err("the mechanism has no loops"));
-        };
-        let nq = self.nq();
-        let from = read("q", q, nq)?;
-        let closed = PyArrayDyn::zeros(py, from.shape(), false);
-        let mut write = writable(&closed)?;
-        let (from_all, to_all) = (from.as_slice()?, write.as_slice_mut()?);
-        let open = py.detach(|| {
-            let states = from_all.chunks_exact(nq).zip(to_all.chunks_exact_mut(nq));
-            let mut open = states.enumerate().filter_map(|(k, (from, to))| {
-                let mut exact: Vec<Dd> = from.iter().map(|&x| Dd::from_f64(x)).collect();
-                let closes = closure.close(&mut exact);
-                to.iter_mut().zip(exact).for_each(|(x, y)| *x = y.to_f64());
-                (!closes).then_some(k)
-            });
-            // All states are computed before the first open one is reported.
-            let first = open.next();
-            open.for_each(drop);
-            first
-        });
-        drop(write);
-        match open {
-            None => Ok(closed),
-            Some(k) => {
-                let batch = &from.shape()[..from.shape().len() - 1];
-                let index = unravelled(k, batch);
-                let error = Singular::new(index, "the loops do not close from these positions");
-                Err(error.raised(py))
-            }
         }
+        let way = Way {
+            out,
+            threads,
+            on_singular,
+        };
+        let given = [("q", q, self.nq())];
+        each_state(q.py(), &self.data, &given, self.nq(), &way, |of, x| {
+            of.close(x[0])
+        })
+    }
+
+    /// q after the constant velocities `dv` for one unit of time.
+    #[pyo3(signature = (q, dv, *, out=None, threads=1, on_singular="raise"))]
+    fn integrate<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        dv: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+        on_singular: &str,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let way = Way {
+            out,
+            threads,
+            on_singular,
+        };
+        let given = [("q", q, self.nq()), ("dv", dv, self.nv())];
+        let one = |of: &Positions<'_>, x: &[&[f64]]| of.integrate(x[0], x[1]);
+        each_state(q.py(), &self.data, &given, self.nq(), &way, one)
+    }
+
+    /// The displacement from q0 to q1.
+    #[pyo3(signature = (q1, q0, *, out=None, threads=1))]
+    fn difference<'py>(
+        &self,
+        q1: &Bound<'py, PyAny>,
+        q0: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [("q1", q1, self.nq()), ("q0", q0, self.nq())];
+        let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.difference(x[0], x[1]));
+        each_state(
+            q1.py(),
+            &self.data,
+            &given,
+            self.nv(),
+            &Way::plain(out, threads),
+            one,
+        )
+    }
+
+    /// q̇ = N(q) v.
+    #[pyo3(signature = (q, v, *, out=None, threads=1))]
+    fn position_rates<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        v: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [("q", q, self.nq()), ("v", v, self.nv())];
+        let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.position_rates(x[0], x[1]));
+        each_state(
+            q.py(),
+            &self.data,
+            &given,
+            self.nq(),
+            &Way::plain(out, threads),
+            one,
+        )
+    }
+
+    /// q with quaternions of length 1.
+    #[pyo3(signature = (q, *, out=None, threads=1))]
+    fn normalize<'py>(
+        &self,
+        q: &Bound<'py, PyAny>,
+        out: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let given = [("q", q, self.nq())];
+        let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.normalize(x[0]));
+        each_state(
+            q.py(),
+            &self.data,
+            &given,
+            self.nq(),
+            &Way::plain(out, threads),
+            one,
+        )
+    }
+
+    /// Random positions; with loops closed ones.
+    #[pyo3(signature = (n=None, seed=None, *, threads=1))]
+    fn sample<'py>(
+        &self,
+        py: Python<'py>,
+        n: Option<&Bound<'py, PyAny>>,
+        seed: Option<&Bound<'py, PyAny>>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let u = random_numbers(py, n, self.nv(), seed)?;
+        let given = [("u", &u, self.nv())];
+        let way = Way::plain(None, threads);
+        let one = |of: &Positions<'_>, x: &[&[f64]]| of.sample(x[0]);
+        each_state(py, &self.data, &given, self.nq(), &way, one)
     }
 
     fn __getattr__(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
@@ -308,17 +365,16 @@ impl Model {
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let class = py.get_type::<Model>();
+        let restored = py.import("bgdyn._load")?.getattr("restored")?;
         let spec = &self.data.spec;
         let arguments = (
             &spec.text,
             &spec.name,
-            None::<&str>,
             spec.choice.0.as_deref(),
             &spec.choice.1,
             self.parameters(py)?,
         );
-        (class, arguments).into_pyobject(py)
+        (restored, arguments).into_pyobject(py)
     }
 
     fn __copy__(slf: Bound<'_, Self>) -> Bound<'_, Self> {

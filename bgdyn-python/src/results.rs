@@ -6,7 +6,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 use crate::arrays::{Array, target};
-use crate::batch::Refusal;
 use crate::parts::Parts;
 
 /// Returns the arrays of a result: new ones, or those of `out`.
@@ -56,7 +55,7 @@ pub fn result<'py>(
 }
 
 /// Returns the number in an array without axes; other arrays as they are.
-fn without_axes<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+pub fn without_axes<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     match array.cast::<PyUntypedArray>()?.ndim() {
         0 => array.get_item(PyTuple::empty(array.py())),
         _ => Ok(array.clone()),
@@ -66,13 +65,13 @@ fn without_axes<'py>(array: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
 /// Returns where a batch is singular; one bool for a single state.
 pub fn mask<'py>(
     py: Python<'py>,
-    refused: &[Refusal],
+    refused: impl IntoIterator<Item = usize>,
     batch: &[usize],
 ) -> PyResult<Bound<'py, PyAny>> {
     let mask = PyArrayDyn::<bool>::zeros(py, batch, false);
     let mut write = mask.readwrite();
     let entries = write.as_slice_mut()?;
-    refused.iter().for_each(|one| entries[one.state] = true);
+    refused.into_iter().for_each(|state| entries[state] = true);
     drop(write);
     without_axes(mask.as_any())
 }

@@ -3,24 +3,28 @@
 use std::cell::RefCell;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use bgdyn_cli::simulate::{
-    Record, Way, Words, changes, columns, page, prepared, record_from, report, summary,
+    PreparedScene, Record, Way, Words, changes, columns, page, prepared, record_from, report,
+    summarized, summary,
 };
 use bgdyn_cli::spec_file::SpecFile;
 use bgdyn_codegen::fault::Faults;
-use bgdyn_codegen::scene::{Integration, Override, Scene, StepControl};
+use bgdyn_codegen::scene::Override;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
-use numpy::{PyArray1, PyArray2};
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::arrays::read;
 use crate::errors::{scene_refused, spec_error};
+use crate::run_settings::{Settings, named, overrides};
 
-/// Upper limit of the number of steps of a run.
-const STEPS: f64 = 1e10;
+/// The numbers of many runs, and number and reason of each that failed.
+type Summaries<'py> = (Bound<'py, PyArray2<f64>>, Vec<(usize, String)>);
 
 /// A scene: a mechanism with the effects of one run. It does not change.
 #[pyclass(frozen, module = "bgdyn._bgdyn", name = "Scene", subclass)]
@@ -32,14 +36,7 @@ pub struct PyScene {
     mechanism: (String, String),
     system: SceneEquations,
     warnings: String,
-}
-
-/// The settings of a run, as given.
-struct Settings {
-    duration: Option<f64>,
-    step: Option<f64>,
-    tolerance: Option<f64>,
-    points: usize,
+    functions: OnceLock<PreparedScene>,
 }
 
 #[pymethods]
@@ -86,6 +83,7 @@ impl PyScene {
             name: file.stem,
             mechanism,
             system,
+            functions: OnceLock::new(),
         })
     }
 
@@ -125,35 +123,82 @@ impl PyScene {
         PyTuple::new(py, columns(&self.system).into_iter().map(|c| c.name))
     }
 
+    /// Their SI units by name; empty for a pure number.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let found = PyDict::new(py);
+        for column in columns(&self.system) {
+            found.set_item(&column.name, column.unit)?;
+        }
+        Ok(found)
+    }
+
     /// Runs the scene; returns what `bgdyn.Run` is made of.
-    #[pyo3(signature = (duration, parameters, initial, step, tolerance, points))]
-    #[expect(clippy::too_many_arguments, reason = "named arguments of Python")]
     fn _simulate<'py>(
         &self,
         py: Python<'py>,
-        duration: Option<f64>,
         parameters: Vec<(String, f64)>,
         initial: Vec<(String, f64)>,
-        step: Option<f64>,
-        tolerance: Option<f64>,
-        points: usize,
+        settings: Settings,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let settings = Settings {
-            duration,
-            step,
-            tolerance,
-            points,
-        };
         let given = overrides(&self.system.scene, &parameters, &initial)?;
         let way = settings.way(&self.system.scene)?;
         let run = py.detach(|| {
             let system = self.system.with_overrides(&given)?;
-            let plant = prepared(&system, way.integration.method);
+            let plant = self.functions().start(&system);
             let record = record_from(plant, &way, &mut |_| ());
             Ok((system, record))
         });
         let (system, record) = run.map_err(|faults| cannot_start(&faults))?;
         self.described(py, &system, &record, &way)
+    }
+
+    /// Checks names and settings of many runs before the first one.
+    fn _check_runs(
+        &self,
+        parameters: Vec<String>,
+        initial: Vec<String>,
+        settings: Settings,
+    ) -> PyResult<()> {
+        self.varied(&parameters, &initial)?;
+        settings.way(&self.system.scene).map(drop)
+    }
+
+    /// Runs the scene for each row of `values`: those of these parameters, then of these parts of the start. Returns an
+    /// array (runs, 2 + 3 columns) with time of the end, relative drift, and end, least and largest value of each
+    /// column, NaN where a run did not start; and index and reason of each run that failed.
+    fn _summaries<'py>(
+        &self,
+        py: Python<'py>,
+        parameters: Vec<String>,
+        initial: Vec<String>,
+        values: &Bound<'py, PyAny>,
+        settings: Settings,
+    ) -> PyResult<Summaries<'py>> {
+        let varied = self.varied(&parameters, &initial)?;
+        let way = settings.way(&self.system.scene)?;
+        let values = read("values", values, varied.len())?;
+        let rows = values.as_slice()?;
+        let width = 2 + 3 * columns(&self.system).len();
+        let runs: usize = values.shape()[..values.shape().len() - 1].iter().product();
+        let mut table = vec![f64::NAN; runs * width];
+        let mut failures = Vec::new();
+        py.detach(|| {
+            let functions = self.functions();
+            for (k, out) in table.chunks_exact_mut(width).enumerate() {
+                let own = &rows[k * varied.len()..(k + 1) * varied.len()];
+                let with = varied.iter().zip(own);
+                let with: Vec<_> = with.map(|(o, &x)| (o.clone(), Dd::from_f64(x))).collect();
+                let run = summarized(&self.system, functions, &way, &with);
+                (out[0], out[1]) = (run.t, run.drift);
+                for (entry, x) in out[2..].iter_mut().zip(run.outputs.iter().flatten()) {
+                    *entry = *x;
+                }
+                failures.extend(run.failure.map(|why| (k, why)));
+            }
+        });
+        let table = PyArray1::from_vec(py, table).reshape([runs, width])?;
+        Ok((table, failures))
     }
 
     fn __repr__(&self) -> String {
@@ -172,6 +217,22 @@ impl PyScene {
 }
 
 impl PyScene {
+    /// Returns the scene's functions: prepared for the first run, then kept.
+    fn functions(&self) -> &PreparedScene {
+        let method = self.system.scene.integration.method;
+        let make = || prepared(&self.system, method).functions();
+        self.functions.get_or_init(make)
+    }
+
+    /// Returns the quantities with these names.
+    fn varied(&self, parameters: &[String], initial: &[String]) -> PyResult<Vec<Override>> {
+        let scene = &self.system.scene;
+        let parameters = parameters.iter().map(|name| ("parameter", name));
+        let initial = initial.iter().map(|name| ("part of the state", name));
+        let all = parameters.chain(initial);
+        all.map(|(what, name)| named(scene, what, name)).collect()
+    }
+
     /// Returns a run's arrays and texts by name.
     fn described<'py>(
         &self,
@@ -217,81 +278,6 @@ impl PyScene {
         found.set_item("page", page(system, &all, record, &words))?;
         Ok(found)
     }
-}
-
-impl Settings {
-    /// Returns the scene's settings of integration with these changes.
-    fn way(&self, scene: &Scene) -> PyResult<Way> {
-        let wrong = |message: String| Err(PyValueError::new_err(message));
-        let numbers = [
-            ("duration", self.duration),
-            ("step", self.step),
-            ("tolerance", self.tolerance),
-        ];
-        for (name, value) in numbers {
-            if value.is_some_and(|x| !(x.is_finite() && x > 0.0)) {
-                return wrong(format!("`{name}` is a positive number"));
-            }
-        }
-        if self.points < 2 {
-            return wrong(format!(
-                "points={}: the start and the end are 2",
-                self.points
-            ));
-        }
-        let own = scene.integration;
-        let step_control = match (self.step, self.tolerance) {
-            (Some(_), Some(_)) => return wrong("give `step` or `tolerance`, not both".into()),
-            (Some(step), None) => StepControl::Step(step),
-            (None, Some(tolerance)) => StepControl::Tolerance(tolerance),
-            (None, None) => own.step_control,
-        };
-        let method = own.method;
-        if matches!(step_control, StepControl::Tolerance(_)) && !method.controls_its_error() {
-            let name = method.name();
-            return wrong(format!(
-                "the scene's method `{name}` does not go by a tolerance: give `step`"
-            ));
-        }
-        let end = self.duration.unwrap_or(own.end);
-        if let StepControl::Step(h) = step_control
-            && end / h > STEPS
-        {
-            return wrong(format!(
-                "steps of {h} s to t = {end} s are more than {STEPS:e}: take a longer step"
-            ));
-        }
-        Ok(Way {
-            integration: Integration {
-                method,
-                step_control,
-                end,
-            },
-            points: self.points,
-            audited: true,
-        })
-    }
-}
-
-/// Returns the values that replace those of the scene's file.
-fn overrides(
-    scene: &Scene,
-    parameters: &[(String, f64)],
-    initial: &[(String, f64)],
-) -> PyResult<Vec<(Override, Dd)>> {
-    let parameters = parameters.iter().map(|given| ("parameter", given));
-    let initial = initial.iter().map(|given| ("part of the state", given));
-    let each = parameters.chain(initial).map(|(what, (name, value))| {
-        let wanted =
-            |kind: bgdyn_codegen::scene::OverrideKind| kind.is_parameter() == (what == "parameter");
-        let found = scene.override_named(what, name, wanted);
-        let found = found.map_err(PyValueError::new_err)?;
-        match value.is_finite() {
-            true => Ok((found, Dd::from_f64(*value))),
-            false => Err(PyValueError::new_err(format!("`{name}` is {value}"))),
-        }
-    });
-    each.collect()
 }
 
 /// Returns the error that a scene cannot start from the given state.

@@ -73,6 +73,32 @@ pub enum Cause {
 }
 
 impl ModelData {
+    /// Returns the mechanism with these values of run-time parameters, SI units.
+    ///
+    /// # Errors
+    /// A sentence about an unknown name, or a value that is NaN or infinite.
+    pub fn with_parameters(&self, given: &[(String, f64)]) -> Result<ModelData, String> {
+        let all = self.spec.mechanism.parameters();
+        let mut values = self.parameters.to_vec();
+        for (name, value) in given {
+            let Some(found) = all.iter().position(|p| p.name == *name) else {
+                let known: Vec<&str> = all.iter().map(|p| p.name.as_str()).collect();
+                return Err(match known.as_slice() {
+                    [] => format!("no parameter `{name}`: the spec has none"),
+                    known => format!("no parameter `{name}`; there are {}", known.join(", ")),
+                });
+            };
+            if !value.is_finite() {
+                return Err(format!("`{name}` is {value}"));
+            }
+            values[found] = *value;
+        }
+        Ok(ModelData {
+            spec: Arc::clone(&self.spec),
+            parameters: values.into(),
+        })
+    }
+
     /// Returns whether both compute the same from the same text.
     pub fn same(&self, other: &ModelData) -> bool {
         let (own, others) = (&self.spec, &other.spec);

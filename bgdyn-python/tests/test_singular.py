@@ -98,7 +98,13 @@ def test_loops_that_do_not_close() -> None:
     start = model.close(model.neutral())
     assert np.abs(model.constraint_residual(start)).max() < 1e-15
     far = np.array([[0.3, 0.0, 1.0], [np.nan, 0.0, 0.0]])
-    with pytest.raises(bgdyn.SingularError, match=r"state \(1,\): the loops do not close"):
-        model.close(far)
+    assert np.isfinite(model.close(far)[0]).all() and np.isnan(model.close(far)[1]).all()
+    bars = bgdyn.load(SPECS / "loops" / "five_bar.yaml")
+    far = np.stack([bars.neutral(), [3.1, 0.0, 0.0, 0.0]])  # the elbows 0.8 m apart, the rods 0.35 m long each
+    with pytest.raises(bgdyn.SingularError, match=r"state \(1,\): the loops do not close from here: `tip_pin`") as caught:
+        bars.close(far)
+    assert caught.value.loop == "tip_pin" and caught.value.index == (1,)
+    closed, mask = bars.close(far, on_singular="nan")
+    assert mask.tolist() == [False, True] and np.isnan(closed[1]).all()
     with pytest.raises(ValueError, match="has no loops"):
         bgdyn.load(text=POLAR, name="polar").close(np.zeros(2))

@@ -259,27 +259,36 @@ impl<Y: StateVector> Closing<Y> {
 
 /// Returns the position after one second along velocities of the open tree that depend on the position: `rates` returns
 /// them, `moved` the position after constant ones. Order 4, without commutators (Celledoni, Marthinsen and Owren 2003);
-/// exact for constant velocities.
+/// exact for constant velocities. `Y` are positions, `Z` velocities of the open tree.
 #[inline]
-pub fn follow<T: Scalar, const NQ: usize, const NT: usize>(
-    q: &SVector<T, NQ>,
-    rates: impl Fn(&SVector<T, NQ>) -> SVector<T, NT>,
-    moved: impl Fn(&SVector<T, NQ>, &SVector<T, NT>) -> SVector<T, NQ>,
-) -> SVector<T, NQ> {
-    let half = T::from_f64(0.5);
+pub fn follow<Y: StateVector, Z: StateVector<Scalar = Y::Scalar>>(
+    q: &Y,
+    rates: impl Fn(&Y) -> Z,
+    moved: impl Fn(&Y, &Z) -> Y,
+) -> Y {
+    let number = <Y::Scalar as Scalar>::from_f64;
+    let (half, three, twelfth) = (number(0.5), number(3.0), number(1.0) / number(12.0));
     let k1 = rates(q);
-    let middle = moved(q, &k1.map(|x| x * half));
+    let middle = moved(q, &k1.times(half));
     let k2 = rates(&middle);
-    let k3 = rates(&moved(q, &k2.map(|x| x * half)));
-    let k4 = rates(&moved(&middle, &k3.zip_map(&k1, |x, y| x - y * half)));
-    let both = k2.zip_map(&k3, |x, y| x + x + y + y);
+    let k3 = rates(&moved(q, &k2.times(half)));
+    let k4 = rates(&moved(&middle, &zipped(&k3, &k1, |x, y| x - y * half)));
+    let both = zipped(&k2, &k3, |x, y| x + x + y + y);
     // (3 k₁ + 2 k₂ + 2 k₃ − k₄) / 12, then (−k₁ + 2 k₂ + 2 k₃ + 3 k₄) / 12
-    let (three, twelfth) = (T::from_f64(3.0), T::from_f64(1.0) / T::from_f64(12.0));
-    let part = |first: &SVector<T, NT>, last: &SVector<T, NT>| {
-        let ends = first.zip_map(last, |x, y| three * x - y);
-        both.zip_map(&ends, |x, y| (x + y) * twelfth)
+    let part = |first: &Z, last: &Z| {
+        let ends = zipped(first, last, |x, y| three * x - y);
+        zipped(&both, &ends, |x, y| (x + y) * twelfth)
     };
     moved(&moved(q, &part(&k1, &k4)), &part(&k4, &k1))
+}
+
+/// Combines two vectors component by component.
+fn zipped<Z: StateVector>(a: &Z, b: &Z, with: impl Fn(Z::Scalar, Z::Scalar) -> Z::Scalar) -> Z {
+    let mut all = a.clone();
+    for (x, &y) in all.entries_mut().iter_mut().zip(b.entries()) {
+        *x = with(*x, y);
+    }
+    all
 }
 
 /// Steps of [`towards`].

@@ -3,27 +3,30 @@
 use std::iter::once;
 use std::num::NonZeroUsize;
 
+use bgdyn_codegen::scene::Override;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::Dd;
 
 use super::batch_values::{BatchValues, Given};
 use crate::table;
 
 use super::difference::range;
-use super::plant::Evaluated;
+use super::plant::{Evaluated, PreparedScene};
 use super::report;
 use super::run_recorder::record_from;
 use super::run_table::{Column, Way, headed};
 
 /// The results of a run of a batch.
-pub(crate) struct RunSummary {
-    /// Of each output: the final value, the least, the largest.
-    pub(crate) outputs: Vec<[f64; 3]>,
+#[derive(Clone, Debug)]
+pub struct RunSummary {
+    /// Of each recorded quantity: the final value, the least, the largest; empty if the run did not start.
+    pub outputs: Vec<[f64; 3]>,
     /// The energy drift, relative to the energy that could move.
-    pub(crate) drift: f64,
+    pub drift: f64,
     /// Time at the end, s.
-    pub(crate) t: f64,
+    pub t: f64,
     /// The reason for an early end, or for a run that did not start.
-    pub(crate) failure: Option<String>,
+    pub failure: Option<String>,
 }
 
 /// Runs a scene for every row of `varied`, with this number of threads; `watch` receives the number of
@@ -36,25 +39,37 @@ pub(crate) fn run(
     threads: NonZeroUsize,
     watch: impl FnMut(usize),
 ) -> Vec<RunSummary> {
+    let functions = plant.functions();
     let one = |values: &Vec<f64>| {
-        let system = match system.with_overrides(&varied.overrides_of_run(fixed, values)) {
-            Ok(system) => system,
-            Err(faults) => return refused(&faults),
-        };
-        let run = record_from(plant.with_overrides(&system), way, &mut |_| {});
-        let last = run.rows.last().map_or(&[][..], |row| &row.values);
-        let outputs = last.iter().enumerate().map(|(i, &end)| {
-            let (low, high) = range(run.rows.iter().map(|row| row.values[i]));
-            [end, low, high]
-        });
-        RunSummary {
-            outputs: outputs.collect(),
-            drift: report::drift(&run),
-            t: run.t,
-            failure: run.failure,
-        }
+        let overrides = varied.overrides_of_run(fixed, values);
+        summarized(system, &functions, way, &overrides)
     };
     bgdyn_sim::batch::batch(&varied.runs, threads, one, watch)
+}
+
+/// Runs a scene with these values in place of those in its files.
+pub fn summarized(
+    system: &SceneEquations,
+    functions: &PreparedScene,
+    way: &Way,
+    overrides: &[(Override, Dd)],
+) -> RunSummary {
+    let system = match system.with_overrides(overrides) {
+        Ok(system) => system,
+        Err(faults) => return refused(&faults),
+    };
+    let run = record_from(functions.start(&system), way, &mut |_| {});
+    let last = run.rows.last().map_or(&[][..], |row| &row.values);
+    let outputs = last.iter().enumerate().map(|(i, &end)| {
+        let (low, high) = range(run.rows.iter().map(|row| row.values[i]));
+        [end, low, high]
+    });
+    RunSummary {
+        outputs: outputs.collect(),
+        drift: report::drift(&run),
+        t: run.t,
+        failure: run.failure,
+    }
 }
 
 fn refused(faults: &bgdyn_codegen::fault::Faults) -> RunSummary {

@@ -18,10 +18,11 @@ mod run_table;
 mod scene_functions;
 mod undefined;
 
+pub use batch::{RunSummary, summarized};
 pub use difference::Difference;
 pub use page::{Words, page};
 pub(crate) use plant::Evaluation;
-pub use plant::{Evaluated, Numbers};
+pub use plant::{Evaluated, Numbers, PreparedScene};
 pub use report::{changes, report, summary};
 pub use run_recorder::{prepared, record, record_from};
 pub use run_table::{Column, EnergyAt, Event, Record, Row, Way, columns};

@@ -25,6 +25,23 @@ pub struct Evaluated<'a> {
     pub(super) functions: Arc<SceneFunctions>,
 }
 
+/// The functions of a scene, prepared once for all of its starts.
+#[derive(Clone, Debug)]
+pub struct PreparedScene(Arc<SceneFunctions>);
+
+impl PreparedScene {
+    /// Returns the scene with the start of `system`: that of the functions, or one with overrides
+    /// ([`SceneEquations::with_overrides`]).
+    pub fn start<'a>(&self, system: &'a SceneEquations) -> Evaluated<'a> {
+        Evaluated {
+            system,
+            parameters: parameters(system),
+            no_inputs: vec![0.0; system.scene.layout.inputs.len()],
+            functions: Arc::clone(&self.0),
+        }
+    }
+}
+
 /// A value of a scene, or the error that it does not exist.
 pub(crate) type Evaluation<T> = Result<T, Undefined>;
 /// The contacts that can hold a coordinate, mode by mode.
@@ -41,15 +58,15 @@ impl<'a> Evaluated<'a> {
         }
     }
 
+    /// Returns the functions of the scene, for other starts of it.
+    pub fn functions(&self) -> PreparedScene {
+        PreparedScene(Arc::clone(&self.functions))
+    }
+
     /// Returns the scene with another start ([`SceneEquations::with_overrides`]), with the functions of
     /// this one.
     pub fn with_overrides<'b>(&self, system: &'b SceneEquations) -> Evaluated<'b> {
-        Evaluated {
-            system,
-            parameters: parameters(system),
-            no_inputs: vec![0.0; system.scene.layout.inputs.len()],
-            functions: Arc::clone(&self.functions),
-        }
+        self.functions().start(system)
     }
 
     /// Returns the start of the scene, at t = 0.

@@ -8,6 +8,7 @@
 
 mod build;
 mod causality;
+mod joint_segments;
 mod massless;
 mod moved_masses;
 mod multibody;
@@ -27,6 +28,7 @@ use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
 pub use causality::Causality;
+pub use joint_segments::{JointSegment, joint_segments};
 pub use moved_masses::with_moved_masses;
 pub use multibody::{
     Coordinate, Gyrostat, LinkFrame, Multibody, PositionVariable, Rotor, Site, SiteId,

@@ -11,9 +11,9 @@ use super::constants::size;
 use super::contacts::{contact_access, contact_docs, contact_position_body};
 use super::joint_by_joint::joint_by_joint;
 use super::polygon_closing::{PolygonClosing, polygon_closing};
-use crate::bond_graph::{ClosedTree, Multibody};
+use crate::bond_graph::{ClosedTree, JointSegment, Multibody, joint_segments};
 use crate::method::Method;
-use crate::plan::{JointSegment, closing_names, independent_positions, joint_segments};
+use crate::plan::{closing_names, independent_positions};
 
 /// Returns the constants of the module, and the functions of the struct.
 pub(super) fn closure_access(

@@ -10,9 +10,9 @@ use quote::quote;
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::joint_by_joint::joint_by_joint;
-use crate::bond_graph::{ClosedTree, Multibody};
+use crate::bond_graph::{ClosedTree, Multibody, joint_segments};
 use crate::method::Method;
-use crate::plan::{closing_names, joint_segments};
+use crate::plan::closing_names;
 
 /// Returns the constants of the module, and the functions of the struct.
 pub(super) fn contact_access(

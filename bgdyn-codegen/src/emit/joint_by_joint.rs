@@ -1,10 +1,10 @@
-//! Emits vectors that are computed joint by joint.
+//! Emits vectors that are computed joint by joint, from the positions and velocities of the joints in q and v.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
 use super::tokens::{ident, number};
-use crate::plan::JointSegment;
+use crate::bond_graph::JointSegment;
 
 /// The number of components of a quaternion, the last positions of a joint that has one.
 const QUATERNION: usize = 4;

@@ -12,12 +12,12 @@ use super::prescribed::{joint_list, prescribed_docs};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
 use super::{assembly, body, closure, code, constants, explain, traits};
-use crate::bond_graph::{LinkFrame, PositionVariable};
+use crate::bond_graph::{LinkFrame, PositionVariable, joint_segments};
 use crate::function::Function;
 use crate::mechanism::Motion;
 use crate::method::Method;
 use crate::model::Model;
-use crate::plan::{Naming, joint_segments, matrix_places, reads_dependents, summary_of, unread};
+use crate::plan::{Naming, matrix_places, reads_dependents, summary_of, unread};
 
 /// Returns the module of a model.
 pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {

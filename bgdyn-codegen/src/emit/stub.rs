@@ -14,13 +14,12 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::prescribed_constants;
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
 use super::traits::Traits;
-use crate::bond_graph::Site;
+use crate::bond_graph::{JointSegment, Site};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
 use crate::method::{Argument, Method};
 use crate::name::is_identifier;
-use crate::plan::JointSegment;
 
 /// Returns the module with bodies that never run.
 pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {

@@ -8,9 +8,8 @@ use quote::quote;
 use super::closure;
 use super::joint_by_joint::joint_by_joint;
 use super::tokens::{argument_type, ident, return_type};
-use crate::bond_graph::{ClosedTree, Site, SiteId};
+use crate::bond_graph::{ClosedTree, JointSegment, Site, SiteId};
 use crate::method::Method;
-use crate::plan::JointSegment;
 
 /// The parts of a module that its traits provide.
 pub(super) struct Traits<'a> {

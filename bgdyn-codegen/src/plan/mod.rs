@@ -9,7 +9,6 @@ mod closing;
 mod columns;
 mod function;
 mod inline;
-mod joint_segments;
 mod limits;
 mod listing;
 mod named_constants;
@@ -29,7 +28,6 @@ pub use closing::{
 };
 pub use columns::ColumnPlan;
 pub use function::{FunctionPlan, Tail};
-pub use joint_segments::{JointSegment, joint_segments};
 pub use limits::PlanLimits;
 pub use listing::{Comments, ListedStep, Listing};
 pub use named_constants::NamedConstant;

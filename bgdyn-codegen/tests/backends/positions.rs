@@ -1,11 +1,11 @@
 //! How positions change with velocities, and how they close: C against the functions of the runtime.
 
-use bgdyn_codegen::bond_graph::ClosedTree;
+use bgdyn_codegen::bond_graph::{ClosedTree, JointSegment, joint_segments};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::plan::{JointSegment, closing_joint, independent_positions, joint_segments};
+use bgdyn_codegen::plan::{closing_joint, independent_positions};
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::ACTUATORS;
 use bgdyn_runtime::closure::{self, Dependent};

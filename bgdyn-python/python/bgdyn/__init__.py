@@ -19,6 +19,7 @@ from ._results import (
     Wrenches,
 )
 from ._scene import EnergyEntry, Event, Run, Scene
+from ._sweep import Sweep
 
 __all__ = [
     "ConstrainedDynamics",
@@ -35,6 +36,7 @@ __all__ = [
     "SingularError",
     "SpecError",
     "SpecWarning",
+    "Sweep",
     "Wrenches",
     "load",
 ]

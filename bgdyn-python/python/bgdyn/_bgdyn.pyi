@@ -121,10 +121,73 @@ class Model:
 
         With loops or wheels it is the start at which they are closed.
         """
-    def close(self, q: Values) -> Array:
+    @overload
+    def close(
+        self,
+        q: Values,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_singular: Literal["raise"] = "raise",
+    ) -> Array:
         """Returns q, (..., nq), with the dependent positions changed so that all loops close.
 
         Raises ``SingularError`` if they do not close from here.
+        """
+    @overload
+    def close(
+        self, q: Values, *, out: Array | None = None, threads: int = 1, on_singular: Literal["nan"]
+    ) -> tuple[Array, Mask]:
+        """Returns the positions, NaN where the loops do not close, and where that is."""
+    @overload
+    def integrate(
+        self,
+        q: Values,
+        dv: Values,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_singular: Literal["raise"] = "raise",
+    ) -> Array:
+        """Returns q, (..., nq), after the constant velocities ``dv``, (..., nv), for one unit of time.
+
+        Each joint moves by the exponential of its group; quaternions get length 1. Loops are closed on the branch of
+        ``q``; wheels and knife edges are followed at constant independent velocities, to fourth order. Raises
+        ``SingularError`` where a loop cannot be closed on the way.
+        """
+    @overload
+    def integrate(
+        self,
+        q: Values,
+        dv: Values,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_singular: Literal["nan"],
+    ) -> tuple[Array, Mask]:
+        """Returns the positions, NaN where a loop cannot be closed, and where that is."""
+    def difference(
+        self, q1: Values, q0: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """Returns the displacement, (..., nv), with which ``integrate`` goes from ``q0`` to ``q1``, by the shorter turn."""
+    def position_rates(
+        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
+    ) -> Array:
+        """Returns q̇ = N(q) v, (..., nq): a displacement changes by R v, a quaternion by ½ q∘ω."""
+    def normalize(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
+        """Returns q, (..., nq), with every quaternion divided by its length."""
+    def sample(
+        self,
+        n: int | tuple[int, ...] | None = None,
+        seed: int | np.random.Generator | None = None,
+        *,
+        threads: int = 1,
+    ) -> Array:
+        """Returns random positions, (n, nq); (nq,) without ``n``.
+
+        Angles are in [−π, π), displacements in [−1, 1) m, orientations evenly distributed. With loops the positions
+        are closed: each is the last closed one on the way from ``neutral()`` to such numbers. ``seed`` is what
+        ``numpy.random.default_rng`` takes.
         """
     def inverse_dynamics(
         self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
@@ -287,15 +350,28 @@ class Scene:
     def columns(self) -> tuple[str, ...]:
         """The names of the quantities that a run records."""
     @property
+    def units(self) -> dict[str, str]:
+        """Their SI units by name; empty for a pure number."""
+    @property
     def _warnings(self) -> str: ...
     def _simulate(
         self,
-        duration: float | None,
         parameters: list[tuple[str, float]],
         initial: list[tuple[str, float]],
-        step: float | None,
-        tolerance: float | None,
-        points: int,
+        settings: tuple[float | None, float | None, float | None, int],
     ) -> Mapping[str, Any]: ...
+    def _check_runs(
+        self,
+        parameters: list[str],
+        initial: list[str],
+        settings: tuple[float | None, float | None, float | None, int],
+    ) -> None: ...
+    def _summaries(
+        self,
+        parameters: list[str],
+        initial: list[str],
+        values: Array,
+        settings: tuple[float | None, float | None, float | None, int],
+    ) -> tuple[Array, list[tuple[int, str]]]: ...
     def __hash__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from ._bgdyn import Model, import_file
@@ -61,6 +62,19 @@ def load(
     if model._warnings:
         warnings.warn(model._warnings, SpecWarning, stacklevel=2)
     return model
+
+
+def restored(
+    text: str, name: str, formulation: str | None, prefer: str, parameters: dict[str, float]
+) -> Model:
+    """Returns a pickled model."""
+    return _prepared(text, name, formulation, prefer).with_parameters(**parameters)
+
+
+@lru_cache(maxsize=16)
+def _prepared(text: str, name: str, formulation: str | None, prefer: str) -> Model:
+    """Returns the model of a text, the same one each time: a process prepares its functions once."""
+    return Model(text, name, None, formulation, prefer)
 
 
 def read_text(path: str | os.PathLike[str]) -> str:

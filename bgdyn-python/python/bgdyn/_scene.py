@@ -5,7 +5,8 @@ from __future__ import annotations
 import html
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,6 +16,8 @@ from numpy.typing import NDArray
 from . import _bgdyn
 from ._errors import SpecWarning
 from ._load import _stem, read_text
+from ._progress import Progress
+from ._sweep import Sweep, sweep
 
 if TYPE_CHECKING:
     import pandas
@@ -157,14 +160,41 @@ class Scene(_bgdyn.Scene):
         that the scene cannot have. The interpreter's lock is released during the run.
         """
         found = self._simulate(
-            duration,
             list((parameters or {}).items()),
             list((initial or {}).items()),
-            step,
-            tolerance,
-            points,
+            (duration, step, tolerance, points),
         )
         return Run(found)
+
+    def sweep(
+        self,
+        runs: Mapping[str, Iterable[float]] | Iterable[Mapping[str, float]],
+        *,
+        workers: int | None = None,
+        duration: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        points: int = 101,
+        progress: Progress | bool = True,
+    ) -> Sweep:
+        """Runs the scene with many values of parameters and of its start, and returns the ends and extremes.
+
+        ``runs`` is a grid, ``{name: values}``, of which every combination is run, the last name changing fastest; or
+        a list of dictionaries ``{name: value}``, one for each run. Names are those of ``parameters``, and of
+        positions, velocities, states and modes as in ``initial`` of ``simulate``. SI units.
+
+        ``workers`` is the number of processes: by default that of the cores, with 0 the runs are computed in this
+        process. The results are the same to the bit. A part of a process that dies is computed again. The scene is
+        prepared once in each process.
+
+        ``duration``, ``step``, ``tolerance`` as in ``simulate``; ``points`` is the number of times, from 0 to the
+        end, of which the extremes are taken. ``progress`` is called with the number of finished runs and of all; True
+        shows a line in a terminal or a notebook.
+
+        A run that ends early, or cannot start, is no error: see ``Sweep.failures``. Raises ``ValueError`` for unknown
+        names, for values that are NaN or infinite, and for settings that the scene cannot have, before the first run.
+        """
+        return sweep(self, runs, workers, (duration, step, tolerance, points), progress)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_restored, (self.text, self.mechanism_text, self.name))
@@ -176,7 +206,9 @@ class Scene(_bgdyn.Scene):
         return self
 
 
+@lru_cache(maxsize=16)
 def _restored(text: str, mechanism: str, name: str) -> Scene:
+    """Returns a pickled scene; the same one for the same text, so that a process prepares its functions once."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", SpecWarning)
         return Scene(text=text, mechanism=mechanism, name=name)

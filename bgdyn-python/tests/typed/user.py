@@ -21,6 +21,14 @@ pose: bgdyn.Pose = arm.pose_tool(q)
 assert_type(pose.translation, Array)
 assert_type(arm.with_parameters(payload=2.0), bgdyn.Model)
 
+assert_type(arm.integrate(q, q), Array)
+assert_type(arm.close(q, on_singular="nan"), tuple[Array, NDArray[np.bool_]])
+assert_type(arm.sample((2, 3), seed=1), Array)
+
+swept = bgdyn.Scene("arm.scene.yaml").sweep({"payload": [1.0, 2.0]}, workers=2, progress=lambda done, total: None)
+assert_type(swept.end["shoulder"], Array)
+assert_type(swept.failures, dict[int, str])
+
 run = bgdyn.Scene("arm.scene.yaml").simulate(duration=2.0, parameters={"payload": 2.0})
 assert_type(run["shoulder"], Array)
 assert_type(run.balance["links"].stored, float)
@@ -38,6 +46,7 @@ arm.gravity(single)  # mistake: arg-type
 arm.gravity(q, q)  # mistake: call-arg
 arm.gravity("zero")  # mistake: arg-type
 arm.forward_dynamics(q, q, q, on_singular="ignore")  # mistake: call-overload
+arm.sample("ten")  # mistake: arg-type
 arm.nq = 5  # mistake: misc
 bgdyn.load(text=5)  # mistake: arg-type
 run.end  # mistake: attr-defined

@@ -7,9 +7,9 @@ use super::context::ModelContext;
 use super::parameters::of_model;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
 use super::style::{Real, Style};
-use crate::bond_graph::ClosedTree;
+use crate::bond_graph::{ClosedTree, joint_segments};
 use crate::method::Method;
-use crate::plan::{ClosingJoint, closing_joint, independent_positions, joint_segments};
+use crate::plan::{ClosingJoint, closing_joint, independent_positions};
 
 /// Largest number of steps before the last one.
 const STEPS: usize = 10;

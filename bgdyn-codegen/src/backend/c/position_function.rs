@@ -4,7 +4,7 @@ use super::context::ModelContext;
 use super::files::{comment, lines_of};
 use super::parameters::of_model;
 use super::style::Style;
-use crate::plan::JointSegment;
+use crate::bond_graph::JointSegment;
 
 /// The number of components of a quaternion, the last positions of a joint that has one.
 const QUATERNION: usize = 4;

@@ -1,6 +1,6 @@
-//! The positions and velocities of the joints in q and v.
+//! The positions and velocities of the joints in q and v: what computes a vector joint by joint reads them.
 
-use crate::bond_graph::{LinkFrame, Multibody};
+use super::{LinkFrame, Multibody};
 use crate::mechanism::Motion;
 
 /// The positions and velocities of a joint that follow each other in q and v.
@@ -8,9 +8,9 @@ use crate::mechanism::Motion;
 pub struct JointSegment {
     /// Its module of `bgdyn_runtime::manifold`; empty if q̇ = v.
     pub manifold: &'static str,
-    /// Number of its positions.
+    /// Number of positions.
     pub nq: usize,
-    /// Number of its velocities; 0 for one that follows others.
+    /// Number of velocities.
     pub nv: usize,
     /// Whether its position is an angle.
     pub turns: bool,
