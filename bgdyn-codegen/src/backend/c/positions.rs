@@ -6,7 +6,7 @@
 use super::closing;
 use super::context::ModelContext;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
-use crate::bond_graph::joint_segments;
+use crate::bond_graph::{JointSegment, joint_segments};
 
 /// Returns the functions of positions, each after those that it calls. A mechanism without positions has none.
 pub(super) fn position_functions(context: &ModelContext<'_>) -> Vec<PositionFunction> {
