@@ -16,7 +16,8 @@ use crate::values::{CNumber, Expected, expected, state};
 /// States of each mechanism.
 const STATES: usize = 64;
 
-fn model(path: &str, options: &Options) -> Model {
+/// Returns the model of a spec in the repository.
+pub fn model(path: &str, options: &Options) -> Model {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let path = root.join(path);
     let text = fs::read_to_string(&path).expect("a spec");
@@ -25,7 +26,8 @@ fn model(path: &str, options: &Options) -> Model {
     pipeline::model(mechanism.expect("sound"), options).expect("known names")
 }
 
-fn selected(names: &[&str]) -> Options {
+/// Returns options for these methods.
+pub fn selected(names: &[&str]) -> Options {
     Options {
         methods: Some(names.iter().map(ToString::to_string).collect()),
         ..Options::default()
@@ -64,7 +66,7 @@ fn compare<T: CNumber>(
     let sizes = functions.map(|f| expected(f, nv, &states[0]).values.len());
     let sizes: Vec<usize> = sizes.collect();
     for compiler in compilers() {
-        let program = compile::<T>(compiler, name, &files, model, &sizes);
+        let program = compile::<T>(&compiler, name, &files, model, &sizes);
         let found = run(&program, &states);
         assert_eq!(found.len(), states.len(), "{compiler}: {name}");
         for (state, found) in states.iter().zip(found) {
@@ -91,7 +93,8 @@ fn compare<T: CNumber>(
     }
 }
 
-fn files(model: &Model, options: &[(&str, &str)]) -> Vec<GeneratedFile> {
+/// Returns the C files of a model.
+pub fn files(model: &Model, options: &[(&str, &str)]) -> Vec<GeneratedFile> {
     let backend = backend_named("c").expect("a backend");
     let pairs = options.iter();
     let pairs = pairs.map(|(name, value)| (name.to_string(), value.to_string()));

@@ -8,6 +8,7 @@ mod header;
 mod helpers;
 mod parameters;
 mod result;
+mod sines;
 mod source;
 mod style;
 mod tail;
