@@ -40,7 +40,13 @@ fn path(x: f64) -> [Vector; 3] {
 fn errors(inverse: &Function, forward: &Function) -> Vec<Vector> {
     let evaluate = |function: &Function, [q, v, a, u]: [Vector; 4]| -> Vector {
         let [q, v, a, u] = [q, v, a, u].map(|x| x.to_vec());
-        let (values, refused) = function.evaluate(Inputs { q, v, a, u, ..Inputs::default() });
+        let (values, refused) = function.evaluate(Inputs {
+            q,
+            v,
+            a,
+            u,
+            ..Inputs::default()
+        });
         assert_eq!(refused, None);
         std::array::from_fn(|i| values[i])
     };
@@ -60,7 +66,10 @@ fn errors(inverse: &Function, forward: &Function) -> Vec<Vector> {
             let a = evaluate(forward, [q, v, zero, tau]);
             let (q1, v1) = (sum(q, h, v), sum(v, h, a));
             let a1 = evaluate(forward, [q1, v1, zero, tau]);
-            (q, v) = (sum(sum(q, 0.5 * h, v), 0.5 * h, v1), sum(sum(v, 0.5 * h, a), 0.5 * h, a1));
+            (q, v) = (
+                sum(sum(q, 0.5 * h, v), 0.5 * h, v1),
+                sum(sum(v, 0.5 * h, a), 0.5 * h, a1),
+            );
         }
     }
     errors
@@ -81,10 +90,17 @@ fn the_controller_in_c_is_the_evaluators() {
     for compiler in compilers() {
         let folder = write(&format!("controller_{compiler}"), &files(&model, &[]));
         let mut compile = Command::new(&compiler);
-        compile.current_dir(&folder).args(["-std=c99", "-O2", "-ffp-contract=off", "-I."]);
-        let status = compile.arg(&main).args(["scara.c", "-o", "program", "-lm"]).status();
+        compile
+            .current_dir(&folder)
+            .args(["-std=c99", "-O2", "-ffp-contract=off", "-I."]);
+        let status = compile
+            .arg(&main)
+            .args(["scara.c", "-o", "program", "-lm"])
+            .status();
         assert!(status.expect("it runs").success(), "{compiler}");
-        let output = Command::new(folder.join("program")).output().expect("it runs");
+        let output = Command::new(folder.join("program"))
+            .output()
+            .expect("it runs");
         let text = String::from_utf8(output.stdout).expect("text");
         assert!(output.status.success(), "{compiler}: {text}");
         let rows: Vec<Vec<f64>> = text.lines().filter_map(row).collect();
@@ -93,7 +109,10 @@ fn the_controller_in_c_is_the_evaluators() {
             for (i, (&found, expected)) in row[1..=4].iter().zip(expected).enumerate() {
                 // Seven digits are printed; sums in another order differ in the last of sixteen.
                 let allowed = 1e-6 * expected.abs() + 1e-12;
-                assert!((found - expected).abs() <= allowed, "{compiler}, joint {i}: {row:?}");
+                assert!(
+                    (found - expected).abs() <= allowed,
+                    "{compiler}, joint {i}: {row:?}"
+                );
             }
         }
     }

@@ -40,7 +40,7 @@ static void NAME(sin_cos_sum)(Counted angle, Counted, Counted *sine, Counted *co
 {
     NAME(sin_cos)(angle, sine, cosine);
 }
-static void NAME(sin_cos_all)(int count, const Counted *angles, Counted *sines, Counted *cosines)
+static void NAME(sin_cos_all)(int count, const Counted *angles, const Counted *, Counted *sines, Counted *cosines)
 {
     for (int k = 0; k < count; ++k) {
         NAME(sin_cos)(angles[k], &sines[k], &cosines[k]);

@@ -25,7 +25,8 @@ const REPLACED: [&str; 5] = [
 /// Returns the file with the functions of [`REPLACED`] under other names; their calls keep theirs.
 fn with_replaced(text: &str, prefix: &str) -> String {
     let begins = |line: &str| {
-        line.starts_with("static ") || line.starts_with(&format!("{}_INLINE ", prefix.to_uppercase()))
+        line.starts_with("static ")
+            || line.starts_with(&format!("{}_INLINE ", prefix.to_uppercase()))
     };
     let line = |line: &str| {
         let of = |name: &&&str| begins(line) && line.contains(&format!(" {prefix}_{name}("));
@@ -46,9 +47,16 @@ fn program(model: &Model) -> String {
     text += "    for (int k = 0; k < 64; ++k) x[k] = Counted(0.3 + 0.1 * k);\n";
     for function in &model.functions {
         let arguments = function.method.arguments().iter();
-        let arguments: Vec<String> = arguments.enumerate().map(|(k, _)| format!("x + {}", 9 * k)).collect();
+        let arguments: Vec<String> = arguments
+            .enumerate()
+            .map(|(k, _)| format!("x + {}", 9 * k))
+            .collect();
         let (method, arguments) = (function.name(), arguments.join(", "));
-        writeln!(text, "    {name}_{method}({arguments}, result);\n    print(\"{method}\");").expect("text");
+        writeln!(
+            text,
+            "    {name}_{method}({arguments}, result);\n    print(\"{method}\");"
+        )
+        .expect("text");
     }
     text + "}\n"
 }
@@ -57,18 +65,33 @@ fn program(model: &Model) -> String {
 fn executed(model: &Model, files: &[GeneratedFile], source: &str) -> Vec<(String, Operations)> {
     let name = model.mechanism.name();
     let folder = write(&format!("counted_{name}"), files);
-    fs::write(folder.join(format!("counted_{name}.c")), with_replaced(source, name)).expect("a file");
+    fs::write(
+        folder.join(format!("counted_{name}.c")),
+        with_replaced(source, name),
+    )
+    .expect("a file");
     fs::write(folder.join("main.cpp"), program(model)).expect("a file");
     let mut compile = Command::new("g++");
-    compile.current_dir(&folder).args(["-std=c++17", "-w", "main.cpp", "-o", "program"]);
+    compile
+        .current_dir(&folder)
+        .args(["-std=c++17", "-w", "main.cpp", "-o", "program"]);
     let output = compile.output().expect("it runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let output = Command::new(folder.join("program")).output().expect("it runs");
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let output = Command::new(folder.join("program"))
+        .output()
+        .expect("it runs");
     assert!(output.status.success());
     let text = String::from_utf8(output.stdout).expect("text");
     let line = |line: &str| {
         let (name, counts) = line.split_once(' ').expect("a name");
-        let counts: Vec<usize> = counts.split(' ').map(|x| x.parse().expect("a count")).collect();
+        let counts: Vec<usize> = counts
+            .split(' ')
+            .map(|x| x.parse().expect("a count"))
+            .collect();
         let counts: [usize; 6] = counts.try_into().expect("six counts");
         (name.to_string(), Operations::new(counts))
     };
@@ -77,7 +100,9 @@ fn executed(model: &Model, files: &[GeneratedFile], source: &str) -> Vec<(String
 
 /// Returns the count in the comment above a function.
 fn stated<'a>(source: &'a str, function: &str) -> &'a str {
-    let at = source.find(&format!(" {function}(const")).expect("the function");
+    let at = source
+        .find(&format!(" {function}(const"))
+        .expect("the function");
     let (_, rest) = source[..at].rsplit_once("Operations: ").expect("a comment");
     rest.split_once(" (").expect("a formulation").0
 }

@@ -194,7 +194,20 @@ fn run_time_parameters() {
     }
 }
 
-/// Far angles, and the option `libm`: sines of libm differ in the last place.
+/// Far angles in `float` are reduced exactly, by integers, as in Rust.
+#[test]
+fn far_angles_in_float() {
+    let arm = model(
+        "specs/puma560.yaml",
+        &selected(&["inverse_dynamics", "mass_matrix"]),
+    );
+    let reaches = [2e4, 1e7, 1e20, 3e38];
+    compare::<f32>("far_puma", &arm, &[], &reaches, &|found, value, _| {
+        found.equals(value)
+    });
+}
+
+/// Far angles in `double`, and the option `libm`: sines of libm differ in the last place.
 #[test]
 fn sines_of_libm() {
     let arm = model("specs/scara.yaml", &Options::default());
