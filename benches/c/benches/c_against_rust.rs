@@ -123,38 +123,51 @@ fn arguments<const N: usize>(states: &[State]) -> Vec<Arguments<N>> {
     all.collect()
 }
 
-/// Rust and each C as contenders for a method.
-macro_rules! method {
-    ($model:ident, $n:ident, $states:ident, $arm:literal, $method:ident($($argument:ident)*), $size:expr; $($c:ident)*) => {{
+/// The function in Rust.
+macro_rules! rust {
+    ($model:ident, $states:ident, $method:ident, ($($argument:ident)*)) => {{
         let vectors: Vec<_> = $states
             .iter()
             .map(|s| ($(SVector::from(s.$argument),)*))
             .collect();
-        let model = $model::<f64>::default();
-        let rust = |k: usize| {
-            let ($($argument,)*) = black_box(&vectors[k]);
-            out_of_line(|| model.$method($($argument),*))
-        };
-        let mut contenders = vec![Contender {
-            call: Box::new(move |k| { black_box(&rust(k)); }),
-            result: Box::new(move |k| rust(k).flat()),
-        }];
-        $(
-            let mut out = [0.0; $size];
-            contenders.push(Contender {
-                call: Box::new(move |k| {
-                    let s = black_box(&$states[k]);
-                    black_box(c::$c($(&s.$argument,)* &mut out));
-                    black_box(&mut out);
-                }),
-                result: Box::new(|k| {
-                    let mut out = [0.0; $size];
-                    let s = &$states[k];
-                    let _ = c::$c($(&s.$argument,)* &mut out);
-                    out.to_vec()
-                }),
-            });
-        )*
+        let (model, same) = ($model::<f64>::default(), vectors.clone());
+        Contender {
+            call: Box::new(move |k| {
+                let ($($argument,)*) = black_box(&vectors[k]);
+                black_box(&out_of_line(|| model.$method($($argument),*)));
+            }),
+            result: Box::new(move |k| {
+                let ($($argument,)*) = &same[k];
+                $model::<f64>::default().$method($($argument),*).flat()
+            }),
+        }
+    }};
+}
+
+/// The function in C.
+macro_rules! in_c {
+    ($states:ident, $c:ident, ($($argument:ident)*), $size:expr) => {{
+        let mut out = [0.0; $size];
+        Contender {
+            call: Box::new(move |k| {
+                let s = black_box(&$states[k]);
+                black_box(c::$c($(&s.$argument,)* &mut out));
+                black_box(&mut out);
+            }),
+            result: Box::new(|k| {
+                let (s, mut out) = (&$states[k], [0.0; $size]);
+                let _ = c::$c($(&s.$argument,)* &mut out);
+                out.to_vec()
+            }),
+        }
+    }};
+}
+
+/// Rust and each C as contenders for a method.
+macro_rules! method {
+    ($model:ident, $states:ident, $arm:literal, $method:ident $arguments:tt, $size:expr; $($c:ident)*) => {{
+        let rust = rust!($model, $states, $method, $arguments);
+        let contenders = vec![rust, $(in_c!($states, $c, $arguments, $size)),*];
         measure(concat!($arm, ", ", stringify!($method)), contenders)
     }};
 }
@@ -166,11 +179,11 @@ macro_rules! arms {
             let mechanism = benches::read($spec.as_ref()).expect("a spec");
             let states = &arguments::<N>(&states(&slides(&bodies(&mechanism))));
             [
-                method!(Model, N, states, $spec, inverse_dynamics(q v a), N; $($id)*),
-                method!(Model, N, states, $spec, mass_matrix(q), N * N; $($m)*),
-                method!(Model, N, states, $spec, forward_dynamics(q v tau), N; $($fd)*),
-                method!(Model, N, states, $spec, inverse_dynamics_derivatives(q v a), 2 * N * N; $($did)*),
-                method!(Model, N, states, $spec, forward_dynamics_derivatives(q v tau), 3 * N * N; $($dfd)*),
+                method!(Model, states, $spec, inverse_dynamics(q v a), N; $($id)*),
+                method!(Model, states, $spec, mass_matrix(q), N * N; $($m)*),
+                method!(Model, states, $spec, forward_dynamics(q v tau), N; $($fd)*),
+                method!(Model, states, $spec, inverse_dynamics_derivatives(q v a), 2 * N * N; $($did)*),
+                method!(Model, states, $spec, forward_dynamics_derivatives(q v tau), 3 * N * N; $($dfd)*),
             ]
         }
     )*
