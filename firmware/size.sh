@@ -8,7 +8,7 @@ cpu=$1 subject=$2
 shift 2
 
 bytes() {
-  PROBE="$subject/$1" on "$cpu" "$cargo" build -q --release ${FEATURES:+--features "$FEATURES"} --bin flash
+  PROBE="$subject/$1" on "$cpu" "$cargo" build -q --release --bin flash
   size "target/$target/release/flash" | awk 'NR == 2 { print $1 + $2 }'
 }
 

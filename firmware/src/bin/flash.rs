@@ -80,15 +80,6 @@ fn call<S: Subject<T, N>, T: Scalar, const N: usize>(mut subject: S) {
     }
 }
 
-/// The arm in C, which is in `f32`; without the feature `c` no program for it can be built.
-macro_rules! in_c {
-    ($model:ident, f32, $law:ident) => {
-        #[cfg(feature = "c")]
-        call(firmware::c::$model { law: $law });
-    };
-    ($model:ident, $scalar:ident, $law:ident) => {};
-}
-
 #[entry]
 fn main() -> ! {
     macro_rules! arm {
@@ -102,8 +93,6 @@ fn main() -> ! {
                 let model = $module::$model::<$scalar>::default();
                 if const { is(2, "generated") } {
                     call(Generated { model, law });
-                } else if const { is(2, "C") } {
-                    in_c!($model, $scalar, law);
                 } else {
                     let tree = Textbook::new(&bodies::$bodies, bodies::$gravity);
                     let tree = if const { is(3, "none") } {
