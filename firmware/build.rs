@@ -1,5 +1,7 @@
 //! Generates the models, and the motions with which the controllers are checked.
 
+mod build_c;
+
 use std::path::PathBuf;
 use std::{env, fs};
 
@@ -7,16 +9,23 @@ use bgdyn_codegen::build_script::{Build, Error};
 use nalgebra::{Matrix3, Vector3};
 use textbook::Body;
 
+/// The measured arms.
+const ARMS: [&str; 3] = ["scara", "puma560", "panda"];
+
 fn main() -> Result<(), Error> {
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("a build script"));
-    for robot in ["scara", "puma560", "panda"] {
+    for robot in ARMS {
         Build::new(format!("../specs/{robot}.yaml"))
             .methods(["dynamics"])
             .write()?;
     }
-    let robots = ["scara", "puma560", "panda"].map(bodies).concat();
+    let robots = ARMS.map(bodies).concat();
     fs::write(out.join("bodies.rs"), robots).expect("OUT_DIR can be written");
     fs::write(out.join("motions.rs"), reference::motions()).expect("OUT_DIR can be written");
+    if env::var_os("CARGO_FEATURE_C").is_some() {
+        let rust_flags = env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default();
+        build_c::build(&ARMS, &out, &rust_flags);
+    }
     // In the linker's search path.
     fs::copy("memory.x", out.join("memory.x")).expect("memory.x");
     println!("cargo::rustc-link-search={}", out.display());

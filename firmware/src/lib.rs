@@ -3,6 +3,8 @@
 
 pub mod arms;
 pub mod board;
+#[cfg(feature = "c")]
+pub mod c;
 pub mod measure;
 pub mod subject;
 

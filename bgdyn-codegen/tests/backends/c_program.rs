@@ -29,20 +29,39 @@ const FLAGS: [&str; 11] = [
     "-Werror",
 ];
 
-/// Returns the compilers of this machine among gcc and clang.
-pub fn compilers() -> Vec<&'static str> {
-    let answers = |name: &&str| {
-        let found = Command::new(name)
-            .arg("--version")
-            .stdout(Stdio::null())
-            .status();
-        found.is_ok_and(|status| status.success())
-    };
-    let found: Vec<&str> = ["gcc", "clang"].into_iter().filter(answers).collect();
+/// Returns the compilers of this machine among gcc and clang. A clang of a distribution may have its version in its
+/// name; the newest one is taken.
+pub fn compilers() -> Vec<String> {
+    let of_version = (13..50).rev().map(|version| format!("clang-{version}"));
+    let clang = ["clang".to_string()].into_iter().chain(of_version);
+    let gcc = Some("gcc".to_string()).filter(|name| answers(name));
+    let found: Vec<String> = gcc
+        .into_iter()
+        .chain(clang.into_iter().find(|name| answers(name)))
+        .collect();
     if found.is_empty() {
         println!("skipped: neither gcc nor clang runs here");
     }
     found
+}
+
+/// Returns whether a compiler of this name runs here.
+pub fn answers(name: &str) -> bool {
+    let found = Command::new(name)
+        .arg("--version")
+        .stdout(Stdio::null())
+        .status();
+    found.is_ok_and(|status| status.success())
+}
+
+/// Writes the files to a folder of this name, and returns its path.
+pub fn write(name: &str, files: &[GeneratedFile]) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&folder).expect("a folder");
+    for file in files {
+        fs::write(folder.join(&file.name), &file.text).expect("a file");
+    }
+    folder
 }
 
 /// Compiles the files with a program around them, in a folder of this name.
@@ -52,12 +71,7 @@ pub fn compile<T: CNumber>(
     files: &[GeneratedFile],
     program: &CProgram,
 ) -> PathBuf {
-    let folder =
-        Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}_{compiler}_{}", T::NAME));
-    fs::create_dir_all(&folder).expect("a folder");
-    for file in files {
-        fs::write(folder.join(&file.name), &file.text).expect("a file");
-    }
+    let folder = write(&format!("{name}_{compiler}_{}", T::NAME), files);
     let file = &program.file;
     fs::write(folder.join("main.c"), program.text::<T>()).expect("a file");
     let output = Command::new(compiler)

@@ -2,6 +2,8 @@
 
 mod c_program;
 mod closed_mechanisms;
+mod controller;
+mod counted;
 mod list;
 mod positions;
 mod same_bits;

@@ -261,7 +261,7 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
     let (files, mut counts) = (files(model, &[("float", T::NAME)]), [0, 0]);
     for compiler in compilers() {
         let called = format!("{name}_positions");
-        let compiled = compile::<T>(compiler, &called, &files, &program);
+        let compiled = compile::<T>(&compiler, &called, &files, &program);
         for (state, found) in states.iter().zip(run(&compiled, &rows)) {
             let reference = Reference {
                 model,

@@ -16,6 +16,7 @@ use crate::values::{CNumber, Expected, close_to, expected, state};
 /// States of each mechanism.
 const STATES: usize = 64;
 
+/// Returns the model of a spec in the repository.
 pub fn model(path: &str, options: &Options) -> Model {
     let (text, stem) = text_of(path);
     model_of(&text, &stem, options)
@@ -36,7 +37,8 @@ pub fn text_of(path: &str) -> (String, String) {
     (text, stem.into_owned())
 }
 
-fn selected(names: &[&str]) -> Options {
+/// Returns options for these methods.
+pub fn selected(names: &[&str]) -> Options {
     Options {
         methods: Some(names.iter().map(ToString::to_string).collect()),
         ..Options::default()
@@ -85,7 +87,7 @@ fn compare<T: CNumber>(
     let program = CProgram::of(model, calls.collect());
     let rows: Vec<Vec<T>> = states.iter().map(numbers).collect();
     for compiler in compilers() {
-        let program = compile::<T>(compiler, name, &files, &program);
+        let program = compile::<T>(&compiler, name, &files, &program);
         let found = run(&program, &rows);
         assert_eq!(found.len(), states.len(), "{compiler}: {name}");
         for (state, found) in states.iter().zip(found) {
@@ -112,6 +114,7 @@ fn compare<T: CNumber>(
     }
 }
 
+/// Returns the C files of a model.
 pub fn files(model: &Model, options: &[(&str, &str)]) -> Vec<GeneratedFile> {
     let backend = backend_named("c").expect("a backend");
     let pairs = options.iter();
@@ -212,7 +215,20 @@ fn run_time_parameters() {
     }
 }
 
-/// Far angles, and the option `libm`: sines of libm differ in the last place.
+/// Far angles in `float` are reduced exactly, by integers, as in Rust.
+#[test]
+fn far_angles_in_float() {
+    let arm = model(
+        "specs/puma560.yaml",
+        &selected(&["inverse_dynamics", "mass_matrix"]),
+    );
+    let reaches = [2e4, 1e7, 1e20, 3e38];
+    compare::<f32>("far_puma", &arm, &[], &reaches, &|found, value, _| {
+        found.equals(value)
+    });
+}
+
+/// Far angles in `double`, and the option `libm`: sines of libm differ in the last place.
 #[test]
 fn sines_of_libm() {
     let arm = model("specs/scara.yaml", &Options::default());

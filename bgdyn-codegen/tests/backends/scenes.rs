@@ -265,7 +265,7 @@ fn check<T: CNumber>(path: &str, options: &Options) {
     let files = files(&case, T::NAME);
     let name = path.replace(['/', '.'], "_");
     for compiler in compilers() {
-        let compiled = compile::<T>(compiler, &name, &files, &program);
+        let compiled = compile::<T>(&compiler, &name, &files, &program);
         for (state, found) in states.iter().zip(run(&compiled, &rows)) {
             let mut answers: Vec<(i128, Vec<T>)> = functions
                 .iter()

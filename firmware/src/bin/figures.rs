@@ -47,6 +47,13 @@ fn main() -> ! {
             };
             well &= arm.measure::<_, f32>("f32", $module::$model::default(), true);
             well &= arm.measure::<_, f64>("f64", $module::$model::default(), double);
+            #[cfg(feature = "c")]
+            {
+                let law = arm.law();
+                let (mut c, model) = (firmware::c::$model { law }, $module::$model::default());
+                well &= arm.subject("f32", "C", &mut c, true);
+                well &= arm.same_bits(&mut c, &mut Generated { model, law });
+            }
         };
     }
     let (square_root, mut root) = (black_box(<f32 as Scalar>::sqrt as fn(f32) -> f32), 0.0);
@@ -79,11 +86,7 @@ impl<const N: usize> Arm<'_, N> {
     where
         T: Scalar + RealField,
     {
-        let law = ComputedTorque {
-            stiffness: <T as Scalar>::from_f64(256.0),
-            damping: <T as Scalar>::from_f64(32.0),
-            limits: SVector::from(self.efforts.map(<T as Scalar>::from_f64)),
-        };
+        let law = self.law();
         let tree = Textbook::<T, N>::new(self.bodies, self.gravity);
         let ours = tree.clone().with_sine(<T as Scalar>::sin_cos);
         let (mut generated, mut plain) = (Generated { model, law }, Plain { tree, law });
@@ -93,6 +96,15 @@ impl<const N: usize> Arm<'_, N> {
         self.subject(scalar, "textbook, sines of bgdyn", &mut same_sine, false);
         self.beyond(scalar, &mut generated);
         well & self.agree(&mut generated, &mut plain)
+    }
+
+    /// Returns the controller.
+    fn law<T: Scalar>(&self) -> ComputedTorque<T, N> {
+        ComputedTorque {
+            stiffness: T::from_f64(256.0),
+            damping: T::from_f64(32.0),
+            limits: SVector::from(self.efforts.map(T::from_f64)),
+        }
     }
 
     fn subject<S: Subject<T, N>, T: Scalar>(
@@ -115,7 +127,7 @@ impl<const N: usize> Arm<'_, N> {
                 most,
                 bytes
             );
-            if how != "generated" {
+            if !["generated", "C"].contains(&how) {
                 continue;
             }
             if constant && least != most {
@@ -161,6 +173,32 @@ impl<const N: usize> Arm<'_, N> {
             bytes = bytes.max(stack(&mut || function(subject, &record, &mut out)));
         }
         (least, most, bytes)
+    }
+
+    /// Returns whether the results of both have the same bits, also for an angle beyond the sine's branch-free path.
+    #[cfg(feature = "c")]
+    fn same_bits<A: Subject<f32, N>, B: Subject<f32, N>>(&self, c: &mut A, rust: &mut B) -> bool {
+        let mut random = Random(0x0bad_cafe);
+        let (a, b) = (functions::<A, f32, N>(), functions::<B, f32, N>());
+        let mut well = true;
+        for k in 0..STATES {
+            let mut record = self.record(&mut random);
+            if k % 4 == 3 {
+                record.q[1] = 3e5 * random.next() as f32;
+            }
+            for ((name, a), (_, b)) in a.iter().zip(&b) {
+                let (mut x, mut y) = (Out::default(), Out::default());
+                a(c, &record, &mut x);
+                b(rust, &record, &mut y);
+                let are_same = x.vector.map(f32::to_bits) == y.vector.map(f32::to_bits)
+                    && x.matrix.map(f32::to_bits) == y.matrix.map(f32::to_bits);
+                if !are_same || x.refused || y.refused {
+                    hprintln!("MISSED: {} of {} in C has other bits", name, self.name);
+                    well = false;
+                }
+            }
+        }
+        well
     }
 
     /// Measures the exception: an angle beyond the sine's branch-free path.

@@ -2,11 +2,11 @@
 
 use super::style::Style;
 use super::words::{RESERVED, in_comment};
-use crate::expr::{Node, NodeId, Signed};
+use crate::expr::Node;
 use crate::function::Function;
 use crate::method::Argument;
 use crate::plan::{
-    AnglePair, ArgumentNames, BlockPlan, BlockStep, Comments, Listing, LoopArrays, Naming, Place,
+    ArgumentNames, BlockPlan, BlockStep, Comments, Listing, LoopArrays, Naming, Place,
 };
 
 /// A block, and how it is written.
@@ -106,12 +106,7 @@ impl<'a> BlockText<'a> {
                 let (value, _) = self.operation(node);
                 lines.push(format!("const {kind} {name} = {value};"));
             }
-            BlockStep::Sines(angles) => {
-                for pair in angles {
-                    *sines += 1;
-                    self.sines(pair, *sines, lines);
-                }
-            }
+            BlockStep::Sines(angles) => self.sines(angles, sines, lines),
             BlockStep::Begin(_) => {
                 let outputs = block.outputs.iter().enumerate();
                 let constants =
@@ -132,60 +127,6 @@ impl<'a> BlockText<'a> {
             Place::Entry { .. } => unreachable!("results of C are flat"),
         };
         places.map(store).collect()
-    }
-
-    /// Computes sine and cosine of an angle; `number` tells its variables apart from those of other angles.
-    fn sines(&self, pair: &AnglePair, number: usize, lines: &mut Vec<String>) {
-        let real = self.style.real();
-        let name = |id: Option<NodeId>, other: &str| match id.and_then(|id| self.listing.name(id)) {
-            Some(name) => name.to_string(),
-            None => format!("{other}{number}"),
-        };
-        let (sine, cosine) = (name(pair.sine, "sine"), name(pair.cosine, "cosine"));
-        let (angle, tail) = match self.listing.block.graph.node(pair.angle) {
-            Node::Angle(terms, offset, negative) => {
-                let offset = match negative {
-                    true => -offset.value(),
-                    false => offset.value(),
-                };
-                let names = (format!("angle{number}"), format!("tail{number}"));
-                let words = self.style.two_words(offset);
-                self.sum(&names, terms, words, lines);
-                names
-            }
-            _ => {
-                let zero = self.style.number(0.0);
-                (self.value(Signed::plus(pair.angle)), zero)
-            }
-        };
-        let function = self.style.global("sin_cos");
-        lines.push(format!("{real} {sine};"));
-        lines.push(format!("{real} {cosine};"));
-        lines.push(format!("{function}({angle}, {tail}, &{sine}, &{cosine});"));
-    }
-
-    /// Sums angles and a constant of two words, with the rounding errors.
-    fn sum(
-        &self,
-        (angle, tail): &(String, String),
-        terms: &[Signed],
-        offset: [f64; 2],
-        lines: &mut Vec<String>,
-    ) {
-        let (real, function) = (self.style.real(), self.style.global("add_angle"));
-        let [high, low] = offset.map(|x| self.style.number(x));
-        let mut terms = terms.iter();
-        let first = match offset == [0.0, 0.0] {
-            true => terms.next().map(|&e| self.value(e)),
-            false => None,
-        };
-        let first = first.unwrap_or(high);
-        lines.push(format!("{real} {angle} = {first};"));
-        lines.push(format!("{real} {tail} = {low};"));
-        for &term in terms {
-            let term = self.value(term);
-            lines.push(format!("{function}(&{angle}, &{tail}, {term});"));
-        }
     }
 }
 

@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 24] = [
+const HELPERS: [&str; 29] = [
     "mul_add",
     "smaller",
     "larger",
@@ -15,8 +15,13 @@ const HELPERS: [&str; 24] = [
     "checked_pivot",
     "status",
     "add_angle",
+    "sin_cos_of_rest",
     "sin_cos_near",
+    "turn",
+    "sin_cos_far",
     "sin_cos",
+    "sin_cos_sum",
+    "sin_cos_all",
     "sines",
     "sine_ratio",
     "cross",
@@ -49,8 +54,8 @@ pub(super) fn helpers(text: &str, style: &Style) -> String {
     called
 }
 
-/// Returns the template of a helper: `@` is the prefix, `REAL` the type; numbers and functions of libm are in
-/// backquotes.
+/// Returns the template of a helper: `@` is the prefix, words in capitals stand for types, numbers and a macro
+/// ([`written`]); numbers and functions of libm are in backquotes.
 fn template(name: &str, style: &Style) -> &'static str {
     match (name, style.real) {
         ("mul_add", _) => include_str!("helpers/mul_add.h"),
@@ -60,11 +65,18 @@ fn template(name: &str, style: &Style) -> &'static str {
         ("checked_pivot", _) => include_str!("helpers/checked_pivot.h"),
         ("status", _) => include_str!("helpers/status.h"),
         ("add_angle", _) => include_str!("helpers/add_angle.h"),
+        ("sin_cos_of_rest", Real::Double) => include_str!("helpers/sin_cos_of_rest_double.h"),
+        ("sin_cos_of_rest", Real::Float) => include_str!("helpers/sin_cos_of_rest_float.h"),
         ("sin_cos_near", Real::Double) => include_str!("helpers/sin_cos_near_double.h"),
         ("sin_cos_near", Real::Float) => include_str!("helpers/sin_cos_near_float.h"),
+        ("turn", _) => include_str!("helpers/turn_float.h"),
+        ("sin_cos_far", Real::Double) => include_str!("helpers/sin_cos_far_double.h"),
+        ("sin_cos_far", Real::Float) => include_str!("helpers/sin_cos_far_float.h"),
         ("sin_cos", _) if style.libm => include_str!("helpers/sin_cos_of_library.h"),
-        ("sin_cos", Real::Double) => include_str!("helpers/sin_cos_double.h"),
-        ("sin_cos", Real::Float) => include_str!("helpers/sin_cos_float.h"),
+        ("sin_cos", _) => include_str!("helpers/sin_cos.h"),
+        ("sin_cos_sum", _) if style.libm => include_str!("helpers/sin_cos_sum_of_library.h"),
+        ("sin_cos_sum", _) => include_str!("helpers/sin_cos_sum.h"),
+        ("sin_cos_all", _) => include_str!("helpers/sin_cos_all.h"),
         (name, _) => manifold_template(name),
     }
 }
@@ -106,13 +118,21 @@ fn written(name: &str, style: &Style) -> String {
         Real::Double => (f64::MAX, 64.0 * f64::EPSILON),
         Real::Float => (f64::from(f32::MAX), 64.0 * f64::from(f32::EPSILON)),
     };
+    // Angles, and rounding errors of their sums, up to these take the short path, as in Rust.
+    let (near, small_tail) = match style.real {
+        Real::Double => (1e5, 1.0 / 2_097_152.0),
+        Real::Float => (1e4, 1.0 / 2048.0),
+    };
     let text = template(name, style).replace('@', &style.prefix);
     let text = text.replace("REAL", style.real());
+    let text = text.replace("INLINED", &style.constant("INLINE"));
     let text = text.replace("LARGEST", &style.number(largest));
     let text = text.replace("PIVOT_FLOOR", &style.number(floor));
     let text = text.replace("SERIES", &SERIES.to_string());
     let text = text.replace("EVEN", &inverse_factorials(2, style));
     let text = text.replace("ODD", &inverse_factorials(3, style));
+    let text = text.replace("SMALL_TAIL", &style.number(small_tail));
+    let text = text.replace("NEAR", &style.number(near));
     let quoted = |(place, part): (usize, &str)| match (place % 2 == 1, part.parse::<f64>()) {
         (false, _) => part.to_string(),
         (true, Ok(number)) => style.number(number),

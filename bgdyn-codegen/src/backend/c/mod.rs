@@ -15,6 +15,7 @@ mod result;
 mod scene;
 mod scene_result;
 mod scene_tables;
+mod sines;
 mod style;
 mod tables;
 mod tail;

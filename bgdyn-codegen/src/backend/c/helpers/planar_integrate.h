@@ -10,7 +10,7 @@ static void @_planar_integrate(const REAL q[3], const REAL d[3], REAL result[3])
     REAL sine;
     REAL cosine;
     @_add_angle(&angle, &tail, half);
-    @_sin_cos(angle, tail, &sine, &cosine);
+    @_sin_cos_sum(angle, tail, &sine, &cosine);
     result[0] = q[0] + (cosine * x - sine * y);
     result[1] = q[1] + (sine * x + cosine * y);
     result[2] = q[2] + d[2];

@@ -3,7 +3,7 @@ static void @_planar_position_rates(const REAL q[3], const REAL v[3], REAL resul
 {
     REAL sine;
     REAL cosine;
-    @_sin_cos(q[2], `0`, &sine, &cosine);
+    @_sin_cos(q[2], &sine, &cosine);
     result[0] = cosine * v[0] - sine * v[1];
     result[1] = sine * v[0] + cosine * v[1];
     result[2] = v[2];

@@ -1,8 +1,6 @@
-/* Sine and cosine of angle + tail. */
-static inline void @_sin_cos(REAL angle, REAL tail, REAL *sine, REAL *cosine)
+/* Sine and cosine of an angle. */
+static inline void @_sin_cos(REAL angle, REAL *sine, REAL *cosine)
 {
-    const REAL s = `sin`(angle);
-    const REAL c = `cos`(angle);
-    *sine = s + c * tail;
-    *cosine = c - s * tail;
+    *sine = `sin`(angle);
+    *cosine = `cos`(angle);
 }

@@ -8,7 +8,7 @@ static REAL @_sine_ratio(REAL x)
     REAL series = `0`;
     REAL sine;
     REAL cosine;
-    @_sin_cos(far, `0`, &sine, &cosine);
+    @_sin_cos(far, &sine, &cosine);
     for (int k = SERIES - 1; k >= 0; --k) {
         series = @_mul_add(series, -square, odd[k]);
     }

@@ -10,7 +10,7 @@ static void @_sines(REAL square, REAL ratios[4])
     REAL excess = `0`;
     REAL sine;
     REAL cosine;
-    @_sin_cos(angle, `0`, &sine, &cosine);
+    @_sin_cos(angle, &sine, &cosine);
     for (int k = SERIES - 1; k >= 0; --k) {
         versine = @_mul_add(versine, -square, even[k]);
         excess = @_mul_add(excess, -square, odd[k]);
