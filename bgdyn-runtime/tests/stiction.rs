@@ -291,7 +291,7 @@ fn only_blocks_at_rest_are_decided() {
 /// NaN does not prevent termination.
 #[test]
 fn nonsense_terminates() {
-    let mut blocks = Random(3).blocks::<3>(0.0);
+    let mut blocks = random_blocks::<3>(&mut Random(3), 0.0);
     blocks.force[1] = f64::NAN;
     blocks.resolved(&SVector::zeros(), 0.0);
 }
