@@ -123,9 +123,8 @@ fn written(name: &str, style: &Style) -> String {
         Real::Double => (1e5, 1.0 / 2_097_152.0),
         Real::Float => (1e4, 1.0 / 2048.0),
     };
-    let text = template(name, style).replace('@', &style.prefix);
-    let text = text.replace("REAL", style.real());
-    let text = text.replace("INLINED", &style.constant("INLINE"));
+    // Names of the mechanism come last: they may contain any of the words.
+    let text = template(name, style).replace("REAL", style.real());
     let text = text.replace("LARGEST", &style.number(largest));
     let text = text.replace("PIVOT_FLOOR", &style.number(floor));
     let text = text.replace("SERIES", &SERIES.to_string());
@@ -133,7 +132,9 @@ fn written(name: &str, style: &Style) -> String {
     let text = text.replace("ODD", &inverse_factorials(3, style));
     let text = text.replace("SMALL_TAIL", &style.number(small_tail));
     let text = text.replace("NEAR", &style.number(near));
-    let quoted = |(place, part): (usize, &str)| match (place % 2 == 1, part.parse::<f64>()) {
+    let text = text.replace('@', &style.prefix);
+    let text = text.replace("INLINED", &style.constant("INLINE"));
+    let quoted = |(index, part): (usize, &str)| match (index % 2 == 1, part.parse::<f64>()) {
         (false, _) => part.to_string(),
         (true, Ok(number)) => style.number(number),
         (true, Err(_)) => style.of_library(part),
