@@ -113,6 +113,7 @@ fn inverse_factorials(first: u32, style: &Style) -> String {
     all.collect::<Vec<_>>().join(", ")
 }
 
+/// Returns a helper with the types, numbers and names of the style.
 fn written(name: &str, style: &Style) -> String {
     let (largest, floor) = match style.real {
         Real::Double => (f64::MAX, 64.0 * f64::EPSILON),
