@@ -8,7 +8,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::closure::polygons;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, OUT_OF_REACH};
 
 use super::multiplier_system::solve;
 use super::random_dyads::{KINDS, Surroundings, draw};
@@ -260,7 +260,7 @@ fn out_of_reach_the_loop_is_refused() {
         assert_eq!(refused.is_some(), out, "{off:e}: {found:?}");
         if out {
             // After the joints' pivots, that of the loop.
-            assert_eq!(refused, Some(robot.nv()), "{off:e}");
+            assert_eq!(refused, Some(OUT_OF_REACH + robot.nv()), "{off:e}");
         } else {
             assert!(found.iter().all(|x| x.is_finite()), "{off:e}: {found:?}");
         }
