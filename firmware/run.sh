@@ -46,13 +46,6 @@ echo "== Cortex-M7, f32 and f64"
 run m7
 run m7 --features double
 
-echo "== Cortex-M4F, f32, generated C"
-if command -v arm-none-eabi-gcc >/dev/null; then
-  on m4f "$cargo" run -q --release --features c --bin figures
-else
-  skip "firmware in C" "there is no arm-none-eabi-gcc" "install gcc-arm-none-eabi and libnewlib-arm-none-eabi"
-fi
-
 riscv=riscv32imafc-unknown-none-elf
 if ! command -v qemu-riscv32 >/dev/null; then
   skip "firmware on RISC-V" "there is no qemu-riscv32" "install qemu-user"
