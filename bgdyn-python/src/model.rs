@@ -217,15 +217,10 @@ impl Model {
         if self.data.spec.mechanism.closure().is_none() {
             return Err(PyValueError::new_err("the mechanism has no loops"));
         }
-        let way = Way {
-            out,
-            threads,
-            on_singular,
-        };
+        let way = Way::new(out, threads, on_singular);
         let given = [("q", q, self.nq())];
-        each_state(q.py(), &self.data, &given, self.nq(), &way, |of, x| {
-            of.close(x[0])
-        })
+        let one = |of: &Positions<'_>, x: &[&[f64]]| of.close(x[0]);
+        each_state(q.py(), &self.data, &given, self.nq(), &way, one)
     }
 
     /// q after the constant velocities `dv` for one unit of time.
@@ -238,11 +233,7 @@ impl Model {
         threads: usize,
         on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let way = Way {
-            out,
-            threads,
-            on_singular,
-        };
+        let way = Way::new(out, threads, on_singular);
         let given = [("q", q, self.nq()), ("dv", dv, self.nv())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| of.integrate(x[0], x[1]);
         each_state(q.py(), &self.data, &given, self.nq(), &way, one)
@@ -259,14 +250,8 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q1", q1, self.nq()), ("q0", q0, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.difference(x[0], x[1]));
-        each_state(
-            q1.py(),
-            &self.data,
-            &given,
-            self.nv(),
-            &Way::plain(out, threads),
-            one,
-        )
+        let way = Way::plain(out, threads);
+        each_state(q1.py(), &self.data, &given, self.nv(), &way, one)
     }
 
     /// q̇ = N(q) v.
@@ -280,14 +265,8 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq()), ("v", v, self.nv())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.position_rates(x[0], x[1]));
-        each_state(
-            q.py(),
-            &self.data,
-            &given,
-            self.nq(),
-            &Way::plain(out, threads),
-            one,
-        )
+        let way = Way::plain(out, threads);
+        each_state(q.py(), &self.data, &given, self.nq(), &way, one)
     }
 
     /// q with quaternions of length 1.
@@ -300,14 +279,8 @@ impl Model {
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.normalize(x[0]));
-        each_state(
-            q.py(),
-            &self.data,
-            &given,
-            self.nq(),
-            &Way::plain(out, threads),
-            one,
-        )
+        let way = Way::plain(out, threads);
+        each_state(q.py(), &self.data, &given, self.nq(), &way, one)
     }
 
     /// Random positions; with loops closed ones.

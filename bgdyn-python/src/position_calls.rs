@@ -24,13 +24,18 @@ pub struct Way<'a, 'py> {
 }
 
 impl<'a, 'py> Way<'a, 'py> {
-    /// Returns that of a call that refuses no state.
-    pub fn plain(out: Option<&'a Bound<'py, PyAny>>, threads: usize) -> Self {
+    /// Returns that of a call.
+    pub fn new(out: Option<&'a Bound<'py, PyAny>>, threads: usize, on_singular: &'a str) -> Self {
         Way {
             out,
             threads,
-            on_singular: "raise",
+            on_singular,
         }
+    }
+
+    /// Returns that of a call that refuses no state.
+    pub fn plain(out: Option<&'a Bound<'py, PyAny>>, threads: usize) -> Self {
+        Way::new(out, threads, "raise")
     }
 }
 

@@ -11,11 +11,11 @@ pub use assembly::{BranchBlock, Conditions, Mechanism, assemble};
 use crate::singular::OUT_OF_REACH;
 use crate::{Scalar, StateVector};
 
-/// Largest number of steps.
-const STEPS: usize = 10;
+/// Largest number of steps of Newton's method before the last one.
+pub const STEPS: usize = 10;
 
 /// Largest change of a position in one step, rad or m: steps do not jump to another branch.
-const LARGEST: f64 = 0.5;
+pub const LARGEST: f64 = 0.5;
 
 /// A dependent joint of a loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,10 +41,10 @@ pub struct Closing<Y: StateVector> {
 
 /// Newton's method converges quadratically: after a step below this one more step is exact to rounding, in scalars
 /// with the digits of `f64`.
-const CLOSED: f64 = 1e-8;
+pub const CLOSED: f64 = 1e-8;
 
 /// The same in scalars that do not tell 1 + [`CLOSED`] from 1.
-const CLOSED_COARSELY: f64 = 1e-4;
+pub const CLOSED_COARSELY: f64 = 1e-4;
 
 /// A number that scalars with the digits of `f64` do not add to 1.
 const MORE_DIGITS: f64 = 1e-20;

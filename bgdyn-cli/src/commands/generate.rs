@@ -161,10 +161,8 @@ impl Generate {
     }
 }
 
-/// Returns the error of a backend: a wrong call, or something that it cannot write.
+/// Returns the error of a backend: a wrong call.
 fn of_backend(error: BackendError) -> anyhow::Error {
-    match error {
-        BackendError::Option(message) => Usage(message).into(),
-        BackendError::Unsupported(message) => anyhow!(message),
-    }
+    let BackendError::Option(message) = error;
+    Usage(message).into()
 }

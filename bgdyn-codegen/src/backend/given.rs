@@ -17,17 +17,12 @@ pub struct BackendOption {
 pub enum BackendError {
     /// An option, or its value, that does not exist.
     Option(String),
-    /// Something that the backend cannot write.
-    Unsupported(String),
 }
 
 impl fmt::Display for BackendError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            BackendError::Option(message) | BackendError::Unsupported(message) => {
-                f.write_str(message)
-            }
-        }
+        let BackendError::Option(message) = self;
+        f.write_str(message)
     }
 }
 

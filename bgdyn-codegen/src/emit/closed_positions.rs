@@ -14,11 +14,11 @@ use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::LoopRow;
 use crate::method::Method;
-use crate::plan::{closing_joint, pivot_names, tree_pivot_names};
+use crate::plan::{dependent_joint, pivot_names, tree_pivot_names};
 
 /// Returns a dependent joint with its position and its loop.
 pub(super) fn dependent(closed: &ClosedTree, j: CoordinateId) -> TokenStream {
-    let joint = closing_joint(closed, j);
+    let joint = dependent_joint(closed, j);
     let [velocity, position, closes] = [joint.velocity, joint.position, joint.closes].map(size);
     quote! {
         __rt::closure::Dependent { velocity: #velocity, position: #position, closes: #closes }

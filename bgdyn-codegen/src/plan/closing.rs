@@ -1,27 +1,18 @@
 //! Which positions change where loops close, and which tell a closed position.
 
+use bgdyn_runtime::closure::Dependent;
+
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
 
-/// A joint whose position changes where loops close and wheels touch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ClosingJoint {
-    /// The index of its velocity in the open tree.
-    pub velocity: usize,
-    /// The index of its position, or the first one of its joint.
-    pub position: usize,
-    /// The index of its loop.
-    pub closes: usize,
-}
-
 /// Returns the joint of a dependent velocity.
-pub fn closing_joint(closed: &ClosedTree, j: CoordinateId) -> ClosingJoint {
+pub fn dependent_joint(closed: &ClosedTree, j: CoordinateId) -> Dependent {
     let closure = &closed.closure;
     let mut compounds = closure.compounds.iter();
     let own = compounds.find(|joint| joint.degrees.velocities.contains(&j));
     let first = own.and_then(|joint| joint.degrees.positions.first());
     let position = closure.positions[j.0].as_ref().or(first);
-    ClosingJoint {
+    Dependent {
         velocity: j.0,
         position: position.map_or(0, |p| p.0),
         closes: closure.loop_of(j),

@@ -23,8 +23,8 @@ mod summary;
 
 pub use block::{BlockPlan, BlockStep};
 pub use closing::{
-    ClosingJoint, actuated_pivot_names, closing_joint, closing_names, independent_positions,
-    loop_names, pivot_names, tree_pivot_names,
+    actuated_pivot_names, closing_names, dependent_joint, independent_positions, loop_names,
+    pivot_names, tree_pivot_names,
 };
 pub use columns::ColumnPlan;
 pub use function::{FunctionPlan, Tail};

@@ -5,7 +5,7 @@ use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::plan::{closing_joint, independent_positions};
+use bgdyn_codegen::plan::{dependent_joint, independent_positions};
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::ACTUATORS;
 use bgdyn_runtime::closure::{self, Dependent};
@@ -44,13 +44,8 @@ impl<T: CNumber> Reference<'_, T> {
     }
 
     fn dependents(&self, closed: &ClosedTree) -> Vec<Dependent> {
-        let all = closed.closure.closing().map(|j| closing_joint(closed, j));
-        let dependent = |joint: bgdyn_codegen::plan::ClosingJoint| Dependent {
-            velocity: joint.velocity,
-            position: joint.position,
-            closes: joint.closes,
-        };
-        all.map(dependent).collect()
+        let all = closed.closure.closing();
+        all.map(|j| dependent_joint(closed, j)).collect()
     }
 
     /// Returns the closed position, and the number of the cause if there is none.

@@ -3,16 +3,15 @@
 //!
 //! They are `bgdyn_runtime::closure` around the functions `closing_step` and `tree_velocity` of the file.
 
+use bgdyn_runtime::closure::{CLOSED, CLOSED_COARSELY, Dependent, LARGEST, STEPS};
+
 use super::context::ModelContext;
 use super::parameters::of_model;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
 use super::style::{Real, Style};
 use crate::bond_graph::{ClosedTree, joint_segments};
 use crate::method::Method;
-use crate::plan::{ClosingJoint, closing_joint, independent_positions};
-
-/// Largest number of steps before the last one.
-const STEPS: usize = 10;
+use crate::plan::{dependent_joint, independent_positions};
 
 /// What a function that closes returns.
 const CAUSES: [&str; 2] = [
@@ -24,7 +23,7 @@ const CAUSES: [&str; 2] = [
 pub(super) struct Newton<'a> {
     pub(super) style: &'a Style,
     /// The joints that close, with the place of each velocity in a step.
-    pub(super) joints: Vec<ClosingJoint>,
+    pub(super) joints: Vec<Dependent>,
     /// The place of the first loop among the causes.
     pub(super) first: usize,
     /// The name of the vector that has the positions, and its size in C.
@@ -44,12 +43,12 @@ impl Newton<'_> {
     /// The function returns 0, or the number of the first loop that does not close.
     pub(super) fn function(&self) -> PositionFunction {
         let (style, real) = (self.style, self.style.real());
-        let [zero, half, one] = [0.0, 0.5, 1.0].map(|x| style.number(x));
+        let [zero, largest, one] = [0.0, LARGEST, 1.0].map(|x| style.number(x));
         let closed = style.number(match style.real {
-            Real::Double => 1e-8,
-            Real::Float => 1e-4,
+            Real::Double => CLOSED,
+            Real::Float => CLOSED_COARSELY,
         });
-        let row = |joint: &ClosingJoint| {
+        let row = |joint: &Dependent| {
             let cause = self.first + joint.closes + 1;
             format!("{{{}, {}, {cause}}}", joint.velocity, joint.position)
         };
@@ -70,7 +69,7 @@ impl Newton<'_> {
             format!("        last = {larger}(last, size);"),
             format!("        (void){pivot}({closed} - size, {zero}, joints[i][2], &refused);"),
             "    }".into(),
-            format!("    const {real} scale = ({half} < last) ? {half} / last : {one};"),
+            format!("    const {real} scale = ({largest} < last) ? {largest} / last : {one};"),
         ];
         let back = self.step_back("change[@] * scale");
         body.extend(back.iter().map(|line| format!("    {line}")));
@@ -111,7 +110,7 @@ struct ClosingText<'a> {
     closed: &'a ClosedTree,
     context: &'a ModelContext<'a>,
     /// The joints whose positions close.
-    joints: Vec<ClosingJoint>,
+    joints: Vec<Dependent>,
 }
 
 /// Returns the functions of positions, each after those that it calls.
@@ -119,7 +118,7 @@ pub(super) fn closing_functions(
     closed: &ClosedTree,
     context: &ModelContext<'_>,
 ) -> Vec<PositionFunction> {
-    let joints = closed.closure.closing().map(|j| closing_joint(closed, j));
+    let joints = closed.closure.closing().map(|j| dependent_joint(closed, j));
     let text = ClosingText {
         closed,
         context,

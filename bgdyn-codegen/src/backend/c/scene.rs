@@ -1,5 +1,7 @@
 //! The files of a scene: its functions of state, inputs and time as arrays, for a caller's integrator.
 
+use bgdyn_runtime::closure::Dependent;
+
 use super::closing::Newton;
 use super::context::FunctionContext;
 use super::files::{CFiles, comment, lines_of};
@@ -11,7 +13,7 @@ use super::style::Style;
 use crate::function::Function;
 use crate::interface::SceneInterface;
 use crate::method::{Method, SceneFunction};
-use crate::plan::{ClosingJoint, Naming};
+use crate::plan::Naming;
 use crate::system::SceneEquations;
 
 /// Returns what the files of a scene have.
@@ -96,7 +98,7 @@ fn closing_functions(
     interface: &SceneInterface,
 ) -> [PositionFunction; 2] {
     let (layout, style) = (&interface.layout, context.style);
-    let joint = |&(position, closes): &(usize, usize)| ClosingJoint {
+    let joint = |&(position, closes): &(usize, usize)| Dependent {
         velocity: position,
         position,
         closes,
