@@ -44,7 +44,7 @@ mutate() {
     number=$((number + 1))
     if [[ $wanted != "  " && $wanted != *" $number "* ]]; then return; fi
     local text rest
-    text=$(cat "$root/$file")
+    text=$(cat "$root/$file" 2>/dev/null || true)
     rest=${text#*"$old"}
     if [[ $rest == "$text" || $rest == *"$old"* ]]; then
         printf '%2d | %-36s | %-40s | MISSING: the file must hold this text exactly once: %s\n' \
@@ -149,7 +149,7 @@ once "axes almost parallel" $recursion/geometry.rs \
     'z.0[..2].iter().all(|x| x.hi().abs() < NOISE)' \
     '(z.0[2].abs() - Dd::ONE).hi().abs() < NOISE' noisy_axes
 mutate "origins far from a parent without an axis" $recursion/geometry.rs \
-    'place[*k].hi().abs() <= FAR * size * z[*k].hi().abs()' 'size < f64::MAX' \
+    'origin[*k].hi().abs() <= FAR * size * z[*k].hi().abs()' 'size < f64::MAX' \
     "${codegen[@]}" joints noisy::
 
 # Joints with several velocities.
@@ -171,7 +171,7 @@ mutate "dependent joints of a row" $constraint/elimination.rs \
     'ratio: -k,' 'ratio: k,' "${codegen[@]}" joints constraint
 mutate "offsets of replaced leaders" $constraint/couple.rs \
     'constant = sum(constant, leader.ratio * own);' 'constant = sum(constant, own);' "${codegen[@]}" joints constraints::
-mutate "position of a joint followed in velocity" bgdyn-codegen/src/emit/joint_segments.rs \
+mutate "position of a joint followed in velocity" bgdyn-codegen/src/emit/joint_by_joint.rs \
     'quote! { #q + (#moved) }' 'quote! { #q - (#moved) }' -p bgdyn --test free_joints laws::
 mutate "locked leaders" bgdyn-codegen/src/mechanism/lock.rs \
     'Some(leader.ratio * *at)' 'Some(*at)' "${codegen[@]}" joints coupled_scenes::

@@ -3,10 +3,15 @@
 //! Without run-time parameters it is numerical, and the same for every method and for all plans with the same
 //! origins.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
 use bgdyn_runtime::Dd;
+
+use crate::mechanism::LinkId;
+
+/// The links that each number of a body contains, in the order of [`Numbers::bodies`].
+pub(super) type Contents = [Vec<LinkId>; 11];
 
 /// The cached results.
 #[derive(Default)]
@@ -22,6 +27,8 @@ pub(super) struct Numbers {
     pub bodies: Vec<[Dd; 11]>,
     /// Potential energy that does not depend on q, J.
     pub energy: Dd,
+    /// The contents of each body's numbers, once a reader has asked for them.
+    pub contents: OnceCell<Rc<[Contents]>>,
 }
 
 impl BaseParameterCache {

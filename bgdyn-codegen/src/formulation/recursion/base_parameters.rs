@@ -5,6 +5,8 @@
 //! with a run-time parameter costs operations at each addition; the plan chooses how far it moves. Parts are kept apart
 //! until they are summed: a factor folds into a product but not into a sum, and a multiple of one parameter stays one.
 
+use std::cell::OnceCell;
+
 use bgdyn_runtime::Dd;
 
 use super::base_parameter_cache::Numbers;
@@ -81,6 +83,7 @@ pub(super) fn regrouped<'g>(
             base_parameters: plan.base_parameters,
             bodies,
             energy,
+            contents: OnceCell::new(),
         });
     }
     (bodies, energy)

@@ -1,7 +1,10 @@
 //! Finds the links that the numbers of each body are sums of, for readers of the output.
 
+use std::rc::Rc;
+
 use bgdyn_runtime::Dd;
 
+use super::base_parameter_cache::Contents;
 use super::base_parameters::regroup;
 use super::geometry::Geometry;
 use super::inertia::BodyInertia;
@@ -13,12 +16,22 @@ use crate::mechanism::LinkId;
 /// The share of a number below which a link's part is a rounding error.
 const LEAST: f64 = 1e-12;
 
-/// The links that each number of [`BodyInertia::numbers`] contains.
-pub(super) type Contents = [Vec<LinkId>; 11];
+/// Returns the contents of each body's numbers. They are cached with these; numbers with run-time parameters are not.
+pub(super) fn contents(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Rc<[Contents]> {
+    let known = geometry.regrouped.find(&plan.slides, plan.base_parameters);
+    match known {
+        Some(known) => Rc::clone(
+            known
+                .contents
+                .get_or_init(|| find_contents(graph, geometry, plan)),
+        ),
+        None => find_contents(graph, geometry, plan),
+    }
+}
 
-/// Returns the contents of each body's numbers. The inertia is linear in that of the links: a link's part is what
-/// remains where all others have none.
-pub(super) fn contents(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Vec<Contents> {
+/// Finds the contents. The inertia is linear in that of the links: a link's part is what remains where all others have
+/// none.
+fn find_contents(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Rc<[Contents]> {
     let links = geometry.bodies.iter().flat_map(|body| &body.links);
     let parts: Vec<(LinkId, Vec<[f64; 11]>)> = links
         .map(|&(link, _)| (link, parts_of(link, graph, geometry, plan)))

@@ -309,7 +309,7 @@ fn describe_data(
 ) {
     let contents = contents(graph, geometry, plan);
     let bodies = frames.bodies.iter().zip(&geometry.bodies);
-    for (((frame, body), contents), aim) in bodies.zip(&contents).zip(aims) {
+    for (((frame, body), contents), aim) in bodies.zip(contents.iter()).zip(aims) {
         let own: Vec<LinkId> = body.links.iter().map(|(link, _)| *link).collect();
         let aimed = *aim != (Dd::ONE, Dd::ZERO);
         let name = |link: LinkId| graph.frames[link.0].name.clone();

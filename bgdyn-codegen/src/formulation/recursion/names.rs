@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::contents::Contents;
+use super::base_parameter_cache::Contents;
 use super::inertia::BodyInertia;
 use crate::expr::Expr;
 use crate::math::{Mat3, Vec3};
