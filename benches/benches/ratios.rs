@@ -136,7 +136,7 @@ macro_rules! robots {
 include!(concat!(env!("OUT_DIR"), "/robots.rs"));
 
 fn main() {
-    // `cargo test` runs benchmarks without this argument, to check that they run.
+    // `cargo test --benches` runs benchmarks without this argument, to check that they run.
     let robots = match std::env::args().any(|argument| argument == "--bench") {
         true => ROBOTS,
         false => &ROBOTS[..1],

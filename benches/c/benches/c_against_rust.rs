@@ -194,7 +194,7 @@ macro_rules! arms {
 include!(concat!(env!("OUT_DIR"), "/arms.rs"));
 
 fn main() {
-    // `cargo test` runs benchmarks without this argument, to check that they run.
+    // `cargo test --benches` runs benchmarks without this argument, to check that they run.
     let arms = match std::env::args().any(|argument| argument == "--bench") {
         true => ARMS,
         false => &ARMS[..1],

@@ -350,7 +350,7 @@ fn scenes_in_double() {
 
 #[test]
 fn scenes_in_float() {
-    for path in &SCENES[..10] {
+    for path in &SCENES {
         check::<f32>(path, &Options::default());
     }
 }
