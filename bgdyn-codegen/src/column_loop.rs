@@ -128,7 +128,7 @@ fn of_column(graph: &Graph, outputs: &[Signed]) -> Vec<bool> {
     for i in (0..graph.len()).filter(|&i| needed[i]) {
         let node = graph.node(NodeId(i as u32));
         let mut found = matches!(node, Node::Leaf(Leaf::BlockResult { block: OWN, .. }));
-        node.for_each_operand(|operand| found |= own[operand.place()]);
+        node.for_each_operand(|operand| found |= own[operand.index()]);
         own[i] = found;
     }
     own

@@ -33,7 +33,7 @@ pub struct InnerProducts {
 
 impl InnerProducts {
     /// Returns row and column of each entry.
-    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> {
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize)> {
         let runs = self.runs.iter().cloned();
         runs.flat_map(|(column, rows)| rows.map(move |row| (row, column)))
     }

@@ -104,7 +104,7 @@ fn terms(graph: &Graph, reads: &[u32], e: Signed) -> Option<Vec<ProductTerm>> {
     let Signed { mut node, negative } = e;
     let mut negative = negative;
     loop {
-        (reads[node.place()] == 1).then_some(())?;
+        (reads[node.index()] == 1).then_some(())?;
         let (factors, minus, rest) = match *graph.node(node) {
             Node::MulAdd(a, b, minus, rest) => ([a, b], minus, Some(rest)),
             Node::Mul(a, b) => ([a, b], false, None),

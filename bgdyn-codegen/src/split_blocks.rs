@@ -74,12 +74,12 @@ fn homes(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<O
 /// Returns, for each node, whether it is a sum of products or part of such a sum.
 fn in_loops(graph: &Graph, outputs: &[Signed], products: &[InnerProducts]) -> Vec<bool> {
     let mut found = vec![false; graph.len()];
-    for (row, column) in products.iter().flat_map(InnerProducts::places) {
+    for (row, column) in products.iter().flat_map(InnerProducts::entries) {
         let mut sum = outputs[in_triangle(row, column)].node;
-        found[sum.place()] = true;
+        found[sum.index()] = true;
         while let Node::MulAdd(_, _, _, rest) = graph.node(sum) {
             sum = rest.node;
-            found[sum.place()] = true;
+            found[sum.index()] = true;
         }
     }
     found
@@ -183,7 +183,7 @@ impl<'a> Cutter<'a> {
             for e in (found.rows.values_mut().chain(found.columns.values_mut())).flatten() {
                 *e = self.copy_signed(*e);
             }
-            for (row, column) in found.places() {
+            for (row, column) in found.entries() {
                 let mut terms = found.rows[&row].iter().zip(&found.columns[&column]);
                 let first = terms.next().map(|(&x, &y)| self.made.mul(x, y));
                 let add = |sum, (&x, &y): (&Signed, &Signed)| self.made.mul_add(x, y, sum);

@@ -54,7 +54,7 @@ fn common_axes_equal_the_other_ways() {
     let found = branched.function("common_axes", M);
     let looped = products(&found)
         .iter()
-        .flat_map(InnerProducts::places)
+        .flat_map(InnerProducts::entries)
         .count();
     assert!(looped > 100, "{looped} entries in loops");
     for name in ["chain32", "chain64"] {
@@ -135,18 +135,18 @@ fn loops_compute_what_is_counted() {
         let [products] = products(&cut) else {
             panic!("{name}: one table")
         };
-        let places: Vec<(usize, usize)> = products.places().collect();
-        let distinct: BTreeSet<_> = places.iter().collect();
-        assert_eq!(distinct.len(), places.len(), "{name}");
+        let entries: Vec<(usize, usize)> = products.entries().collect();
+        let distinct: BTreeSet<_> = entries.iter().collect();
+        assert_eq!(distinct.len(), entries.len(), "{name}");
         let n = robot.nv();
         assert!(
-            places.len() >= (n - 3) * (n - 3) / 2,
+            entries.len() >= (n - 3) * (n - 3) / 2,
             "{name}: {}",
-            places.len()
+            entries.len()
         );
         // Each entry of the table is the sum of its products, and no other entries remain.
         let mut terms = 0;
-        for &(row, column) in &places {
+        for &(row, column) in &entries {
             let entry = [last.outputs[in_triangle(row, column)]];
             let found = count(&cut.graph, &entry);
             let wanted = products.rows[&row].len();

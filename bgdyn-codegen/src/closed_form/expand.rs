@@ -79,7 +79,7 @@ impl Expansion<'_> {
     }
 
     fn at(&self, id: NodeId) -> Result<&Polynomial, NoClosedForm> {
-        self.made[id.place()]
+        self.made[id.index()]
             .as_ref()
             .ok_or(NoClosedForm::NotTrigonometric)
     }

@@ -12,7 +12,9 @@ use super::writer::{StoredResult, Writer};
 use crate::expr::Leaf;
 use crate::function::Function;
 use crate::method::{Argument, Method, Shape};
-use crate::plan::{BlockPlan, FunctionPlan, Listing, Place, PlanLimits, Tail, block_name, is_part};
+use crate::plan::{
+    BlockPlan, Destination, FunctionPlan, Listing, PlanLimits, Tail, block_name, is_part,
+};
 
 /// What the plans of Rust functions keep to: the lanes of the widest register, and results that are so small that
 /// storing their entries early gains nothing.
@@ -28,14 +30,14 @@ pub(super) struct FunctionBody {
 }
 
 /// Returns the body of a method, and its blocks. `finish` builds the result from its components; for a
-/// matrix, the places give their positions in it.
+/// matrix, the destinations give their positions in it.
 pub(super) fn body(
     function: &Function,
     spelling: &Spelling<'_>,
-    places: Option<Vec<Vec<Place>>>,
+    destinations: Option<Vec<Vec<Destination>>>,
     finish: impl Fn(&[TokenStream]) -> TokenStream,
 ) -> FunctionBody {
-    let plan = FunctionPlan::new(function, places, &LIMITS);
+    let plan = FunctionPlan::new(function, destinations, &LIMITS);
     match plan.blocks.as_slice() {
         [block] if function.blocks.len() == 1 => FunctionBody {
             body: whole(&plan, block, spelling, &finish),

@@ -24,7 +24,7 @@ pub(super) fn columns(
         ResultSource::Stage(k) => stage[k].clone(),
         ResultSource::Column { group, column, row } => {
             let found = ident(&LoopArrays::of(group).found);
-            let (row, column) = (place(row), place(column));
+            let (row, column) = (literal_index(row), literal_index(column));
             quote! { #found[#row][#column] }
         }
     };
@@ -54,13 +54,16 @@ fn column_group(
     });
     let statements = writer.statements();
     let results = writer.values(&plan.column.outputs);
-    let rows = (0..results.len()).map(place);
+    let rows = (0..results.len()).map(literal_index);
     let values = plan.group.shared.iter().map(|&k| &stage[k]);
     let own_rows = plan.own_rows().into_iter().map(|row| {
         let values = row.into_iter().map(|k| &stage[k]);
         quote! { [#(#values),*] }
     });
-    let (count, height) = (place(plan.group.own.len()), place(results.len()));
+    let (count, height) = (
+        literal_index(plan.group.own.len()),
+        literal_index(results.len()),
+    );
     let title = comment("the same for each column: row by row what it reads, and its results");
     quote! {
         #title
@@ -74,6 +77,6 @@ fn column_group(
     }
 }
 
-fn place(index: usize) -> Literal {
+fn literal_index(index: usize) -> Literal {
     Literal::usize_unsuffixed(index)
 }

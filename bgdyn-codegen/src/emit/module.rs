@@ -17,7 +17,7 @@ use crate::function::Function;
 use crate::mechanism::Motion;
 use crate::method::Method;
 use crate::model::Model;
-use crate::plan::{Naming, matrix_places, reads_dependents, summary_of, unread};
+use crate::plan::{Naming, matrix_destinations, reads_dependents, summary_of, unread};
 
 /// Returns the module of a model.
 pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
@@ -180,8 +180,8 @@ fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenSt
     };
     let finish = |values: &[TokenStream]| body::result(function.method, sizes, values);
     let spelling = code::Spelling::of_model(model, output.plain);
-    let places = matrix_places(function.shape(), model.mechanism.nv());
-    let body::FunctionBody { body, blocks } = body::body(function, &spelling, places, finish);
+    let destinations = matrix_destinations(function.shape(), model.mechanism.nv());
+    let body::FunctionBody { body, blocks } = body::body(function, &spelling, destinations, finish);
     quote! {
         #(#[doc = #docs])*
         pub fn #name(&self, #(#names: #types),*) -> #result {

@@ -12,14 +12,14 @@ use crate::plan::block_name;
 
 impl Writer<'_> {
     /// Returns the code of a signed operand, in parentheses if its context binds tighter.
-    pub(super) fn operand(&self, e: Signed, place: Binding) -> TokenStream {
+    pub(super) fn operand(&self, e: Signed, within: Binding) -> TokenStream {
         let Code { tokens, binding } = self.code(e.node);
         match (e.negative, binding) {
-            (true, Binding::Atom) if place == Binding::Sum => quote! { -#tokens },
+            (true, Binding::Atom) if within == Binding::Sum => quote! { -#tokens },
             (true, Binding::Atom) => quote! { (-#tokens) },
-            (true, _) if place == Binding::Sum => quote! { -(#tokens) },
+            (true, _) if within == Binding::Sum => quote! { -(#tokens) },
             (true, _) => quote! { (-(#tokens)) },
-            (false, binding) if binding < place => quote! { (#tokens) },
+            (false, binding) if binding < within => quote! { (#tokens) },
             (false, _) => tokens,
         }
     }

@@ -23,7 +23,7 @@ pub(super) fn matrix(
     let writer = Writer::new(&listing, spelling);
     let statements = writer.statements();
     let entries = plan.entries().map(|((row, column), value)| {
-        let (row, column) = (place(row), place(column));
+        let (row, column) = (literal_index(row), literal_index(column));
         let value = writer.operand(value, Binding::Sum);
         quote! { entries.data.0[#column][#row] = #value; }
     });
@@ -56,7 +56,7 @@ fn inner_products(writer: &Writer<'_>, table: &ProductTable) -> TokenStream {
         quote! { [#(#values),*] }
     });
     let runs = table.runs.iter().map(|run| {
-        let run = run.map(place);
+        let run = run.map(literal_index);
         quote! { [#(#run),*] }
     });
     quote! {
@@ -69,6 +69,6 @@ fn inner_products(writer: &Writer<'_>, table: &ProductTable) -> TokenStream {
     }
 }
 
-fn place(index: usize) -> Literal {
+fn literal_index(index: usize) -> Literal {
     Literal::usize_unsuffixed(index)
 }

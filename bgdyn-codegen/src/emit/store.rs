@@ -14,7 +14,7 @@ use super::code::{Binding, RESULT};
 use super::tokens::comment;
 use super::writer::Writer;
 use crate::expr::{Node, NodeId, Signed};
-use crate::plan::Place;
+use crate::plan::Destination;
 
 /// Number of entries from which a result with many zeros is first filled with them.
 const LARGE: usize = 256;
@@ -40,23 +40,26 @@ impl Writer<'_> {
         quote! { #title let mut #name = #whole; }
     }
 
-    /// Stores an output at its places.
+    /// Stores an output at its destinations.
     pub(super) fn store(&self, output: usize) -> TokenStream {
         let block = self.listing.block;
         let value = self.operand(block.outputs[output], Binding::Sum);
-        let places = block.places.iter().flat_map(|places| &places[output]);
-        let places = places.map(|place| self.place(place));
-        quote! { #(#places = #value;)* }
+        let destinations = block
+            .destinations
+            .iter()
+            .flat_map(|destinations| &destinations[output]);
+        let destinations = destinations.map(|destination| self.destination(destination));
+        quote! { #(#destinations = #value;)* }
     }
 
-    fn place(&self, place: &Place) -> TokenStream {
+    fn destination(&self, destination: &Destination) -> TokenStream {
         let name = format_ident!("{RESULT}");
-        match *place {
-            Place::Element(k) => {
+        match *destination {
+            Destination::Element(k) => {
                 let k = index(k);
                 quote! { #name[#k] }
             }
-            Place::Entry {
+            Destination::Entry {
                 matrix,
                 row,
                 column,
@@ -72,11 +75,15 @@ impl Writer<'_> {
     /// Returns whether zeros are so many that filling the result with them takes the least time.
     fn mostly_zero(&self) -> bool {
         let block = self.listing.block;
-        let places = || block.places.iter().flatten();
+        let destinations = || block.destinations.iter().flatten();
         let zero = |e: &Signed| matches!(block.graph.node(e.node), Node::Constant(c) if c.value() == Dd::ZERO);
-        let zeros = block.outputs.iter().zip(places()).filter(|(e, _)| zero(e));
-        let zeros: usize = zeros.map(|(_, places)| places.len()).sum();
-        let all: usize = places().map(Vec::len).sum();
+        let zeros = block
+            .outputs
+            .iter()
+            .zip(destinations())
+            .filter(|(e, _)| zero(e));
+        let zeros: usize = zeros.map(|(_, destinations)| destinations.len()).sum();
+        let all: usize = destinations().map(Vec::len).sum();
         all >= LARGE && 4 * zeros >= all
     }
 }

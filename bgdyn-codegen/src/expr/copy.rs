@@ -54,7 +54,7 @@ pub(crate) fn angle_sums(graph: &Graph, outputs: &[Signed]) -> Vec<AngleSum> {
     let mut sums: Vec<AngleSum> = Vec::new();
     for id in (0..graph.len())
         .map(NodeId::at)
-        .filter(|id| needed[id.place()])
+        .filter(|id| needed[id.index()])
     {
         let (Node::Sin(node) | Node::Cos(node)) = *graph.node(id) else {
             continue;

@@ -12,12 +12,12 @@ pub struct NodeId(pub(crate) u32);
 
 impl NodeId {
     /// Returns the node with this index in its graph.
-    pub fn at(place: usize) -> Self {
-        NodeId(place as u32)
+    pub fn at(index: usize) -> Self {
+        NodeId(index as u32)
     }
 
     /// Returns its index in its graph.
-    pub fn place(self) -> usize {
+    pub fn index(self) -> usize {
         self.0 as usize
     }
 }

@@ -14,7 +14,7 @@ pub fn fold_reciprocals(from: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed
     let is_one = |id: NodeId| matches!(from.node(id), Node::Constant(c) if c.value() == Dd::ONE);
     // y of a node 1/y with a single reader.
     let divisor = |id: NodeId| match from.node(id) {
-        Node::Div(one, y) if reads[id.place()] == 1 && is_one(*one) => Some(*y),
+        Node::Div(one, y) if reads[id.index()] == 1 && is_one(*one) => Some(*y),
         _ => None,
     };
     // x, y and 1/y of a product x · (1/y).
@@ -29,8 +29,8 @@ pub fn fold_reciprocals(from: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed
     let mut wanted: Vec<bool> = reads.iter().map(|&n| n > 0).collect();
     let mut found = false;
     for id in (0..from.len()).map(NodeId::at) {
-        if let (true, Some((_, _, reciprocal))) = (reads[id.place()] > 0, quotient(id)) {
-            wanted[reciprocal.place()] = false;
+        if let (true, Some((_, _, reciprocal))) = (reads[id.index()] > 0, quotient(id)) {
+            wanted[reciprocal.index()] = false;
             found = true;
         }
     }

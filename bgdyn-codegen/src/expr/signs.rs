@@ -15,7 +15,7 @@ pub fn absorb_negations(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>
     let mut to = Graph::default();
     let nodes = (0..from.len()).filter(|&i| needed[i]);
     let outputs = remade(&mut to, from, outputs, nodes, |to, id, at| {
-        let flip = flips[id.place()];
+        let flip = flips[id.index()];
         let node = match *from.node(id) {
             Node::MulAdd(a, b, negative, c) => {
                 let [a, b] = [a, b].map(|x| at(Signed::plus(x)));
@@ -35,13 +35,13 @@ pub fn absorb_negations(from: &Graph, outputs: &[Signed]) -> (Graph, Vec<Signed>
 fn flips(graph: &Graph, outputs: &[Signed], needed: &[bool]) -> Vec<bool> {
     let mut gain = vec![0_i32; graph.len()];
     let mut bound = vec![false; graph.len()];
-    let mut tally = |e: Signed| gain[e.node.place()] += if e.negative { 1 } else { -1 };
+    let mut tally = |e: Signed| gain[e.node.index()] += if e.negative { 1 } else { -1 };
     outputs.iter().copied().for_each(&mut tally);
     for i in (0..graph.len()).filter(|&i| needed[i]) {
         match *graph.node(NodeId(i as u32)) {
             Node::MulAdd(..) => {}
             Node::Pivot(value, magnitude, _) => [value, magnitude].into_iter().for_each(&mut tally),
-            ref node => node.for_each_operand(|operand| bound[operand.place()] = true),
+            ref node => node.for_each_operand(|operand| bound[operand.index()] = true),
         }
     }
     let flippable = |i: usize| match graph.node(NodeId(i as u32)) {

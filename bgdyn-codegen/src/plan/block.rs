@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::destinations::Destination;
 use super::inline::{inline, uses};
 use super::limits::PlanLimits;
 use super::order::order;
-use super::places::Place;
 use super::reads::leaves;
 use super::sines::{AngleGroups, AnglePair};
 use crate::expr::{Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
@@ -21,7 +21,7 @@ pub enum BlockStep {
     Sines(Vec<AnglePair>),
     /// The first output that is no constant is known: from here on outputs are stored. Constants are stored here.
     Begin(NodeId),
-    /// An output is known: it is stored at its places.
+    /// An output is known: it is stored at its destinations.
     Store(usize),
 }
 
@@ -32,8 +32,8 @@ pub struct BlockPlan<'a> {
     pub graph: &'a Graph,
     /// The results of the block, in order.
     pub outputs: Vec<Signed>,
-    /// Places of each output in the result, if outputs are stored as soon as they are known.
-    pub places: Option<Vec<Vec<Place>>>,
+    /// Destinations of each output in the result, if outputs are stored as soon as they are known.
+    pub destinations: Option<Vec<Vec<Destination>>>,
     /// The steps.
     pub steps: Vec<BlockStep>,
     /// Whether the steps of one section are between those of others, so that titles would mislead.
@@ -51,20 +51,22 @@ pub struct BlockPlan<'a> {
 }
 
 impl<'a> BlockPlan<'a> {
-    /// Plans a block with these outputs. `places` are the places of the outputs if they may be stored as soon as they
-    /// are known; an output is read `reads_per_output` times.
+    /// Plans a block with these outputs. `destinations` are the destinations of the outputs if they may be stored as
+    /// soon as they are known; an output is read `reads_per_output` times.
     pub(super) fn new(
         graph: &'a Graph,
         outputs: Vec<Signed>,
-        places: Option<Vec<Vec<Place>>>,
+        destinations: Option<Vec<Vec<Destination>>>,
         reads_per_output: u32,
         limits: &PlanLimits,
     ) -> Self {
         let needed = reachable(graph, &outputs);
         let uses = uses(graph, &needed, &outputs, reads_per_output);
-        let count = |places: &Vec<Vec<Place>>| places.iter().map(Vec::len).sum::<usize>();
-        let places = places.filter(|places| count(places) >= limits.store_from);
-        let mixed = order(graph, &needed, &outputs, places.is_some());
+        let count =
+            |destinations: &Vec<Vec<Destination>>| destinations.iter().map(Vec::len).sum::<usize>();
+        let destinations =
+            destinations.filter(|destinations| count(destinations) >= limits.store_from);
+        let mixed = order(graph, &needed, &outputs, destinations.is_some());
         let is_pivot = |i: usize| needed[i] && matches!(graph.node(NodeId::at(i)), Node::Pivot(..));
         let mut block = BlockPlan {
             graph,
@@ -74,7 +76,7 @@ impl<'a> BlockPlan<'a> {
             reads: leaves(graph, &outputs),
             refuses: (0..needed.len()).any(is_pivot),
             outputs,
-            places,
+            destinations,
             needed,
             uses,
         };
@@ -111,7 +113,7 @@ impl<'a> BlockPlan<'a> {
         let needed = self.needed.clone();
         let mut angles = AngleGroups::new(self.graph, &needed);
         let mut outputs_of: QuickMap<NodeId, Vec<usize>> = QuickMap::default();
-        if self.places.is_some() {
+        if self.destinations.is_some() {
             for (k, output) in self.outputs.iter().enumerate() {
                 outputs_of.entry(output.node).or_default().push(k);
             }
@@ -122,7 +124,7 @@ impl<'a> BlockPlan<'a> {
                 Node::Leaf(_) | Node::Angle(..) => None,
                 Node::Constant(_) => Some(BlockStep::Constant(id)),
                 Node::Sin(a) | Node::Cos(a) => angles.group(*a, limits).map(BlockStep::Sines),
-                _ => (!self.inline[id.place()]).then_some(BlockStep::Value(id)),
+                _ => (!self.inline[id.index()]).then_some(BlockStep::Value(id)),
             };
             self.steps.extend(step);
             if let Some(outputs) = outputs_of.get(&id)
@@ -140,7 +142,7 @@ impl<'a> BlockPlan<'a> {
 
     /// Begins to store outputs: the first one becomes a value of its own, constants are needed now.
     fn begin(&mut self, first: NodeId) {
-        if std::mem::replace(&mut self.inline[first.place()], false) {
+        if std::mem::replace(&mut self.inline[first.index()], false) {
             self.steps.push(BlockStep::Value(first));
         }
         let constant = |e: &Signed| match self.graph.node(e.node) {

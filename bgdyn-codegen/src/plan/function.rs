@@ -2,9 +2,9 @@
 
 use super::block::BlockPlan;
 use super::columns::ColumnPlan;
+use super::destinations::{Destination, elements};
 use super::inline::reads_per_output;
 use super::limits::PlanLimits;
-use super::places::{Place, elements};
 use super::products::ProductPlan;
 use crate::function::{Block, Function};
 
@@ -31,11 +31,11 @@ pub enum Tail<'a> {
 }
 
 impl<'a> FunctionPlan<'a> {
-    /// Plans a function. `places` are the places of its outputs in the result, if they may be stored as soon as they
-    /// are known.
+    /// Plans a function. `destinations` are the destinations of its outputs in the result, if they may be stored as
+    /// soon as they are known.
     pub fn new(
         function: &'a Function,
-        places: Option<Vec<Vec<Place>>>,
+        destinations: Option<Vec<Vec<Destination>>>,
         limits: &PlanLimits,
     ) -> Self {
         let shape = function.shape();
@@ -53,15 +53,15 @@ impl<'a> FunctionPlan<'a> {
             }
             None => Tail::Nothing,
         };
-        let whole = places.filter(|_| matches!(tail, Tail::Nothing));
+        let whole = destinations.filter(|_| matches!(tail, Tail::Nothing));
         let planned = others.iter().chain((!has_products).then_some(last));
         let plan_block = |block: &Block| {
-            let places = match is_whole {
+            let destinations = match is_whole {
                 true => whole.clone(),
                 false => Some(elements(block.outputs.len())),
             };
             let (outputs, reads) = (block.outputs.clone(), reads_per_output(shape));
-            BlockPlan::new(&function.graph, outputs, places, reads, limits)
+            BlockPlan::new(&function.graph, outputs, destinations, reads, limits)
         };
         FunctionPlan {
             function,

@@ -15,11 +15,11 @@ pub(super) fn uses(
 ) -> Vec<u32> {
     let mut uses = vec![0; graph.len()];
     for e in outputs {
-        uses[e.node.place()] += reads_per_output;
+        uses[e.node.index()] += reads_per_output;
     }
     for i in (0..needed.len()).filter(|&i| needed[i]) {
         let node = graph.node(NodeId::at(i));
-        node.for_each_operand(|operand| uses[operand.place()] += 1);
+        node.for_each_operand(|operand| uses[operand.index()] += 1);
     }
     uses
 }
@@ -34,7 +34,7 @@ pub(super) fn inline(graph: &Graph, needed: &[bool], uses: &[u32]) -> Vec<bool> 
             continue;
         }
         sizes[i] = 1;
-        node.for_each_operand(|o| sizes[i] += usize::from(inline[o.place()]) * sizes[o.place()]);
+        node.for_each_operand(|o| sizes[i] += usize::from(inline[o.index()]) * sizes[o.index()]);
         let is_short = sizes[i] < MAX_STATEMENT_OPERATIONS;
         inline[i] = uses[i] <= 1 && is_short && graph.name(NodeId::at(i)).is_none();
     }

@@ -91,7 +91,7 @@ impl<'a> Listing<'a> {
     /// Returns the name of a value or number; `None` for a value that is inline, an unnamed number, and what is read
     /// from arguments with named parts, parameters and blocks.
     pub fn name(&self, id: NodeId) -> Option<&str> {
-        self.names[id.place()].as_deref()
+        self.names[id.index()].as_deref()
     }
 
     /// Returns all names in the listing, for code that is within that of the block.
@@ -127,7 +127,7 @@ impl<'a> ValueNamer<'a, '_> {
             let mut name = |(leaf, wanted): (Leaf, String)| {
                 let name = is_read(&leaf).then(|| self.used.named(&wanted));
                 if let Some(id) = self.block.graph.find(&Node::Leaf(leaf)) {
-                    self.names[id.place()].clone_from(&name);
+                    self.names[id.index()].clone_from(&name);
                 }
                 (leaf, name)
             };
@@ -147,7 +147,7 @@ impl<'a> ValueNamer<'a, '_> {
                 Comments::default()
             }
             BlockStep::Value(id) => {
-                self.names[id.place()] = Some(self.value_name(*id));
+                self.names[id.index()] = Some(self.value_name(*id));
                 self.comments(*id)
             }
             BlockStep::Sines(angles) => {
@@ -164,7 +164,7 @@ impl<'a> ValueNamer<'a, '_> {
             && let Some(name) = self.block.graph.constant_name(c.value())
         {
             let identifier = self.constants.add(&mut self.used, name, c.value());
-            self.names[id.place()] = Some(identifier);
+            self.names[id.index()] = Some(identifier);
         }
     }
 
@@ -183,7 +183,7 @@ impl<'a> ValueNamer<'a, '_> {
         for (function, node) in [("sin", pair.sine), ("cos", pair.cosine)] {
             let name = self.used.named(&format!("{function}_{name}"));
             if let Some(id) = node {
-                self.names[id.place()] = Some(name);
+                self.names[id.index()] = Some(name);
             }
         }
     }

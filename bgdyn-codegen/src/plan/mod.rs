@@ -7,6 +7,7 @@
 mod block;
 mod closing;
 mod columns;
+mod destinations;
 mod function;
 mod inline;
 mod limits;
@@ -15,7 +16,6 @@ mod named_constants;
 mod names;
 mod naming;
 mod order;
-mod places;
 mod products;
 mod reads;
 mod sines;
@@ -27,13 +27,13 @@ pub use closing::{
     pivot_names, tree_pivot_names,
 };
 pub use columns::ColumnPlan;
+pub use destinations::{Destination, elements, matrix_destinations};
 pub use function::{FunctionPlan, Tail};
 pub use limits::PlanLimits;
 pub use listing::{Comments, ListedStep, Listing};
 pub use named_constants::NamedConstant;
 pub use names::{LoopArrays, block_name};
 pub use naming::{ArgumentNames, Naming};
-pub use places::{Place, elements, matrix_places};
 pub use products::{ProductPlan, ProductTable};
 pub use reads::{is_part, leaves, leaves_of, reads_dependents, unread};
 pub use sines::AnglePair;

@@ -108,12 +108,12 @@ impl<'a> Naming<'a> {
         match (argument, self.layout) {
             (Argument::Canonical, Some(layout)) => {
                 let names = layout.coordinates.iter().map(|c| &c.name).enumerate();
-                let places = layout.positions.iter().map(|p| &p.name).enumerate();
-                let places = places.map(|(j, name)| (Leaf::Position(j), format!("q_{name}")));
+                let positions = layout.positions.iter().map(|p| &p.name).enumerate();
+                let positions = positions.map(|(j, name)| (Leaf::Position(j), format!("q_{name}")));
                 let momenta = names.map(|(j, name)| (Leaf::Velocity(j), format!("p_{name}")));
                 let states = layout.states.iter().enumerate();
                 let states = states.map(|(i, s)| (Leaf::State(i), format!("x_{}", s.name)));
-                places.chain(momenta).chain(states).collect()
+                positions.chain(momenta).chain(states).collect()
             }
             (Argument::Modes, Some(layout)) => {
                 let modes = layout.modes.iter().enumerate();

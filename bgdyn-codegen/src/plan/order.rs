@@ -91,7 +91,7 @@ impl<'a> StatementBlock<'a> {
         for i in (0..needed.len()).filter(|&i| needed[i]) {
             let node = graph.node(NodeId::at(i));
             let (mut late, mut parts) = (Vec::new(), Vec::new());
-            node.for_each_operand(|o| match o.place() {
+            node.for_each_operand(|o| match o.index() {
                 o if is_early[o] => {}
                 o if is_part[o] => {
                     late.extend(&block.operands[o]);
@@ -119,7 +119,7 @@ impl<'a> StatementBlock<'a> {
             block.operations.push(i);
         }
         for e in outputs.iter().filter(|_| !stored) {
-            block.waits_for_end[e.node.place()] = true;
+            block.waits_for_end[e.node.index()] = true;
         }
         block
     }
@@ -174,10 +174,10 @@ impl<'a> StatementBlock<'a> {
                 std::cmp::Reverse(i),
             )
         };
-        while let Some(place) =
-            (0..ready.len()).max_by_key(|&place| key(ready[place], &waits, &computed))
+        while let Some(slot) =
+            (0..ready.len()).max_by_key(|&slot| key(ready[slot], &waits, &computed))
         {
-            let i = ready.swap_remove(place);
+            let i = ready.swap_remove(slot);
             order.push(i);
             computed[i] = order.len();
             self.operands[i].iter().for_each(|&o| waits[o] -= 1);
@@ -198,7 +198,7 @@ impl<'a> StatementBlock<'a> {
         self.operations.iter().for_each(|&i| is_done[i] = false);
         let mut order = Vec::with_capacity(self.operations.len());
         for root in self.outputs.iter().rev() {
-            let mut path = vec![(root.node.place(), 0)];
+            let mut path = vec![(root.node.index(), 0)];
             while let Some((i, next)) = path.pop() {
                 if is_done[i] {
                     continue;
@@ -233,10 +233,10 @@ mod tests {
     fn check(graph: &Graph, needed: &[bool], order: &[NodeId]) {
         let mut written = vec![false; graph.len()];
         for &id in order {
-            assert!(needed[id.place()] && !written[id.place()]);
-            let operand = |o: NodeId| assert!(written[o.place()], "{o:?} before {id:?}");
+            assert!(needed[id.index()] && !written[id.index()]);
+            let operand = |o: NodeId| assert!(written[o.index()], "{o:?} before {id:?}");
             graph.node(id).for_each_operand(operand);
-            written[id.place()] = true;
+            written[id.index()] = true;
         }
         assert_eq!(written, needed);
     }

@@ -38,10 +38,10 @@ impl<'a> ProductPlan<'a> {
     pub(super) fn new(graph: &'a Graph, block: &Block, shape: Shape, limits: &PlanLimits) -> Self {
         let products = &block.products;
         let looped: BTreeSet<(usize, usize)> =
-            products.iter().flat_map(InnerProducts::places).collect();
+            products.iter().flat_map(InnerProducts::entries).collect();
         let triangle = (0..).flat_map(|row| (0..=row).map(move |column| (row, column)));
         let alone = triangle.take(block.outputs.len());
-        let alone: Vec<(usize, usize)> = alone.filter(|place| !looped.contains(place)).collect();
+        let alone: Vec<(usize, usize)> = alone.filter(|entry| !looped.contains(entry)).collect();
         let entry = |&(row, column): &(usize, usize)| block.outputs[in_triangle(row, column)];
         let vectors = products
             .iter()

@@ -35,14 +35,14 @@ impl<'a> AngleGroups<'a> {
     /// Returns the angles whose sines are computed when that of `angle` is needed: none if it is known. An angle
     /// that depends on arguments only is computed together with the next such angles.
     pub(super) fn group(&mut self, angle: NodeId, limits: &PlanLimits) -> Option<Vec<AnglePair>> {
-        if self.done[angle.place()] {
+        if self.done[angle.index()] {
             return None;
         }
         let together = match self.is_argument(angle) {
             true => self.next_arguments(angle, limits.sines),
             false => vec![angle],
         };
-        together.iter().for_each(|a| self.done[a.place()] = true);
+        together.iter().for_each(|a| self.done[a.index()] = true);
         Some(together.into_iter().map(|a| self.pair(a)).collect())
     }
 
@@ -65,7 +65,7 @@ impl<'a> AngleGroups<'a> {
             }
             if let Node::Sin(a) | Node::Cos(a) = self.graph.node(NodeId::at(i))
                 && !found.contains(a)
-                && !self.done[a.place()]
+                && !self.done[a.index()]
                 && self.is_argument(*a)
             {
                 found.push(*a);
@@ -75,7 +75,7 @@ impl<'a> AngleGroups<'a> {
     }
 
     fn pair(&self, angle: NodeId) -> AnglePair {
-        let read = |node: &Node| self.graph.find(node).filter(|id| self.needed[id.place()]);
+        let read = |node: &Node| self.graph.find(node).filter(|id| self.needed[id.index()]);
         AnglePair {
             angle,
             sine: read(&Node::Sin(angle)),

@@ -111,7 +111,7 @@ impl NodeSources {
 
     /// Returns the value of a node, whose instruction precedes its readers.
     fn value(&self, node: NodeId) -> ValueSource {
-        self.values[node.place()].expect("operands precede their users")
+        self.values[node.index()].expect("operands precede their users")
     }
 }
 
@@ -207,7 +207,7 @@ impl Unroller {
             }
             Node::Select(condition, a, b) => {
                 let [left, right] =
-                    made.comparisons[condition.place()].expect("a condition is a comparison");
+                    made.comparisons[condition.index()].expect("a condition is a comparison");
                 let [a, b] = [*a, *b].map(|e| self.signed(e, made));
                 self.push(Op::Select, &[left, right, a, b])
             }
@@ -256,7 +256,7 @@ impl Unroller {
 
     /// Returns the instruction for sine and cosine of a node: a sum of angles, or any value.
     fn pair(&mut self, angle: NodeId, made: &mut NodeSources) -> u32 {
-        let i = angle.place();
+        let i = angle.index();
         match made.sines[i] {
             Some(pair) => pair,
             None => {

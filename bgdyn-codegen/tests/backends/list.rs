@@ -8,7 +8,7 @@ use bgdyn_codegen::backend::{
 use bgdyn_codegen::expr::Node;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::plan::{BlockPlan, BlockStep, FunctionPlan, Tail, matrix_places};
+use bgdyn_codegen::plan::{BlockPlan, BlockStep, FunctionPlan, Tail, matrix_destinations};
 use bgdyn_codegen::{pipeline, read};
 
 const SCARA: &str = include_str!("../../../specs/scara.yaml");
@@ -120,8 +120,8 @@ fn plans_compute_before_they_read() {
     let model = scara();
     for backend in BACKENDS {
         for function in &model.functions {
-            let places = matrix_places(function.shape(), model.mechanism.nv());
-            let plan = FunctionPlan::new(function, places, &backend.limits());
+            let destinations = matrix_destinations(function.shape(), model.mechanism.nv());
+            let plan = FunctionPlan::new(function, destinations, &backend.limits());
             plan.blocks
                 .iter()
                 .for_each(|block| check(block, function.name()));
@@ -141,27 +141,27 @@ fn check(block: &BlockPlan<'_>, what: &str) {
             block.graph.node(id),
             Node::Leaf(_) | Node::Constant(_) | Node::Angle(..)
         );
-        known[id.place()] = is_free;
+        known[id.index()] = is_free;
     }
     let mut stored = vec![0; block.outputs.len()];
     for step in &block.steps {
         match step {
             BlockStep::Constant(_) | BlockStep::Begin(_) => {}
             BlockStep::Value(id) => {
-                read_by(block, id.place(), &known, what);
+                read_by(block, id.index(), &known, what);
                 assert!(
-                    !std::mem::replace(&mut known[id.place()], true),
+                    !std::mem::replace(&mut known[id.index()], true),
                     "{what}: twice"
                 );
             }
             BlockStep::Sines(angles) => {
                 for pair in angles {
                     let found = pair.sine.iter().chain(&pair.cosine);
-                    found.for_each(|id| known[id.place()] = true);
+                    found.for_each(|id| known[id.index()] = true);
                 }
             }
             BlockStep::Store(output) => {
-                let node = block.outputs[*output].node.place();
+                let node = block.outputs[*output].node.index();
                 assert!(
                     known[node] || block.inline[node],
                     "{what}: stored too early"
@@ -181,10 +181,10 @@ fn check(block: &BlockPlan<'_>, what: &str) {
 /// Fails if the operation reads a value that is not known, with what is inline in it.
 fn read_by(block: &BlockPlan<'_>, place: usize, known: &[bool], what: &str) {
     let node = block.graph.node(bgdyn_codegen::expr::NodeId::at(place));
-    node.for_each_operand(|operand| match block.inline[operand.place()] {
-        true => read_by(block, operand.place(), known, what),
+    node.for_each_operand(|operand| match block.inline[operand.index()] {
+        true => read_by(block, operand.index(), known, what),
         false => assert!(
-            known[operand.place()],
+            known[operand.index()],
             "{what}: {operand:?} is read too early"
         ),
     });

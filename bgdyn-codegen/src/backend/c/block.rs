@@ -6,7 +6,7 @@ use crate::expr::Node;
 use crate::function::Function;
 use crate::method::Argument;
 use crate::plan::{
-    ArgumentNames, BlockPlan, BlockStep, Comments, Listing, LoopArrays, Naming, Place,
+    ArgumentNames, BlockPlan, BlockStep, Comments, Destination, Listing, LoopArrays, Naming,
 };
 
 /// A block, and how it is written.
@@ -51,7 +51,7 @@ impl<'a> BlockText<'a> {
         }
     }
 
-    /// Returns the lines of the block, without a margin. Outputs with places are stored in `result`.
+    /// Returns the lines of the block, without a margin. Outputs with destinations are stored in `result`.
     pub(super) fn lines(&self) -> Vec<String> {
         let mut lines = Vec::new();
         let unit = self.listing.unit.iter();
@@ -117,16 +117,19 @@ impl<'a> BlockText<'a> {
         }
     }
 
-    /// Stores an output at its places.
+    /// Stores an output at its destinations.
     fn store(&self, output: usize) -> Vec<String> {
         let block = self.listing.block;
-        let places = block.places.iter().flat_map(|places| &places[output]);
+        let destinations = block
+            .destinations
+            .iter()
+            .flat_map(|destinations| &destinations[output]);
         let value = self.value(block.outputs[output]);
-        let store = |place: &Place| match place {
-            Place::Element(k) => format!("result[{k}] = {value};"),
-            Place::Entry { .. } => unreachable!("results of C are flat"),
+        let store = |destination: &Destination| match destination {
+            Destination::Element(k) => format!("result[{k}] = {value};"),
+            Destination::Entry { .. } => unreachable!("results of C are flat"),
         };
-        places.map(store).collect()
+        destinations.map(store).collect()
     }
 }
 

@@ -22,9 +22,9 @@ const CAUSES: [&str; 2] = [
 /// Newton's method for positions that close, in a function of the file itself.
 pub(super) struct Newton<'a> {
     pub(super) style: &'a Style,
-    /// The joints that close, with the place of each velocity in a step.
+    /// The joints that close, with the index of each velocity in a step.
     pub(super) joints: Vec<Dependent>,
-    /// The place of the first loop among the causes.
+    /// The index of the first loop among the causes.
     pub(super) first: usize,
     /// The name of the vector that has the positions, and its size in C.
     pub(super) argument: &'static str,

@@ -114,7 +114,7 @@ impl BlockText<'_> {
                 let name = self.style.global("checked_pivot");
                 let by = if self.separate { "" } else { "&" };
                 let (value, magnitude) = (sum(*value), sum(*magnitude));
-                // Kinds of causes begin at multiples of this number; C has the place among the names.
+                // Kinds of causes begin at multiples of this number; C has the index among the names.
                 let cause = joint % ACTUATORS + 1;
                 let text = format!("{name}({value}, {magnitude}, {cause}, {by}refused)");
                 (text, Tightness::Whole)

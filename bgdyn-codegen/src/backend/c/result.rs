@@ -8,12 +8,12 @@ use super::style::Style;
 use crate::function::Function;
 use crate::layout::StateLayout;
 use crate::method::{Method, SceneFunction, Shape};
-use crate::plan::{Place, matrix_places};
+use crate::plan::{Destination, matrix_destinations};
 
 /// The flat result of a function.
 pub(super) struct FlatResult {
-    /// Places of each output; none for one that is only checked.
-    pub(super) places: Vec<Vec<usize>>,
+    /// Destinations of each output; none for one that is only checked.
+    pub(super) destinations: Vec<Vec<usize>>,
     /// Number of elements.
     elements: usize,
     /// The same in C.
@@ -39,10 +39,10 @@ impl FlatResult {
         }
         let (shape, nv) = (function.shape(), context.nv);
         let count = output_count(function);
-        let places = matrix_places(shape, nv);
-        let flat = |place: &Place| match *place {
-            Place::Element(k) => k,
-            Place::Entry {
+        let destinations = matrix_destinations(shape, nv);
+        let flat = |destination: &Destination| match *destination {
+            Destination::Element(k) => k,
+            Destination::Entry {
                 matrix,
                 row,
                 column,
@@ -53,14 +53,14 @@ impl FlatResult {
             _ => 0,
         };
         let in_order = |k: usize| k.checked_sub(only_checked).into_iter().collect();
-        let places: Vec<Vec<usize>> = match places {
-            Some(places) => places
+        let destinations: Vec<Vec<usize>> = match destinations {
+            Some(destinations) => destinations
                 .iter()
                 .map(|p| p.iter().map(flat).collect())
                 .collect(),
             None => (0..count).map(in_order).collect(),
         };
-        let elements = places.iter().map(Vec::len).sum::<usize>();
+        let elements = destinations.iter().map(Vec::len).sum::<usize>();
         let checked = match shape {
             Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => {
                 CheckedValues::Elements(0..count)
@@ -69,7 +69,7 @@ impl FlatResult {
             _ => CheckedValues::Outputs(0..only_checked),
         };
         FlatResult {
-            places,
+            destinations,
             size: size(shape)
                 .map_or_else(|| elements.to_string(), |size| context.style.sized(size)),
             elements,
@@ -92,8 +92,8 @@ impl FlatResult {
             format!("result[{k}] = {value};")
         };
         FlatResult {
-            elements: result.places.len() + result.others.len(),
-            places: result.places.iter().map(|&k| vec![k]).collect(),
+            elements: result.destinations.len() + result.others.len(),
+            destinations: result.destinations.iter().map(|&k| vec![k]).collect(),
             size: style.sized(result.size),
             checked: CheckedValues::Elements(result.checked),
             others: result.others.iter().map(store).collect(),
@@ -105,11 +105,16 @@ impl FlatResult {
         self.elements == 0
     }
 
-    /// Returns the places for a plan.
-    pub(super) fn elements(&self) -> Vec<Vec<Place>> {
-        let places = self.places.iter();
-        places
-            .map(|places| places.iter().map(|&k| Place::Element(k)).collect())
+    /// Returns the destinations for a plan.
+    pub(super) fn elements(&self) -> Vec<Vec<Destination>> {
+        let destinations = self.destinations.iter();
+        destinations
+            .map(|destinations| {
+                destinations
+                    .iter()
+                    .map(|&k| Destination::Element(k))
+                    .collect()
+            })
             .collect()
     }
 }

@@ -10,9 +10,9 @@ use crate::method::{Argument, SceneFunction};
 
 /// The flat result of a scene's function.
 pub(super) struct SceneResult {
-    /// The place of each output.
-    pub(super) places: Vec<usize>,
-    /// Other elements: their places and values in C.
+    /// The destination of each output.
+    pub(super) destinations: Vec<usize>,
+    /// Other elements: their destinations and values in C.
     pub(super) others: Vec<(usize, String)>,
     /// Number of elements in C, as a sum of products of sizes: "N * N + N".
     pub(super) size: &'static str,
@@ -26,14 +26,14 @@ impl SceneResult {
         let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
         let rates = nv + nx;
         let in_order = |size| SceneResult {
-            places: (0..outputs).collect(),
+            destinations: (0..outputs).collect(),
             others: Vec::new(),
             size,
             checked: 0..0,
         };
-        let kept = |argument: Argument, places: Range<usize>| -> Vec<(usize, String)> {
+        let kept = |argument: Argument, destinations: Range<usize>| -> Vec<(usize, String)> {
             let value = |k: usize| (k, format!("{}[{k}]", argument.name()));
-            places.map(value).collect()
+            destinations.map(value).collect()
         };
         match role {
             SceneFunction::Derivative => {
@@ -43,25 +43,25 @@ impl SceneResult {
                     .filter_map(|(p, position)| position.coordinate.map(|j| (p, velocity(j))));
                 SceneResult {
                     others: own.collect(),
-                    places: (nq..nq + rates).chain(coupled(layout)).collect(),
+                    destinations: (nq..nq + rates).chain(coupled(layout)).collect(),
                     size: "N",
                     checked: nq..nq + rates,
                 }
             }
             SceneFunction::Jacobian => jacobian(layout),
             SceneFunction::ToCanonical => SceneResult {
-                places: (nq..nq + nv).collect(),
+                destinations: (nq..nq + nv).collect(),
                 others: [0..nq, nq + nv..nq + rates]
                     .into_iter()
-                    .flat_map(|places| kept(Argument::State, places))
+                    .flat_map(|destinations| kept(Argument::State, destinations))
                     .collect(),
                 ..in_order("N")
             },
             SceneFunction::FromCanonical => SceneResult {
-                places: (nq..nq + nv).collect(),
+                destinations: (nq..nq + nv).collect(),
                 others: [0..nq, nq + nv..nq + rates]
                     .into_iter()
-                    .flat_map(|places| kept(Argument::Canonical, places))
+                    .flat_map(|destinations| kept(Argument::Canonical, destinations))
                     .collect(),
                 checked: nq..nq + nv,
                 ..in_order("N")
@@ -93,23 +93,23 @@ fn jacobian(layout: &StateLayout) -> SceneResult {
     let nq = layout.nq();
     let rates = layout.nv() + layout.nx();
     let n = nq + rates;
-    let place = |row: usize, column: usize| match column < n {
+    let destination = |row: usize, column: usize| match column < n {
         true => row * n + column,
         false => n * n + row,
     };
     let rows: Vec<usize> = (nq..n).chain(coupled(layout)).collect();
-    let of_column = |column: usize| rows.iter().map(move |&row| place(row, column));
+    let of_column = |column: usize| rows.iter().map(move |&row| destination(row, column));
     let positions = layout.positions.iter().enumerate();
     let of_position = |(p, j): (usize, usize)| {
         let slope = move |column: usize| {
             let value = if column == nq + j { "1" } else { "0" };
-            (place(p, column), value.to_string())
+            (destination(p, column), value.to_string())
         };
         (0..=n).map(slope)
     };
     let own = positions.filter_map(|(p, position)| Some((p, position.coordinate?)));
     SceneResult {
-        places: (0..=n).flat_map(of_column).collect(),
+        destinations: (0..=n).flat_map(of_column).collect(),
         others: own.flat_map(of_position).collect(),
         size: "N * N + N",
         checked: 0..n * n + n,

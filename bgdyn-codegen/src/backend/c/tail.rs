@@ -18,13 +18,19 @@ pub(super) struct BeforeLoops<'a> {
     pub(super) names: &'a [&'a str],
 }
 
-/// Returns the stores of values at their places.
+/// Returns the stores of values at their destinations.
 pub(super) fn stores(values: &[String], flat: &FlatResult) -> Vec<String> {
-    let store = |(value, places): (&String, &Vec<usize>)| {
-        let lines = places.iter().map(|k| format!("result[{k}] = {value};"));
+    let store = |(value, destinations): (&String, &Vec<usize>)| {
+        let lines = destinations
+            .iter()
+            .map(|k| format!("result[{k}] = {value};"));
         lines.collect::<Vec<_>>()
     };
-    values.iter().zip(&flat.places).flat_map(store).collect()
+    values
+        .iter()
+        .zip(&flat.destinations)
+        .flat_map(store)
+        .collect()
 }
 
 /// Returns an array of the outputs that must be finite and are no part of the result.

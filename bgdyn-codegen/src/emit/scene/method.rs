@@ -260,13 +260,13 @@ fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
 
 /// Returns the code for a state with momenta from its parts.
 fn to_canonical(layout: &StateLayout, momenta: &[TokenStream]) -> TokenStream {
-    let places = layout.positions.iter().map(|p| &p.name);
+    let positions = layout.positions.iter().map(|p| &p.name);
     let states = layout.states.iter().map(|s| &s.name);
     let field = |name: &String| {
         let name = ident(name);
         quote! { state.#name }
     };
-    let all = places.map(field).chain(momenta.iter().cloned());
+    let all = positions.map(field).chain(momenta.iter().cloned());
     vector(&all.chain(states.map(field)).collect::<Vec<_>>())
 }
 
@@ -279,12 +279,12 @@ fn from_canonical(layout: &StateLayout, velocities: &[TokenStream]) -> TokenStre
             .map(move |i| format_ident!("{prefix}{i}"))
             .collect::<Vec<_>>()
     };
-    let (places, states) = (kept("place", nq), kept("state", nx));
+    let (positions, states) = (kept("position", nq), kept("state", nx));
     let skipped = (0..nv).map(|_| quote! { _ });
     quote! {
         #statement
-        let [[#(#places,)* #(#skipped,)* #(#states),*]] = z.data.0;
-        ::core::result::Result::Ok(__rt::vector([#(#places,)* #(#names,)* #(#states),*]))
+        let [[#(#positions,)* #(#skipped,)* #(#states),*]] = z.data.0;
+        ::core::result::Result::Ok(__rt::vector([#(#positions,)* #(#names,)* #(#states),*]))
     }
 }
 

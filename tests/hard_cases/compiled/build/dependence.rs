@@ -43,10 +43,10 @@ pub(crate) fn masks(function: &Function) -> Vec<u128> {
                 Node::Leaf(leaf) => bit(*leaf),
                 _ => 0,
             };
-            node.for_each_operand(|operand| mask |= of_nodes[operand.place()]);
+            node.for_each_operand(|operand| mask |= of_nodes[operand.index()]);
             of_nodes[i] = mask;
         }
-        let results = block.outputs.iter().map(|e| of_nodes[e.node.place()]);
+        let results = block.outputs.iter().map(|e| of_nodes[e.node.index()]);
         passed.push(results.collect());
     }
     passed.pop().expect("at least one block")

@@ -2,9 +2,9 @@
 
 use crate::method::Shape;
 
-/// A place in a result.
+/// A destination in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum Destination {
     /// An element of an array.
     Element(usize),
     /// An entry of a matrix.
@@ -18,29 +18,29 @@ pub enum Place {
     },
 }
 
-/// Returns the places of outputs that are the elements of an array.
-pub fn elements(count: usize) -> Vec<Vec<Place>> {
-    (0..count).map(|k| vec![Place::Element(k)]).collect()
+/// Returns the destinations of outputs that are the elements of an array.
+pub fn elements(count: usize) -> Vec<Vec<Destination>> {
+    (0..count).map(|k| vec![Destination::Element(k)]).collect()
 }
 
-/// Returns the places of a function's outputs in its matrices, where the result has nothing else: entries row by row,
-/// of a symmetric matrix those on and below the diagonal, each in both triangles. `None` for other results.
-pub fn matrix_places(shape: Shape, nv: usize) -> Option<Vec<Vec<Place>>> {
-    let place = |matrix, row, column| Place::Entry {
+/// Returns the destinations of a function's outputs in its matrices, where the result has nothing else: entries row by
+/// row, of a symmetric matrix those on and below the diagonal, each in both triangles. `None` for other results.
+pub fn matrix_destinations(shape: Shape, nv: usize) -> Option<Vec<Vec<Destination>>> {
+    let destination = |matrix, row, column| Destination::Entry {
         matrix,
         row,
         column,
     };
     let full = |matrix, rows: usize| {
         let entries = (0..rows).flat_map(move |i| (0..nv).map(move |j| (i, j)));
-        entries.map(move |(i, j)| vec![place(matrix, i, j)])
+        entries.map(move |(i, j)| vec![destination(matrix, i, j)])
     };
     Some(match shape {
         Shape::Symmetric => {
             let triangle = (0..nv).flat_map(|i| (0..=i).map(move |j| (i, j)));
             let both = |(i, j)| match i == j {
-                true => vec![place(0, i, j)],
-                false => vec![place(0, i, j), place(0, j, i)],
+                true => vec![destination(0, i, j)],
+                false => vec![destination(0, i, j), destination(0, j, i)],
             };
             triangle.map(both).collect()
         }
