@@ -20,15 +20,25 @@ const bundledText = {
   },
 };
 
+/** Returns the licences of the packages that these files are of. */
+const licences = async (inputs) => {
+  const packages = inputs.map((input) => /.*node_modules\/(@[^/]+\/[^/]+|[^/]+)\//.exec(input)).filter(Boolean);
+  const named = new Map(packages.map(([path, name]) => [name, path]).sort());
+  const texts = [...named].map(async ([name, path]) => `${name}\n\n${await readFile(`${path}LICENSE`, "utf8")}`);
+  return (await Promise.all(texts)).join("\n\n");
+};
+
 await mkdir(folder, { recursive: true });
-await build({
+const { metafile } = await build({
   ...common,
   entryPoints: [page("main.js")],
   outfile: `${folder}/page.js`,
-  loader: { ".yaml": "text" },
+  loader: { ".yaml": "text", ".woff2": "dataurl", ".woff": "empty", ".ttf": "empty" },
   plugins: [bundledText],
+  metafile: true,
 });
-for (const name of ["index.html", "page.css"]) await copyFile(page(name), `${folder}/${name}`);
+await copyFile(page("index.html"), `${folder}/index.html`);
+await writeFile(`${folder}/LICENSES.txt`, await licences(Object.keys(metafile.inputs)));
 const packed = gzipSync(await readFile(wasm), { level: 9 });
 // A script, and no file to fetch: pages opened from a disk may fetch nothing.
 await writeFile(`${folder}/bgdyn_wasm.js`, `receiveBgdyn("${packed.toString("base64")}");\n`);

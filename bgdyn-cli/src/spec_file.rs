@@ -200,8 +200,8 @@ impl SpecFile {
     }
 }
 
-/// Returns the name in a spec.
-fn written_name(text: &str) -> Option<String> {
+/// Returns the name that a spec or a scene gives itself with `name:`.
+pub fn written_name(text: &str) -> Option<String> {
     let name = match bgdyn_codegen::format::is_scene(text) {
         true => parse_scene(text).0?.name,
         false => parse(text).0?.name,

@@ -1,4 +1,5 @@
 // The page: two files, what is found in them, and what follows from them.
+import "./page.css";
 import { Cancelled, Engine } from "./engine.js";
 import { byId, connectTabs, make } from "./dom.js";
 import { goTo, makeEditor, markFindings, setText } from "./editor.js";

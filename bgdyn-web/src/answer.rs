@@ -16,14 +16,10 @@ use serde_json::{Value, json};
 /// Significant digits of printed equations, as the command has them.
 const DIGITS: usize = 6;
 
-/// Returns the report of `bgdyn check --json`, with the lines of `bgdyn check`. A URDF is a finding too.
+/// Returns the report of `bgdyn check --json`, with the lines of `bgdyn check`. A text of another kind is a finding too.
 pub(crate) fn check(file: &SpecFile) -> Value {
-    if let Some(fault) = file.urdf() {
-        let message = "this is a URDF, not a spec: the command `bgdyn import` writes the spec of it, and so does the Python package";
-        let place =
-            json!({ "severity": "fault", "line": 1, "column": 1, "path": "", "rule": fault.rule });
-        let mut finding = place;
-        finding["message"] = message.into();
+    if let Some((rule, message)) = other_kind(file) {
+        let finding = json!({ "severity": "fault", "line": 1, "column": 1, "path": "", "rule": rule, "message": message });
         return json!({ "ok": false, "findings": [finding], "lines": [] });
     }
     let found = check::checked(file, false);
@@ -31,6 +27,28 @@ pub(crate) fn check(file: &SpecFile) -> Value {
     let mut report = found.report(&file.path.display().to_string());
     report["lines"] = lines.into();
     report
+}
+
+/// Returns the rule and the message for a text that is neither of the two kinds, or not the one that its place is for:
+/// a file with a mechanism beside it is a scene.
+fn other_kind(file: &SpecFile) -> Option<(&'static str, &'static str)> {
+    if file.urdf().is_some() {
+        return Some((
+            "urdf-given",
+            "this is a URDF, not a spec: the command `bgdyn import` writes the spec of it",
+        ));
+    }
+    match (file.is_scene(), file.mechanism.is_some()) {
+        (true, false) => Some((
+            "scene-given",
+            "this is a scene (`scene: 1`): it belongs under Scene, and its mechanism here",
+        )),
+        (false, true) => Some((
+            "no-scene",
+            "this is no scene: a scene has the keys `scene: 1` and `mechanism`; a mechanism (`format: 1`) belongs under Mechanism",
+        )),
+        _ => None,
+    }
 }
 
 /// Returns the bond graph as SVG, of a scene with its effects.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use bgdyn_cli::spec_file::SpecFile;
+use bgdyn_cli::spec_file::{SpecFile, written_name};
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -42,9 +42,11 @@ struct File {
 }
 
 impl File {
+    /// A name in the text counts as that of the file, as for standard input.
     fn read(self) -> SpecFile {
+        let stem = || bgdyn_codegen::files::stem(Path::new(&self.name));
         SpecFile {
-            stem: bgdyn_codegen::files::stem(Path::new(&self.name)),
+            stem: written_name(&self.text).unwrap_or_else(stem),
             path: self.name.into(),
             text: self.text,
             mechanism: self.mechanism,

@@ -90,6 +90,29 @@ fn mistakes_of_a_page_are_told() {
 }
 
 #[test]
+fn files_in_the_wrong_place_are_findings() {
+    let mut scene = stick_slip();
+    scene["mechanism"] = Value::Null;
+    let mut mechanism = slider();
+    mechanism["mechanism"] = "".into();
+    for (file, rule) in [(scene, "scene-given"), (mechanism, "no-scene")] {
+        let report = ask(&json!({ "command": "check", "file": file }));
+        assert_eq!(report["ok"]["findings"][0]["rule"], rule);
+        assert_eq!(report["ok"]["ok"], false);
+    }
+}
+
+#[test]
+fn a_name_in_the_text_is_that_of_the_file() {
+    let named = text("specs/slider.yaml").replace("format: 1", "format: 1\nname: my_block");
+    let file = json!({ "name": "mechanism.yaml", "text": named });
+    let report = ask(&json!({ "command": "check", "file": file }));
+    assert_eq!(report["ok"]["ok"], true, "{report}");
+    let code = ask(&json!({ "command": "code", "file": file, "backend": "c" }));
+    assert_eq!(code["ok"][0]["name"], "my_block.h");
+}
+
+#[test]
 fn a_urdf_is_a_finding() {
     let file = json!({ "name": "arm.yaml", "text": "<?xml version='1.0'?>\n<robot name='arm'/>" });
     let report = ask(&json!({ "command": "check", "file": file }));

@@ -1,12 +1,13 @@
-// The equations of motion: typeset as MathML, as text, as LaTeX.
+// The equations of motion: typeset, as text, as LaTeX.
 import katex from "katex";
+import "katex/dist/katex.min.css";
 import { byId, make, save, stem } from "../dom.js";
 
 let written = null;
 
 const typeset = (latex, displayMode) => {
   const box = make("div");
-  box.innerHTML = katex.renderToString(latex, { output: "mathml", displayMode, throwOnError: false, maxExpand: Infinity });
+  box.innerHTML = katex.renderToString(latex, { displayMode, throwOnError: false, maxExpand: Infinity });
   return box;
 };
 
