@@ -27,6 +27,7 @@ export const open = async (browser, address = pathToFileURL(join(folder, "index.
 
 /** Chooses a sample by the start of its title; waits for its check. */
 export const sample = async (page, title) => {
+  await page.click("#tab-mechanism");
   const options = await page.locator("#samples option").allTextContents();
   const value = options.findIndex((option) => option.startsWith(title));
   await page.evaluate(() => { document.querySelector("#verdict").textContent = ""; });

@@ -75,8 +75,8 @@ test("completion offers keys and words of the schema", async () => {
 });
 
 for (const [title, path, scene] of [
-  ["SCARA", "scara.yaml", "scara_everything"],
   ["Block on a belt", "slider.yaml", "stick_slip"],
+  ["SCARA", "scara.yaml", "scara_everything"],
 ]) {
   test(`${path}: the tabs have what the command prints`, async () => {
     await page.click("#tab-mechanism");
@@ -120,9 +120,7 @@ for (const [title, path, scene] of [
       bgdyn("simulate", `specs/scenes/${scene}.scene.yaml`, "--out", out));
     assert.equal((await saved(page, "#run-table")).text, table);
     assert.equal((await saved(page, "#run-page")).text, replay);
-    const frame = page.frameLocator("#replay");
-    await frame.locator("#view").waitFor();
-    assert.ok((await frame.locator("canvas").count()) > 1);
+    await page.frameLocator("#replay").locator(".plot canvas").first().waitFor();
     await picture(page, `run_${scene}`);
   });
 }
@@ -199,7 +197,7 @@ test("a broken scene is told at its line, and cannot be run", async () => {
 
 test("a run that ends early says so and shows what there is", async () => {
   await sample(page, "Cart and pole");
-  await write(page, "scene", spec("scenes/cart_and_pole.scene.yaml").replace("swing: 5 deg", "swing: 5 deg, swing_rate: 1e200 rad/s"));
+  await write(page, "scene", spec("scenes/cart_and_pole.scene.yaml").replace("swing: 5 deg", "swing: 5 deg, swing_rate: 1e99 rad/s"));
   await verdictIs("ok: cart_and_pole");
   await page.click("#tab-run");
   await page.waitForFunction(() => !document.querySelector("#run-start").disabled);
