@@ -45,6 +45,7 @@ const changed = () => {
   clearTimeout(timer);
   timer = setTimeout(check, PAUSE);
   byId("shared").textContent = "";
+  byId("samples").value = "";
   layOut();
 };
 
@@ -153,12 +154,13 @@ const runState = (scene) => {
 };
 
 /** Opens files in place of those that are there. */
-const open = ({ mechanism, scene }) => {
+const open = ({ title, mechanism, scene }) => {
   run.forget();
   Object.assign(names, { mechanism: mechanism.name, scene: scene.name || "first.scene.yaml" });
   checked = { mechanism: null, scene: null };
   setText(editors.mechanism, mechanism.text);
   setText(editors.scene, scene.text);
+  byId("samples").value = title ? SAMPLES.findIndex((sample) => sample.title === title) : "";
   layOut();
   clearTimeout(timer);
   check();
@@ -183,7 +185,7 @@ byId("start-scene").addEventListener("click", () => {
   setText(editors.scene, firstScene(names.mechanism));
   editors.scene.focus();
 });
-byId("samples").append(...SAMPLES.map(({ title }, i) => make("option", { value: i, textContent: title })));
+byId("samples").append(make("option", { value: "", textContent: "none: files of your own", disabled: true }), ...SAMPLES.map(({ title }, i) => make("option", { value: i, textContent: title })));
 byId("samples").addEventListener("change", ({ target }) => {
   history.replaceState(null, "", location.pathname + location.search);
   open(SAMPLES[target.value]);

@@ -41,8 +41,13 @@ const show = ({ summary, warnings, failure, page }, seconds) => {
   say("", `${summary}. Computed in ${seconds.toFixed(1)} s, with a second, finer run for the error.`);
   const told = [...(failure ? [`Fault: ${failure}`] : []), ...warnings.map((warning) => `Warning: ${warning}`)];
   byId("run-message").append(...told.map((line) => make("p", { className: failure ? "fault" : "warning", textContent: line })));
-  byId("replay").srcdoc = page;
-  for (const id of ["replay", "run-table", "run-page"]) byId(id).hidden = false;
+  // A new frame each time: the player measures itself when it is loaded.
+  const frame = byId("replay").cloneNode();
+  frame.srcdoc = page;
+  frame.hidden = false;
+  frame.classList.remove("old");
+  byId("replay").replaceWith(frame);
+  for (const id of ["run-table", "run-page"]) byId(id).hidden = false;
 };
 
 const hideReplay = () => {

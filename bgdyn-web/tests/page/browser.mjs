@@ -31,7 +31,7 @@ export const sample = async (page, title) => {
   const options = await page.locator("#samples option").allTextContents();
   const value = options.findIndex((option) => option.startsWith(title));
   await page.evaluate(() => { document.querySelector("#verdict").textContent = ""; });
-  await page.selectOption("#samples", String(value));
+  await page.selectOption("#samples", { index: value });
   await page.waitForFunction(() => document.querySelector("#verdict").textContent !== "");
 };
 

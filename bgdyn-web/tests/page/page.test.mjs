@@ -166,6 +166,7 @@ test("the view of a run turns by the mouse", async () => {
 });
 
 test("a long run shows its progress, leaves the page alive and can be cancelled", async () => {
+  await sample(page, "Block on a belt");
   const long = spec("scenes/stick_slip.scene.yaml").replace("step: 1 ms, end: 5 s", "step: 1 us, end: 500 s");
   await write(page, "scene", long);
   await verdictIs("ok: stick_slip");
