@@ -4,12 +4,14 @@ import { byId, make, save, stem } from "../dom.js";
 
 const engine = new Engine();
 let done = null;
+let running = false;
 
 const say = (kind, ...lines) => {
   byId("run-message").replaceChildren(...lines.map((line) => make("p", { className: kind, textContent: line })));
 };
 
 const busy = (is) => {
+  running = is;
   byId("run-start").hidden = is;
   byId("run-cancel").hidden = !is;
   byId("run-progress").hidden = !is;
@@ -18,7 +20,7 @@ const busy = (is) => {
 
 /** Runs a scene; shows the replay. */
 const start = async (file) => {
-  say("", "");
+  say("", "Running …");
   busy(true);
   const began = performance.now();
   const clock = setInterval(() => { byId("run-clock").textContent = `${((performance.now() - began) / 1000).toFixed(1)} s`; }, 100);
@@ -68,19 +70,20 @@ export const run = {
   /** Says what keeps the scene from being run; nothing if it can be run. */
   allow: (reason) => {
     byId("run-start").disabled = Boolean(reason);
+    if (running) return;
     if (reason) say("", reason);
-    else if (!done) say("", "The scene can be run.");
-    else if (done) byId("run-message").classList.remove("old");
+    else if (!done && !byId("run-message").querySelector(".fault")) say("", "The scene can be run.");
   },
   /** Marks the replay as that of an older text. */
   outdate: (file) => {
     const old = done && (done.file.text !== file.text || done.file.mechanism !== file.mechanism);
-    if (old) say("", "The files have changed since this run.");
+    if (old && !running) say("", "The files have changed since this run.");
     byId("replay").classList.toggle("old", Boolean(old));
   },
   /** Forgets the last run. */
   forget: () => {
     engine.cancel();
+    say("", "");
     hideReplay();
   },
 };
