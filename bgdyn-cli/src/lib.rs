@@ -6,7 +6,7 @@
 mod accuracy;
 mod cargo_project;
 mod colour;
-mod commands;
+pub mod commands;
 mod engine;
 pub mod fuzz_invariants;
 pub mod graph;

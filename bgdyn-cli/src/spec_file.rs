@@ -27,6 +27,8 @@ pub struct SpecFile {
     pub text: String,
     /// The stem of the file, which names the mechanism or the scene.
     pub stem: String,
+    /// The text of the mechanism that a scene names; without it the file is read.
+    pub mechanism: Option<String>,
 }
 
 /// The path that means standard input.
@@ -71,6 +73,7 @@ impl SpecFile {
             path: shown(path).into(),
             text,
             stem,
+            mechanism: None,
         })
     }
 
@@ -97,16 +100,22 @@ impl SpecFile {
         bgdyn_codegen::format::is_scene(&self.text)
     }
 
-    /// Returns the text of a file named relative to this one.
+    /// Returns the text of the mechanism, from its path relative to this file.
     ///
     /// # Errors
     /// The reason why it cannot be read.
     pub fn load(&self, path: &str) -> Result<String, String> {
-        std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string())
+        match &self.mechanism {
+            Some(text) => Ok(text.clone()),
+            None => std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string()),
+        }
     }
 
     /// Returns the scene, if it and its mechanism are valid, and all findings.
-    pub(crate) fn read_scene(&self) -> Result<(SceneEquations, Faults), Refusal> {
+    ///
+    /// # Errors
+    /// The faults of the scene or of its mechanism.
+    pub fn read_scene(&self) -> Result<(SceneEquations, Faults), Refusal> {
         read_scene(&self.text, &self.stem, |path| self.load(path))
     }
 
@@ -191,8 +200,8 @@ impl SpecFile {
     }
 }
 
-/// Returns the name in a spec.
-fn written_name(text: &str) -> Option<String> {
+/// Returns the name that a spec or a scene gives itself with `name:`.
+pub fn written_name(text: &str) -> Option<String> {
     let name = match bgdyn_codegen::format::is_scene(text) {
         true => parse_scene(text).0?.name,
         false => parse(text).0?.name,

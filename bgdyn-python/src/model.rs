@@ -51,6 +51,7 @@ impl Model {
             path: shown.unwrap_or_else(|| "<text>".into()).into(),
             text,
             stem: name,
+            mechanism: None,
         };
         if let Some(fault) = file.urdf() {
             let shown = file.path.display().to_string();

@@ -54,6 +54,7 @@ impl PyScene {
             path: shown.unwrap_or_else(|| "<text>".into()),
             text,
             stem: name,
+            mechanism,
         };
         if !file.is_scene() {
             let shown = file.path.display();
@@ -65,10 +66,7 @@ impl PyScene {
         let read = py.detach(|| {
             let found = RefCell::new((String::new(), String::new()));
             let load = |path: &str| {
-                let text = match mechanism {
-                    Some(text) => text,
-                    None => file.load(path)?,
-                };
+                let text = file.load(path)?;
                 *found.borrow_mut() = (path.to_owned(), text.clone());
                 Ok(text)
             };

@@ -26,6 +26,7 @@ const CRATES: &[&str] = &[
     "bgdyn-python",
     "bgdyn-runtime",
     "bgdyn-sim",
+    "bgdyn-web",
 ];
 
 #[test]

@@ -32,10 +32,11 @@ pub(crate) struct Check {
 
 /// The findings of one file.
 #[derive(Default)]
-struct CheckedFile {
-    ok: bool,
-    /// Lines for stdout without `--json`.
-    lines: Vec<String>,
+pub struct CheckedFile {
+    /// Whether no fault refuses it.
+    pub ok: bool,
+    /// Lines for stdout without `--json`: sizes, names, what follows what.
+    pub lines: Vec<String>,
     /// Text for stderr without `--json`.
     message: String,
     /// Text for stderr in both cases.
@@ -47,6 +48,16 @@ struct CheckedFile {
     findings: Vec<Value>,
 }
 
+impl CheckedFile {
+    /// Returns the report of `bgdyn check --json`; `file` is the file's name in it.
+    pub fn report(self, file: &str) -> Value {
+        let (kind, model) = self.model.unwrap_or(("model", Value::Null));
+        let mut report = json!({ "file": file, "ok": self.ok, "findings": self.findings });
+        report[kind] = model;
+        report
+    }
+}
+
 impl Check {
     pub(crate) fn run(self) -> Result<()> {
         let several = self.files.len() > 1;
@@ -54,26 +65,20 @@ impl Check {
         for path in &self.files {
             let found = check(path, self.loops);
             sound &= found.ok;
-            if self.json {
-                let (kind, model) = found.model.unwrap_or(("model", Value::Null));
-                let mut report = json!({
-                    "file": shown(path),
-                    "ok": found.ok,
-                    "findings": found.findings,
-                });
-                report[kind] = model;
-                reports.push(report);
-            } else {
+            if !self.json {
                 tell(&found.message);
-                for line in found.lines {
+                for line in &found.lines {
                     print(&format!("{line}\n"))?;
                 }
             }
-            if let Some(tally) = found.tally {
+            if let Some(tally) = &found.tally {
                 tell(&match several && !found.names_its_file {
                     true => format!("{} has {tally}\n", shown(path)),
                     false => format!("{tally}\n"),
                 });
+            }
+            if self.json {
+                reports.push(found.report(&shown(path)));
             }
         }
         if self.json {
@@ -110,9 +115,14 @@ fn check(path: &Path, loops: bool) -> CheckedFile {
             ..CheckedFile::default()
         };
     }
+    checked(&spec, loops)
+}
+
+/// Checks the text of a mechanism or a scene; with `loops` the ranges in which its loops close are found.
+pub fn checked(spec: &SpecFile, loops: bool) -> CheckedFile {
     match spec.is_scene() {
-        true => scene(&spec, loops),
-        false => mechanism(&spec, loops),
+        true => scene(spec, loops),
+        false => mechanism(spec, loops),
     }
 }
 

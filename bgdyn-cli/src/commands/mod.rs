@@ -1,14 +1,14 @@
 //! The subcommands.
 
 pub(crate) mod accuracy;
-pub(crate) mod check;
+pub mod check;
 pub(crate) mod equations;
 pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod graph;
 mod loop_ranges;
 mod loops;
-pub(crate) mod ops;
+pub mod ops;
 mod per_effect;
 pub(crate) mod schema;
 pub(crate) mod simulate;

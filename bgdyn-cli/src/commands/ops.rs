@@ -65,11 +65,7 @@ impl Ops {
             let words: Vec<String> = words.unwrap_or_default();
             return print(&(table(functions) + &words.concat()));
         }
-        let report = serde_json::to_string_pretty(&OpsReport {
-            functions: FunctionCounts(functions),
-            explained,
-        })?;
-        print(&(report + "\n"))
+        print(&(report(functions, explained)? + "\n"))
     }
 
     fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
@@ -86,6 +82,21 @@ impl Ops {
         }
         self.report(&scene_functions(system, options), None)
     }
+}
+
+/// Returns the report of `bgdyn ops --json`, without explanations.
+///
+/// # Errors
+/// Never: names and numbers can be written.
+pub fn counts(functions: &[Function]) -> Result<String> {
+    report(functions, None)
+}
+
+fn report(functions: &[Function], explained: Option<Explained>) -> Result<String> {
+    Ok(serde_json::to_string_pretty(&OpsReport {
+        functions: FunctionCounts(functions),
+        explained,
+    })?)
 }
 
 #[derive(Serialize)]

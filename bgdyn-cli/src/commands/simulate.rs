@@ -16,9 +16,10 @@ use crate::output::{print, tell};
 use crate::quantity::positive;
 use crate::simulate::page::{self, Words};
 use crate::simulate::progress::Progress;
-use crate::simulate::report::{self, number, quantity, short};
+use crate::simulate::report;
 use crate::simulate::{
-    Column, Evaluated, Record, Way, batch_values, columns, plot, prepared, record_from,
+    Column, Evaluated, POINTS, Record, Way, batch_values, columns, drift_warning, early_end,
+    estimate, plot, prepared, record_from, too_many_steps,
 };
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
@@ -55,7 +56,7 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "S", allow_hyphen_values = true)]
     end: Option<String>,
     /// Number of rows of the table from 0 to the end time; events add rows of their own
-    #[arg(long, value_name = "N", default_value_t = 1001)]
+    #[arg(long, value_name = "N", default_value_t = POINTS)]
     points: usize,
     /// Set a run-time parameter, such as `payload=500 g` [default: the value in the file]. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
@@ -75,13 +76,6 @@ struct NumericOptions {
     tolerance: Option<f64>,
     end: Option<f64>,
 }
-
-/// Energy drifts above this, relative to the energy that could move, make the result doubtful.
-const DRIFT: f64 = 1e-2;
-/// The same for errors, relative to the range of an output.
-const ERROR: f64 = 1e-2;
-/// Upper limit of the number of steps of a run.
-const STEPS: f64 = 1e10;
 
 impl Simulate {
     pub(crate) fn run(self) -> Result<()> {
@@ -129,20 +123,19 @@ impl Simulate {
         ))?;
         let mut report = report::report(&system, &run);
         print(&report)?;
-        let closed = report::drift(&run);
-        // A drift that is NaN is not small.
-        if closed.is_nan() || closed > DRIFT {
-            tell(&format!(
-                "bgdyn: warning: the energy does not add up by {} of what could move: the result means little; take a smaller step or tolerance\n",
-                number(closed)
-            ));
-        }
-        if let Some(reason) = &run.failure {
+        warn(drift_warning(&run));
+        if let Some(message) = early_end(&system, &run) {
             self.page(&file.stem, (&system, &way), &columns, &run, report)?;
-            let (t, place) = (short(run.t), report::place(&system, &run));
-            bail!("the run ends early at t = {t} s, {place}: {reason}");
+            bail!("{message}");
         }
-        report += &estimate(&plant, &way, &columns, &run)?;
+        let mut progress = Progress::new("once more, finer");
+        let estimate = estimate(&plant, &way, &columns, &run, &mut |share| {
+            progress.at(share)
+        });
+        drop(progress);
+        print(&estimate.line)?;
+        report += &estimate.in_report();
+        warn(estimate.warning);
         self.page(&file.stem, (&system, &way), &columns, &run, report)
     }
 
@@ -216,20 +209,15 @@ impl Simulate {
                 "`{name}` does not go by a tolerance: give `--step`, or a method that does: {all}"
             )));
         }
-        let end = given.end.unwrap_or(scene.end);
-        if let StepControl::Step(h) = step_control
-            && end / h > STEPS
-        {
-            let steps = number(end / h);
-            return Err(Usage(format!(
-                "{steps} steps of {h} s to t = {end} s: that is more than {STEPS:e}; take a longer step"
-            )));
-        }
-        Ok(Integration {
+        let integration = Integration {
             method,
             step_control,
-            end,
-        })
+            end: given.end.unwrap_or(scene.end),
+        };
+        match too_many_steps(&integration) {
+            Some(message) => Err(Usage(message)),
+            None => Ok(integration),
+        }
     }
 
     /// Writes table and plot; returns the message about them.
@@ -266,37 +254,9 @@ fn watched(what: &'static str, plant: &Evaluated<'_>, way: &Way) -> Record {
     record_from(plant.clone(), way, &mut |share| progress.at(share))
 }
 
-/// Compares the run with a finer one; returns the message about the difference.
-fn estimate(plant: &Evaluated<'_>, way: &Way, columns: &[Column], run: &Record) -> Result<String> {
-    let finer = watched("once more, finer", plant, &way.finer());
-    let against = match way.integration.step_control {
-        StepControl::Step(_) => "half the step",
-        StepControl::Tolerance(_) => "a tenth of the tolerance",
-    };
-    if let Some(reason) = finer.failure {
-        let t = short(finer.t);
-        let warning = format!(
-            "warning: with {against} the run ends early at t = {t} s ({reason}): the result means little\n"
-        );
-        tell(&format!("bgdyn: {warning}"));
-        return Ok(warning);
+/// Prints a warning to stderr.
+fn warn(warning: Option<String>) {
+    if let Some(warning) = warning {
+        tell(&format!("bgdyn: warning: {warning}\n"));
     }
-    let Some(found) = run.difference(&finer, columns) else {
-        return Ok(String::new());
-    };
-    let Column { name, unit } = &columns[found.column];
-    let text = format!(
-        "`{name}` by {}, {} of its range, at t = {} s",
-        quantity(found.size, unit),
-        number(found.share),
-        short(found.t)
-    );
-    let report = format!("a run with {against} differs most in {text}\n");
-    print(&report)?;
-    if found.share.is_nan() || found.share > ERROR {
-        tell(&format!(
-            "bgdyn: warning: a run with {against} differs in {text}: the result means little there; take a smaller step or tolerance\n"
-        ));
-    }
-    Ok(report)
 }

@@ -19,10 +19,16 @@ mod svg;
 mod unfold;
 
 use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::system::SceneEquations;
 
 pub(crate) use chart::Chart;
 
 /// Returns the bond graph of a mechanism as the text of an SVG file.
 pub fn mechanism_svg(mechanism: &Mechanism) -> String {
     Chart::new(mechanism).svg()
+}
+
+/// Returns the bond graph of a scene, with its effects, as the text of an SVG file.
+pub fn scene_svg(system: &SceneEquations) -> String {
+    Chart::of_scene(system).svg()
 }

@@ -30,7 +30,7 @@ pub fn summary(name: &str, integration: &Integration) -> String {
 }
 
 /// Returns the points as comma-separated values, with the columns' units in the first line.
-pub(crate) fn csv(columns: &[Column], record: &Record) -> String {
+pub fn csv(columns: &[Column], record: &Record) -> String {
     let heads = columns.iter().map(Column::head);
     let header = once("t [s]".to_owned()).chain(heads).collect();
     let rows = record.rows.iter().map(|row| {

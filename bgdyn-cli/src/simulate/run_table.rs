@@ -6,6 +6,9 @@ use bgdyn_sim::Audit;
 
 use super::plant::Numbers;
 
+/// The usual number of output points.
+pub const POINTS: usize = 1001;
+
 /// A recorded quantity of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
