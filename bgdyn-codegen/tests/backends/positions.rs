@@ -1,12 +1,13 @@
 //! How positions change with velocities, and how they close: C against the functions of the runtime.
 
-use bgdyn_codegen::bond_graph::{ClosedTree, JointSegment, joint_segments};
+use bgdyn_codegen::bond_graph::{self, ClosedTree, JointSegment, joint_segments};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::plan::{dependent_joint, independent_positions};
 use bgdyn_codegen::random::Random;
+use bgdyn_codegen::read;
 use bgdyn_runtime::ACTUATORS;
 use bgdyn_runtime::closure::{self, Dependent};
 use bgdyn_runtime::manifold;
@@ -14,7 +15,7 @@ use bgdyn_runtime::nalgebra::SVector;
 
 use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
 use crate::closed_mechanisms::paths;
-use crate::same_bits::{files, model, name};
+use crate::same_bits::{files, model, name, text_of};
 use crate::values::{CNumber, close_to, state};
 
 /// Room for the positions and velocities of every mechanism here.
@@ -318,16 +319,31 @@ fn trees() {
     }
 }
 
+/// Returns a model with the functions that positions are computed by, as far as the mechanism has them.
+fn model_of_positions(path: &str) -> Model {
+    let (text, stem) = text_of(path);
+    let (mechanism, _) = read(&text, Some(&stem));
+    let graph = bond_graph::build(&mechanism.expect("a sound spec"));
+    let read = [Method::ClosingStep, Method::TreeVelocity, Method::Gravity];
+    let possible = Method::possible_of(&graph).into_iter();
+    let methods = possible.filter(|method| read.contains(method));
+    let options = Options {
+        methods: Some(
+            methods
+                .map(|method| method.name_in(graph.closed.as_deref(), &graph.sites))
+                .collect(),
+        ),
+        ..Options::default()
+    };
+    model(path, &options)
+}
+
 /// Positions that close, and positions that do not.
 #[test]
 fn closed_mechanisms() {
     let mut counts = [0, 0];
     for path in paths() {
-        let options = Options {
-            frames: Some(Vec::new()),
-            ..Options::default()
-        };
-        let model = model(&path, &options);
+        let model = model_of_positions(&path);
         for found in [
             check::<f64>(&name(&path), &model),
             check::<f32>(&name(&path), &model),
