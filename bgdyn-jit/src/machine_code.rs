@@ -50,6 +50,15 @@ impl MachineCode {
         MachineCode { code, tape }
     }
 
+    /// Calls the code alone, and returns whether it computed the results. It leaves to the tape what is rare: angles beyond
+    /// the limit of the kernel of sines, refused pivots, results that are not finite or have no finite sum.
+    ///
+    /// # Panics
+    /// As [`Callable::call`].
+    pub fn call_alone(&self, from: &CallArguments<'_>, out: &mut [f64]) -> bool {
+        self.code.call(ArgumentArray::all(from), out)
+    }
+
     /// Returns the size of the code with its constants, in bytes.
     pub fn bytes(&self) -> usize {
         self.code.len()
@@ -66,7 +75,7 @@ impl Callable for MachineCode {
     }
 
     fn call(&self, from: &CallArguments<'_>, out: &mut [f64]) -> Status {
-        match self.code.call(ArgumentArray::all(from), out) {
+        match self.call_alone(from, out) {
             true => Status::Done,
             false => self.tape.call(from, out),
         }
