@@ -27,7 +27,11 @@ const SETTINGS: [(&str, &str); 6] = [
     ("probestack_strategy", "inline"),
     (
         "enable_verifier",
-        if cfg!(debug_assertions) { "true" } else { "false" },
+        if cfg!(debug_assertions) {
+            "true"
+        } else {
+            "false"
+        },
     ),
 ];
 

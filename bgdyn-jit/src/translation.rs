@@ -32,7 +32,10 @@ pub(crate) fn translate(list: &Unrolled, isa: &dyn TargetIsa, fused: bool) -> Fu
     builder.append_block_params_for_function_params(block);
     builder.switch_to_block(block);
     builder.seal_block(block);
-    let (arrays, results) = (builder.block_params(block)[0], builder.block_params(block)[1]);
+    let (arrays, results) = (
+        builder.block_params(block)[0],
+        builder.block_params(block)[1],
+    );
     let mut of_one_number = Signature::new(isa.default_call_conv());
     of_one_number.params.push(AbiParam::new(F64));
     of_one_number.returns.push(AbiParam::new(F64));
@@ -87,7 +90,8 @@ impl Translation<'_, '_> {
         let size = self.pointer.bytes() as i32;
         for (k, count) in self.list.arguments.into_iter().enumerate() {
             let load = |f: &mut FunctionBuilder<'_>| {
-                f.ins().load(self.pointer, unchanged(), from, size * k as i32)
+                f.ins()
+                    .load(self.pointer, unchanged(), from, size * k as i32)
             };
             self.arrays[k] = (count > 0).then(|| self.body.add(load));
         }
