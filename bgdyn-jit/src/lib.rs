@@ -44,13 +44,9 @@ use bgdyn_codegen::tape::{Tape, Unrolled};
 use cranelift_codegen::isa::TargetIsa;
 
 pub use machine_code::MachineCode;
-pub use refusal::Refusal;
+pub use refusal::{MOST_INSTRUCTIONS, Refusal};
 
 use machine_code::{NAME, made};
-
-/// Functions with more instructions are left to the tape: Cranelift would need seconds for them, and their code would not
-/// stay in the processor's cache.
-pub const MOST_INSTRUCTIONS: usize = 50_000;
 
 /// The engine that makes machine code for the processor that runs.
 #[derive(Clone)]

@@ -3,7 +3,9 @@
 use std::error::Error;
 use std::{fmt, io};
 
-use crate::MOST_INSTRUCTIONS;
+/// Functions with more instructions are left to the tape: Cranelift would need seconds for them, and their code would not
+/// stay in the processor's cache.
+pub const MOST_INSTRUCTIONS: usize = 50_000;
 
 /// The reason why there is no machine code.
 #[derive(Debug)]
