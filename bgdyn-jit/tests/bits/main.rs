@@ -5,9 +5,11 @@
 #[path = "../../../bgdyn-codegen/tests/tape/agreement.rs"]
 mod agreement;
 #[path = "../../../bgdyn-codegen/tests/tape/files.rs"]
+#[allow(dead_code, reason = "other tests need more of it")]
 mod files;
 #[path = "../../../bgdyn-codegen/tests/tape/functions.rs"]
 mod functions;
+mod fused;
 #[path = "../../../bgdyn-codegen/tests/tape/random_functions.rs"]
 mod random_functions;
 /// What the generator's tests have, of which these need the random numbers.
