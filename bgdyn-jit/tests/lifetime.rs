@@ -200,13 +200,13 @@ fn a_large_function_is_left_to_the_tape() {
 #[test]
 fn a_small_difference_is_found() {
     let x = 0.1_f64;
-    let right = small(|b, q, _| q * b.number(x) - q);
-    let wrong: [Function; 2] = [
-        small(|b, q, _| q * b.number(x.next_up()) - q),
-        small(|b, q, _| q - q * b.number(x)),
+    let right = small(|b, q, p| q * b.number(x) - p);
+    let wrong = [
+        small(|b, q, p| q * b.number(x.next_up()) - p),
+        small(|b, q, p| p - q * b.number(x)),
     ];
     let at = Inputs {
-        q: vec![3.0, 1.0],
+        q: vec![1.0, 0.09],
         ..Inputs::default()
     };
     let value = |f: &Function| jit().prepare(f).value(&(&at).into()).0[0].to_bits();
