@@ -35,13 +35,29 @@ const SETTINGS: [(&str, &str); 6] = [
     ),
 ];
 
+/// How Cranelift gives registers to values.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Registers {
+    /// With much search: the fastest code. The time grows with the square of a long function.
+    Searched,
+    /// In one pass over the function: the time grows as the function, and the code is some 40 % longer.
+    InOnePass,
+}
+
 /// Returns the description of the processor that runs, with the instructions that it has.
-pub(crate) fn isa() -> Result<Arc<dyn TargetIsa>, Refusal> {
+pub(crate) fn isa(registers: Registers) -> Result<Arc<dyn TargetIsa>, Refusal> {
     if let Some(why) = NOT_HERE {
         return Err(Refusal::Host(why));
     }
     let mut flags = settings::builder();
-    for (name, value) in SETTINGS {
+    let algorithm = match registers {
+        Registers::Searched => "backtracking",
+        Registers::InOnePass => "single_pass",
+    };
+    for (name, value) in SETTINGS
+        .into_iter()
+        .chain([("regalloc_algorithm", algorithm)])
+    {
         flags
             .set(name, value)
             .map_err(|e| Refusal::Compiler(e.to_string()))?;

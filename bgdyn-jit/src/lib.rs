@@ -46,12 +46,20 @@ use cranelift_codegen::isa::TargetIsa;
 pub use machine_code::MachineCode;
 pub use refusal::{MOST_INSTRUCTIONS, Refusal};
 
+use code_memory::CodeMemory;
+use host::Registers;
 use machine_code::{NAME, made};
+
+/// Up to so many instructions the search for registers takes milliseconds.
+const SEARCHED: usize = 2_000;
 
 /// The engine that makes machine code for the processor that runs.
 #[derive(Clone)]
 pub struct Jit {
-    isa: Arc<dyn TargetIsa>,
+    /// For functions up to `searched` instructions, and for longer ones.
+    short: Arc<dyn TargetIsa>,
+    long: Arc<dyn TargetIsa>,
+    searched: usize,
     /// Whether a product and a sum are rounded once.
     fused: bool,
 }
@@ -78,13 +86,34 @@ impl Jit {
     }
 
     fn with(fused: bool) -> Result<Self, Refusal> {
-        let isa = host::isa()?;
+        let jit = Jit {
+            short: host::isa(Registers::Searched)?,
+            long: host::isa(Registers::InOnePass)?,
+            searched: SEARCHED,
+            fused,
+        };
         // Memory may be refused: better now than by every function.
-        let nothing = made(&Unrolled::default(), &*isa, fused)?;
+        let nothing = jit.made(&Unrolled::default())?;
         match nothing.call(Default::default(), &mut []) {
-            true => Ok(Jit { isa, fused }),
+            true => Ok(jit),
             false => Err(Refusal::Host("a function without results failed")),
         }
+    }
+
+    /// Returns the engine that makes all code in the shortest time, as it otherwise does for functions of more than 2,000
+    /// instructions: registers are given in one pass, some five times as fast, and the code is slower.
+    #[must_use]
+    pub fn making_quickly(self) -> Self {
+        Jit {
+            searched: 0,
+            ..self
+        }
+    }
+
+    fn made(&self, list: &Unrolled) -> Result<CodeMemory, Refusal> {
+        let is_short = list.instructions.len() <= self.searched;
+        let isa = if is_short { &self.short } else { &self.long };
+        made(list, &**isa, self.fused)
     }
 
     /// Makes machine code for a function.
@@ -97,14 +126,14 @@ impl Jit {
         if instructions > MOST_INSTRUCTIONS {
             return Err(Refusal::TooLarge { instructions });
         }
-        let code = made(&list, &*self.isa, self.fused)?;
+        let code = self.made(&list)?;
         Ok(MachineCode::new(code, Tape.prepare(function)))
     }
 }
 
 impl fmt::Debug for Jit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let target = self.isa.triple().to_string();
+        let target = self.short.triple().to_string();
         f.debug_struct("Jit")
             .field("target", &target)
             .field("fused", &self.fused)

@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::{fmt, io};
 
-/// Functions with more instructions are left to the tape: Cranelift would need seconds for them, and their code would not
-/// stay in the processor's cache.
+/// Functions with more instructions are left to the tape: their code would be some megabytes, far more than a processor
+/// keeps at hand.
 pub const MOST_INSTRUCTIONS: usize = 50_000;
 
 /// The reason why there is no machine code.

@@ -138,12 +138,10 @@ macro_rules! arms {
                     let rustc = |k: usize| {
                         let [q, v, a, tau] = black_box(&inputs[k]);
                         match method {
-                            Method::InverseDynamics => drop(black_box(model.inverse_dynamics(q, v, a))),
-                            Method::MassMatrix => drop(black_box(model.mass_matrix(q))),
-                            Method::ForwardDynamics => {
-                                drop(black_box(model.forward_dynamics(q, v, tau)));
-                            }
-                            _ => drop(black_box(model.forward_dynamics_derivatives(q, v, tau))),
+                            Method::InverseDynamics => _ = black_box(model.inverse_dynamics(q, v, a)),
+                            Method::MassMatrix => _ = black_box(model.mass_matrix(q)),
+                            Method::ForwardDynamics => _ = black_box(model.forward_dynamics(q, v, tau)),
+                            _ => _ = black_box(model.forward_dynamics_derivatives(q, v, tau)),
                         }
                     };
                     report(stringify!($module), &function, jit, &states, &rustc);
