@@ -198,12 +198,12 @@ fn fused_code_has_the_bits_of_a_scalar_that_fuses() {
         other += others;
     };
     let small = files::mechanisms().into_iter().filter(|(_, m)| m.nv() <= 4);
-    for (name, mechanism) in small.take(30) {
+    for (name, mechanism) in small.take(12) {
         for function in functions(&mechanism, Some("subspaces")) {
             note(compare(&jit, &name, &function, None));
         }
     }
-    for (name, system) in files::scenes().iter().take(12) {
+    for (name, system) in files::scenes().iter().take(6) {
         for function in scene_functions(system) {
             note(compare(&jit, name, &function, Some(system)));
         }
