@@ -50,8 +50,8 @@ use code_memory::CodeMemory;
 use host::Registers;
 use machine_code::{NAME, made};
 
-/// Up to so many instructions the search for registers takes milliseconds.
-const SEARCHED: usize = 2_000;
+/// Up to so many instructions the search for registers takes at most a tenth of a second.
+const SEARCHED: usize = 4_000;
 
 /// The engine that makes machine code for the processor that runs.
 #[derive(Clone)]
@@ -100,8 +100,8 @@ impl Jit {
         }
     }
 
-    /// Returns the engine that makes all code in the shortest time, as it otherwise does for functions of more than 2,000
-    /// instructions: registers are given in one pass, some five times as fast, and the code is slower.
+    /// Returns the engine that makes all code in the shortest time, as it otherwise does for functions of more than 4,000
+    /// instructions: registers are given in one pass, many times as fast, and the code takes up to four times as long.
     #[must_use]
     pub fn making_quickly(self) -> Self {
         Jit {
