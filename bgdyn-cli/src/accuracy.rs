@@ -8,6 +8,7 @@ use bgdyn_accuracy::{
     Call, Configuration, CountSteps, Integrate, Measured, Priced, Runner, STEPS_METHOD, Samples,
     StepControl, TestCase, order,
 };
+use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::Dd;
@@ -62,11 +63,11 @@ struct Counted {
 
 impl Counted {
     /// Leaks the scene: a study is the last action of the program.
-    fn new(system: SceneEquations) -> Self {
+    fn new(engine: &dyn Engine, system: SceneEquations) -> Self {
         let calls = Calls::of(&system);
         let system = Box::leak(Box::new(system));
         Counted {
-            plant: Rc::new(Evaluated::new(system, Form::Natural, true)),
+            plant: Rc::new(Evaluated::new(engine, system, Form::Natural, true)),
             calls,
             spent: Rc::default(),
         }
@@ -193,8 +194,12 @@ impl Measured for Counted {
     }
 }
 
-/// Returns the scene as a test case; `None` if it has nothing to measure.
-pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<TestCase> {
+/// Returns the scene as a test case, computed by an engine; `None` if it has nothing to measure.
+pub(crate) fn test_case(
+    engine: &dyn Engine,
+    system: &SceneEquations,
+    end: Option<f64>,
+) -> Option<TestCase> {
     let full = measured(system)?;
     let scene = &full.scene;
     let (method, step_control) = own_way(&full);
@@ -209,7 +214,7 @@ pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<Tes
     test_case.kinked = kinked(&full);
     test_case.tolerances = TOLERANCES;
     let ablations = ablations(&full);
-    let counted = Counted::new(full);
+    let counted = Counted::new(engine, full);
     let reference = counted.runner(REFERENCE);
     test_case.reference = Some(Box::new(move |grid, tolerance| {
         let ran = reference(grid, StepControl::Tolerance(tolerance))?;
@@ -234,7 +239,7 @@ pub(crate) fn test_case(system: &SceneEquations, end: Option<f64>) -> Option<Tes
     for ablation in ablations {
         match ablation.system {
             Some(system) => {
-                let counted = Counted::new(system);
+                let counted = Counted::new(engine, system);
                 test_case.add_ablation(&ablation.effects, counted.runner(method));
                 if ablation.effects.starts_with(ALL_BUT) {
                     test_case.prices.push(counted.price(&ablation.effects));

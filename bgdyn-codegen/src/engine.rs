@@ -88,6 +88,10 @@ impl Status {
 
 /// A function of a mechanism or a scene, ready to be called from any thread.
 pub trait Callable: Debug + Send + Sync {
+    /// Returns the name of the engine that computes it: not that of the one which was asked to prepare it, if that one
+    /// left it to another.
+    fn engine(&self) -> &'static str;
+
     /// Returns the number of results.
     fn results(&self) -> usize;
 
@@ -110,6 +114,9 @@ pub trait Callable: Debug + Send + Sync {
 
 /// A way to compute functions without a compiler.
 pub trait Engine: Debug + Send + Sync {
+    /// Returns its name, in words for people.
+    fn name(&self) -> &'static str;
+
     /// Prepares a function, once for all calls.
     fn prepare(&self, function: &Function) -> Box<dyn Callable>;
 }

@@ -13,6 +13,7 @@ use bgdyn_cli::spec_file::SpecFile;
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::scene::Override;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Dd;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -218,7 +219,7 @@ impl PyScene {
     /// Returns the scene's functions: prepared for the first run, then kept.
     fn functions(&self) -> &PreparedScene {
         let method = self.system.scene.integration.method;
-        let make = || prepared(&self.system, method).functions();
+        let make = || prepared(&Tape, &self.system, method).functions();
         self.functions.get_or_init(make)
     }
 

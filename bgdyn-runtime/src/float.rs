@@ -155,5 +155,8 @@ macro_rules! float_scalar {
     };
 }
 
+/// The bound of pivots in `f64`: `Float::PIVOT_FLOOR`.
+pub const F64_PIVOT_FLOOR: f64 = <f64 as Float>::PIVOT_FLOOR;
+
 float_scalar!(f64, libm::sqrt, libm::exp, libm::log, libm::tanh);
 float_scalar!(f32, sqrt_f32, libm::expf, libm::logf, libm::tanhf);

@@ -82,6 +82,13 @@ pub use serde;
 #[cfg(feature = "serde")]
 #[doc(hidden)]
 pub use serial::{__read_fields, __write_fields};
+/// What engines need that compute with the bits of `f64`: the kernel of sines, over a number type of their own, and the
+/// bound of pivots. Not for other use: it changes without notice.
+#[doc(hidden)]
+pub mod kernel {
+    pub use crate::float::F64_PIVOT_FLOOR;
+    pub use crate::sine::{Coefficients, FUSES, SineLanes, sin_cos_in_range};
+}
 pub use singular::{ACTUATORS, Cause, OUT_OF_REACH, Singular};
 pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
 pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};

@@ -5,6 +5,7 @@ use bgdyn_cli::simulate::{
     record_from, report, summary, too_many_steps,
 };
 use bgdyn_cli::spec_file::SpecFile;
+use bgdyn_codegen::tape::Tape;
 use serde_json::{Value, json};
 
 use crate::answer::scene;
@@ -32,7 +33,7 @@ pub(crate) fn run(file: &SpecFile, watch: &mut dyn FnMut(f64)) -> Result<Value, 
             each.collect::<Vec<_>>().join("; ")
         )
     })?;
-    let plant = prepared(&system, way.integration.method);
+    let plant = prepared(&Tape, &system, way.integration.method);
     // A finer run has about twice the steps.
     let run = record_from(plant.clone(), &way, &mut |share| watch(share / 3.0));
     let columns = columns(&system);

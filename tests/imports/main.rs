@@ -22,6 +22,7 @@ const CRATES: &[&str] = &[
     "bgdyn-accuracy",
     "bgdyn-cli",
     "bgdyn-codegen",
+    "bgdyn-jit",
     "bgdyn-macros",
     "bgdyn-python",
     "bgdyn-runtime",

@@ -7,11 +7,13 @@ use bgdyn_accuracy::generate::variants;
 use bgdyn_accuracy::{
     Effort, Machine, Study, costs_csv, figures, page, rows_csv, study, targets, verdicts,
 };
+use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use crate::cargo_project::CargoProject;
+use crate::engine::EngineChoice;
 use crate::output::{print, tell};
 use crate::quantity::positive;
 use crate::spec_file::SpecFile;
@@ -39,6 +41,8 @@ pub(crate) struct Accuracy {
     /// The version or path of the bgdyn crate that the timing program is built with
     #[arg(long, value_name = "PATH|VERSION", default_value = env!("CARGO_PKG_VERSION"))]
     bgdyn: String,
+    #[command(flatten)]
+    engine: EngineChoice,
 }
 
 /// Prefix of the program's output for the reason why the scene cannot be studied.
@@ -79,10 +83,12 @@ impl Accuracy {
         let program = match self.compiled(system, end) {
             Ok(text) => text,
             Err(why) => {
+                let engine = self.engine.engine()?;
                 tell(&format!(
-                    "bgdyn: times are estimated from operations: {why:#}\n"
+                    "bgdyn: times are estimated from operations: {why:#}\nbgdyn: the scene is computed by {}\n",
+                    engine.name()
                 ));
-                return evaluated(system, end);
+                return evaluated(&*engine, system, end);
             }
         };
         if let Some(why) = program.strip_prefix(REFUSED) {
@@ -110,9 +116,9 @@ impl Accuracy {
     }
 }
 
-/// Runs the study without a compiler.
-fn evaluated(system: &SceneEquations, end: Option<f64>) -> Result<Study> {
-    let test_case = crate::accuracy::test_case(system, end)
+/// Runs the study without a compiler, by an engine.
+fn evaluated(engine: &dyn Engine, system: &SceneEquations, end: Option<f64>) -> Result<Study> {
+    let test_case = crate::accuracy::test_case(engine, system, end)
         .ok_or_else(|| anyhow!("the scene `{}` has nothing to measure", system.scene.name))?;
     // Functions that are not compiled are slow.
     study(&test_case, &Effort::QUICK).map_err(|e| anyhow!("{e}"))

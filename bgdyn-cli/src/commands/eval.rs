@@ -18,7 +18,6 @@ pub(crate) use self::arguments::Eval;
 
 use self::closed::{closed, not_actuated, singular_loop};
 use self::states::{Failure, finite, parameters, plain, singular, states};
-use crate::engine::ENGINE;
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
 
@@ -39,7 +38,8 @@ impl Eval {
         let states = states(&self.states)?;
         let function = bgdyn_codegen::pipeline::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
-        let prepared = ENGINE.prepare(&function);
+        let prepared = self.engine.engine_for(states.len())?.prepare(&function);
+        self.engine.tell(&*prepared);
         let call = MethodCall {
             mechanism: &mechanism,
             graph: &graph,

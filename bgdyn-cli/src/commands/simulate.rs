@@ -12,6 +12,7 @@ use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 
 use self::many::{Batch, Many};
+use crate::engine::EngineChoice;
 use crate::output::{print, tell};
 use crate::quantity::positive;
 use crate::simulate::page::{self, Words};
@@ -67,6 +68,8 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
     initial: Vec<String>,
     #[command(flatten)]
+    engine: EngineChoice,
+    #[command(flatten)]
     many: Many,
 }
 
@@ -94,7 +97,8 @@ impl Simulate {
             points: self.points,
             audited: true,
         };
-        let plant = prepared(&system, way.integration.method);
+        let engine = self.engine.engine()?;
+        let plant = prepared(&*engine, &system, way.integration.method);
         let columns = columns(&system);
         if let Some(varied) = self.many.varied(&system.scene)? {
             let batch = Batch {
@@ -106,8 +110,9 @@ impl Simulate {
                 columns: &columns,
             };
             print(&format!(
-                "{}\n",
-                report::summary(&file.stem, &way.integration)
+                "{}, by {}\n",
+                report::summary(&file.stem, &way.integration),
+                plant.engine()
             ))?;
             return self.many.run(&batch, &given, &varied);
         }
@@ -118,8 +123,9 @@ impl Simulate {
         let run = watched("run", &plant, &way);
         let files = self.write(&file.stem, &columns, &run)?;
         print(&format!(
-            "{}\n{files}\n",
-            report::summary(&file.stem, &way.integration)
+            "{}, by {}\n{files}\n",
+            report::summary(&file.stem, &way.integration),
+            plant.engine()
         ))?;
         let mut report = report::report(&system, &run);
         print(&report)?;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bgdyn_codegen::engine::Status;
+use bgdyn_codegen::engine::{Engine, Status};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
@@ -48,14 +48,20 @@ pub(crate) type Evaluation<T> = Result<T, Undefined>;
 type ContactsOf = Evaluation<Vec<Contact<f64>>>;
 
 impl<'a> Evaluated<'a> {
-    /// Returns the scene in these variables; `slopes` for integrators that need the slopes of the rates.
-    pub fn new(system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
+    /// Returns the scene in these variables, computed by this engine; `slopes` for integrators that need the slopes of
+    /// the rates.
+    pub fn new(engine: &dyn Engine, system: &'a SceneEquations, form: Form, slopes: bool) -> Self {
         Evaluated {
             system,
             parameters: parameters(system),
             no_inputs: vec![0.0; system.scene.layout.inputs.len()],
-            functions: Arc::new(SceneFunctions::new(system, form, slopes)),
+            functions: Arc::new(SceneFunctions::new(engine, system, form, slopes)),
         }
+    }
+
+    /// Returns what computes the functions, in words.
+    pub fn engine(&self) -> String {
+        self.functions.engines.words()
     }
 
     /// Returns the functions of the scene, for other starts of it.

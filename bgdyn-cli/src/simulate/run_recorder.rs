@@ -1,5 +1,6 @@
 //! Records a run from its start to its end.
 
+use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::{
@@ -11,23 +12,32 @@ use super::run_table::{EnergyAt, Event, Record, Row, Way};
 use super::scene_functions::Form;
 use super::undefined::Undefined;
 
-/// Returns a scene as a plant for its integrator.
-pub fn prepared(system: &SceneEquations, method: IntegratorName) -> Evaluated<'_> {
+/// Returns a scene as a plant for its integrator, computed by an engine.
+pub fn prepared<'a>(
+    engine: &dyn Engine,
+    system: &'a SceneEquations,
+    method: IntegratorName,
+) -> Evaluated<'a> {
     let form = match method.needs_canonical() {
         true => Form::Canonical,
         false => Form::Natural,
     };
-    Evaluated::new(system, form, method.needs_jacobian())
+    Evaluated::new(engine, system, form, method.needs_jacobian())
 }
 
-/// Runs a scene; `watch` receives the finished fraction from time to time.
+/// Runs a scene, computed by an engine; `watch` receives the finished fraction from time to time.
 ///
 /// A failed run ends early, with the reason in [`Record::failure`].
 ///
 /// # Panics
 /// Never: every integrator of scenes is in `bgdyn_sim`.
-pub fn record(system: &SceneEquations, way: &Way, watch: &mut dyn FnMut(f64)) -> Record {
-    record_from(prepared(system, way.integration.method), way, watch)
+pub fn record(
+    engine: &dyn Engine,
+    system: &SceneEquations,
+    way: &Way,
+    watch: &mut dyn FnMut(f64),
+) -> Record {
+    record_from(prepared(engine, system, way.integration.method), way, watch)
 }
 
 /// [`record`] for an existing plant: [`prepared`] for the integrator, or with another start.

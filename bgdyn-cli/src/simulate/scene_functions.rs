@@ -1,12 +1,14 @@
 //! The functions of a scene that a run calls, prepared by the engine.
 
-use bgdyn_codegen::engine::Callable;
+use std::cell::RefCell;
+
+use bgdyn_codegen::engine::{Callable, Engine};
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::QuasiJoint;
 use bgdyn_runtime::closure::Dependent;
 
-use crate::engine::ENGINE;
+use crate::engine::EnginesUsed;
 
 /// The variables in which a scene is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +41,8 @@ pub(super) struct SceneFunctions {
     pub(super) corners: Vec<f64>,
     /// The joints with quasi-velocities, by their components in the state.
     pub(super) quasi_joints: Vec<QuasiJoint>,
+    /// What computes them.
+    pub(super) engines: EnginesUsed,
 }
 
 /// The closing of loops.
@@ -57,11 +61,21 @@ pub(super) struct Canonical {
 }
 
 impl SceneFunctions {
-    /// Returns those of a scene in these variables; `slopes` for integrators that need the slopes of the
-    /// rates.
-    pub(super) fn new(system: &SceneEquations, form: Form, slopes: bool) -> Self {
+    /// Returns those of a scene in these variables, prepared by this engine; `slopes` for integrators that need the
+    /// slopes of the rates.
+    pub(super) fn new(
+        engine: &dyn Engine,
+        system: &SceneEquations,
+        form: Form,
+        slopes: bool,
+    ) -> Self {
         let roles = system.roles();
-        let prepare = |role| ENGINE.prepare(&system.function(role));
+        let engines = RefCell::new(EnginesUsed::default());
+        let prepare = |role| {
+            let prepared = engine.prepare(&system.function(role));
+            engines.borrow_mut().note(&*prepared);
+            prepared
+        };
         let if_there = |role| roles.contains(&role).then(|| prepare(role));
         let canonical = || Canonical {
             to: prepare(SceneFunction::ToCanonical),
@@ -95,6 +109,7 @@ impl SceneFunctions {
                 .iter()
                 .map(|joint| joint.in_state(layout))
                 .collect(),
+            engines: engines.take(),
         }
     }
 }

@@ -3,6 +3,7 @@
 mod accuracy;
 mod book;
 mod check;
+mod engines;
 mod equations;
 mod eval;
 mod eval_scenes;

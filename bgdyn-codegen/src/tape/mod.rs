@@ -3,7 +3,7 @@
 //! A tape is a list of instructions over a dense array of values. A function is unrolled to one list
 //! (`unrolled.rs`), ordered into runs of one operation (`order.rs`), and its operands become indices
 //! ([`Program`]). Signs, blocks, columns and dead nodes are resolved once, not in each call. The results have
-//! the bits of [`Function::evaluate`].
+//! the bits of [`Function::evaluate`]. Other engines read the unrolled list ([`Unrolled`]).
 
 mod code;
 mod operation;
@@ -14,7 +14,9 @@ mod unrolled;
 
 use std::cell::RefCell;
 
+pub use operation::Operation;
 pub use program::Program;
+pub use unrolled::{ArgumentArray, Instruction, Unrolled, ValueSource};
 
 use crate::engine::{CallArguments, Callable, Engine, Status};
 use crate::function::Function;
@@ -23,7 +25,14 @@ use crate::function::Function;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tape;
 
+/// The name of the engine.
+const NAME: &str = "tape";
+
 impl Engine for Tape {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
     fn prepare(&self, function: &Function) -> Box<dyn Callable> {
         let program = Program::new(function);
         Box::new(TapeCall {
@@ -46,6 +55,10 @@ struct TapeCall {
 }
 
 impl Callable for TapeCall {
+    fn engine(&self) -> &'static str {
+        NAME
+    }
+
     fn results(&self) -> usize {
         self.program.results()
     }

@@ -2,7 +2,7 @@
 
 /// An operation of instructions. Signs of operands are part of it, or an instruction of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Operation {
+pub enum Operation {
     /// −a.
     Negate,
     /// a + b.

@@ -111,21 +111,9 @@ impl Program {
         values: &mut [T],
         from: &CallArguments<'_, T>,
     ) -> usize {
-        let time = from.t.as_slice();
-        // In the order of `ArgumentArray`.
-        let arrays: [&[T]; ArgumentArray::COUNT] = [
-            from.q,
-            from.v,
-            from.a,
-            from.x,
-            from.u,
-            from.modes,
-            from.parameters,
-            time,
-        ];
         let mut end = constants.len();
         values[..end].copy_from_slice(constants);
-        for (array, count) in arrays.into_iter().zip(self.arguments) {
+        for (array, count) in ArgumentArray::all(from).into_iter().zip(self.arguments) {
             // Most functions read two or three arrays.
             if count > 0 {
                 values[end..end + count].copy_from_slice(&array[..count]);

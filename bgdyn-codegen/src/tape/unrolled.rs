@@ -6,30 +6,53 @@ use bgdyn_runtime::Dd;
 
 use super::operation::Operation;
 use crate::column_loop::{ColumnLoop, OWN, ResultSource};
+use crate::engine::CallArguments;
 use crate::expr::{Constant, Graph, Leaf, Node, NodeId, QuickMap, Signed, reachable};
 use crate::function::Function;
 
 /// The arrays of arguments; the time is an array of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum ArgumentArray {
+pub enum ArgumentArray {
+    /// Positions.
     Q,
+    /// Velocities.
     V,
+    /// Accelerations.
     A,
+    /// First-order states.
     X,
+    /// Inputs.
     U,
+    /// Modes.
     Modes,
+    /// Run-time parameters.
     Parameters,
+    /// The time.
     Time,
 }
 
 impl ArgumentArray {
     /// The number of arrays.
     pub const COUNT: usize = ArgumentArray::Time as usize + 1;
+
+    /// Returns the arrays of a call, in the order of the variants.
+    pub fn all<'a, T>(from: &'a CallArguments<'_, T>) -> [&'a [T]; ArgumentArray::COUNT] {
+        [
+            from.q,
+            from.v,
+            from.a,
+            from.x,
+            from.u,
+            from.modes,
+            from.parameters,
+            from.t.as_slice(),
+        ]
+    }
 }
 
 /// What an operand is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum ValueSource {
+pub enum ValueSource {
     /// A constant, by its index.
     Constant(u32),
     /// A component of an array of arguments.
@@ -42,7 +65,8 @@ pub(super) enum ValueSource {
 
 /// One operation on earlier values.
 #[derive(Clone, Debug)]
-pub(super) struct Instruction {
+pub struct Instruction {
+    /// What it computes.
     pub operation: Operation,
     /// Its operands in [`Unrolled::operands`].
     pub operands: Range<usize>,
@@ -52,14 +76,18 @@ pub(super) struct Instruction {
 
 /// A function as a list of instructions, operands before their users.
 #[derive(Debug, Default)]
-pub(super) struct Unrolled {
+pub struct Unrolled {
+    /// The instructions, in an order in which they can be executed.
     pub instructions: Vec<Instruction>,
+    /// The operands of all instructions.
     pub operands: Vec<ValueSource>,
+    /// The constants.
     pub constants: Vec<Dd>,
     /// The constants in sums of angles, rad.
     pub offsets: Vec<(f64, f64)>,
     /// The number of components that are read of each array of arguments: up to the last one.
     pub arguments: [usize; ArgumentArray::COUNT],
+    /// The results, in the order of [`Function::evaluate`].
     pub results: Vec<ValueSource>,
 }
 

@@ -1,20 +1,17 @@
-//! Compares a function's tape with the evaluator, bit by bit.
+//! Compares prepared functions with the evaluator, bit by bit.
 
 use std::collections::BTreeSet;
 
-use bgdyn_codegen::engine::{CallArguments, Engine, Status};
+use bgdyn_codegen::engine::{CallArguments, Callable, Status};
 use bgdyn_codegen::expr::{Graph, Inputs, Leaf, Node, NodeId, reachable};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_codegen::tape::{Program, Tape};
 use bgdyn_runtime::{Dd, Scalar};
 
 use super::common::rng::Rng;
 
 /// Number of states of each function in `f64`.
 const STATES: usize = 16;
-/// Number of these that are compared in other scalars.
-const OTHER_SCALARS: usize = 3;
 
 /// The kinds of nodes.
 pub const KINDS: [&str; 20] = [
@@ -38,53 +35,34 @@ pub struct Seen {
     pub kinds: BTreeSet<String>,
 }
 
-/// Compares a function's tape with the evaluator; states of scenes are near the scene's start.
-pub fn agree(name: &str, function: &Function, scene: Option<&SceneEquations>, seen: &mut Seen) {
+/// Compares a prepared function with the evaluator at [`states`].
+pub fn agree(
+    prepared: &dyn Callable,
+    name: &str,
+    function: &Function,
+    scene: Option<&SceneEquations>,
+    seen: &mut Seen,
+) {
     seen.note(function);
-    let tape = Tape.prepare(function);
-    let program = Program::new(function);
-    let mut rng = Rng::new(23);
-    for k in 0..STATES {
-        let at = state(function, scene, &mut rng, k);
+    for (k, at) in states(function, scene).enumerate() {
         let (wanted, refused) = function.evaluate(at.clone());
-        let (found, status) = tape.value(&CallArguments::from(&at));
+        let (found, status) = prepared.value(&CallArguments::from(&at));
         let what = || format!("{name}, state {k}: {at:?}");
         same(&found, &wanted, &|x| x.to_bits(), what);
         assert_eq!(status, Status::of(refused, &wanted), "{}", what());
         seen.calls += 1;
         seen.refused += usize::from(refused.is_some());
         seen.finite += usize::from(wanted.iter().all(|x| x.is_finite()));
-        if k < OTHER_SCALARS {
-            let bits = |x: Dd| [x.hi().to_bits(), x.lo().to_bits()];
-            in_scalar::<Dd, _>(&program, function, &at, &bits, what);
-            in_scalar::<f32, _>(&program, function, &at, &f32::to_bits, what);
-        }
     }
 }
 
-fn in_scalar<T: Scalar<Refused = Option<usize>>, B: PartialEq>(
-    program: &Program,
+/// Returns the arguments of the calls of a function; states of scenes are near the scene's start.
+pub fn states(
     function: &Function,
-    at: &Inputs<f64>,
-    bits: &dyn Fn(T) -> B,
-    what: impl Fn() -> String,
-) {
-    let all = |x: &[f64]| x.iter().map(|&x| T::from_f64(x)).collect::<Vec<T>>();
-    let at = Inputs {
-        q: all(&at.q),
-        v: all(&at.v),
-        a: all(&at.a),
-        x: all(&at.x),
-        u: all(&at.u),
-        modes: all(&at.modes),
-        parameters: all(&at.parameters),
-        t: at.t.map(T::from_f64),
-        passed: vec![],
-    };
-    let (wanted, refused) = function.evaluate(at.clone());
-    let (found, of_tape) = program.value(&CallArguments::from(&at));
-    same(&found, &wanted, bits, &what);
-    assert_eq!(of_tape, refused, "{}", what());
+    scene: Option<&SceneEquations>,
+) -> impl Iterator<Item = Inputs<f64>> {
+    let mut rng = Rng::new(23);
+    (0..STATES).map(move |k| state(function, scene, &mut rng, k))
 }
 
 #[expect(
@@ -96,7 +74,7 @@ fn is_nan<T: Scalar>(x: T) -> bool {
 }
 
 /// Compares results bit by bit; the bits of a NaN do not matter.
-fn same<T: Scalar, B: PartialEq>(
+pub fn same<T: Scalar, B: PartialEq>(
     found: &[T],
     wanted: &[T],
     bits: &dyn Fn(T) -> B,

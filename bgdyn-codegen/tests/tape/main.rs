@@ -5,50 +5,25 @@ mod agreement;
 #[path = "../common/mod.rs"]
 mod common;
 mod files;
+mod functions;
+mod other_scalars;
+mod random_functions;
 mod random_graphs;
 
 use agreement::{KINDS, Seen, agree};
-use bgdyn_codegen::bond_graph;
-use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::engine::{CallArguments, Engine, Status};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::tape::Tape;
 use common::rng::Rng;
+use functions::{functions, scene_functions};
 
-/// Mechanisms with more velocities have no derivatives here: these are created slowly.
-const LARGE: usize = 8;
-/// Sites of a mechanism whose functions are compared.
-const SITES: usize = 2;
-
-/// Returns the functions of a mechanism by a formulation, or by the generator's choice.
-fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Function> {
-    let graph = bond_graph::build(mechanism);
-    let formulation = formulation.map(|name| by_name(name).expect("a formulation"));
-    let choice = Choice::new(&graph, formulation);
-    let slow = [
-        Method::CoriolisMatrix,
-        Method::InverseDynamicsDerivatives,
-        Method::ForwardDynamicsDerivatives,
-        Method::JointReactions,
-    ];
-    let methods = Method::possible_of(&graph).into_iter().filter(|method| {
-        let first = method.site().is_none_or(|site| site.0 < SITES);
-        first && (mechanism.nv() <= LARGE || !slow.contains(method))
-    });
-    methods
-        .filter_map(|method| prefer(&choice, method, Preference::default()))
-        .collect()
-}
-
-/// Returns the functions of a scene.
-fn scene_functions(system: &SceneEquations) -> Vec<Function> {
-    let roles = system.roles_with(true, true).into_iter();
-    roles.map(|role| system.function(role)).collect()
+/// Compares a function's tape with the evaluator in every scalar.
+fn compare(name: &str, function: &Function, scene: Option<&SceneEquations>, seen: &mut Seen) {
+    agree(&*Tape.prepare(function), name, function, scene, seen);
+    other_scalars::agree(name, function, scene);
 }
 
 #[test]
@@ -56,12 +31,8 @@ fn tapes_of_every_mechanism_have_the_bits_of_the_evaluator() {
     let mut seen = Seen::default();
     for (name, mechanism) in files::mechanisms() {
         for function in functions(&mechanism, None) {
-            agree(
-                &format!("{name}: {}", function.name),
-                &function,
-                None,
-                &mut seen,
-            );
+            let name = format!("{name}: {}", function.name);
+            compare(&name, &function, None, &mut seen);
         }
     }
     println!("{seen:?}");
@@ -83,7 +54,7 @@ fn tapes_of_other_formulations_have_the_bits_of_the_evaluator() {
         for formulation in ["literal", "subspaces"] {
             for function in functions(&mechanism, Some(formulation)) {
                 let name = format!("{name}: {} by {formulation}", function.name);
-                agree(&name, &function, None, &mut seen);
+                compare(&name, &function, None, &mut seen);
             }
         }
     }
@@ -96,7 +67,7 @@ fn tapes_of_every_scene_have_the_bits_of_the_evaluator() {
     for (name, system) in files::scenes() {
         for function in scene_functions(&system) {
             let name = format!("{name}: {}", function.name);
-            agree(&name, &function, Some(&system), &mut seen);
+            compare(&name, &function, Some(&system), &mut seen);
         }
     }
     println!("{seen:?}");

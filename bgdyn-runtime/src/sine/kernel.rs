@@ -5,7 +5,7 @@ use super::lanes::{Coefficients, Polynomial, SineLanes};
 /// Returns sine and cosine of `angle` + `tail`, for an angle within [`SineLanes::LIMIT`] and a tail within
 /// [`SineLanes::TAIL_LIMIT`].
 #[inline(always)]
-pub(crate) fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P) {
+pub fn sin_cos_in_range<P: SineLanes>(angle: P, tail: Option<P>) -> (P, P) {
     let (quarters, r, low) = reduced(angle, tail);
     let (s, c) = of_rest(r, low);
     P::turned(quarters, s, c)

@@ -6,7 +6,7 @@ use core::ops::{Add, Mul, Neg, Sub};
 /// that optimises for size would not treat the coefficients as constants, and `f32` would be converted
 /// from `f64` at run time.
 #[derive(Clone, Copy)]
-pub(crate) enum Polynomial {
+pub enum Polynomial {
     /// Up to x².
     Three([f64; 3]),
     /// Up to x⁵.
@@ -15,7 +15,7 @@ pub(crate) enum Polynomial {
 
 /// Constants of the kernel for a scalar type.
 #[derive(Clone, Copy)]
-pub(crate) struct Coefficients {
+pub struct Coefficients {
     /// The first part of π/2, and the second if there are four parts.
     pub exact: (f64, Option<f64>),
     /// The part after these.
@@ -77,7 +77,7 @@ const SINGLE: Coefficients = Coefficients {
 };
 
 /// One number, or the lanes of a register.
-pub(crate) trait SineLanes:
+pub trait SineLanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
     /// Angles up to this size, in radians, take the branch-free path.
@@ -110,6 +110,9 @@ pub(crate) trait SineLanes:
     /// two of `quarters`.
     fn turned(quarters: Self, s: Self, c: Self) -> (Self, Self);
 }
+
+/// Whether `f64` fuses a product and a sum here.
+pub const FUSES: bool = cfg!(all(target_arch = "x86_64", target_feature = "fma"));
 
 /// Returns a · b + c with the fused instruction if the target has one; never by a call.
 #[inline(always)]

@@ -64,8 +64,8 @@ mod large;
 
 use crate::two_sum::{TwoWord, exact_sum};
 pub(crate) use any_size::{AnySize, sin_cos};
-use kernel::sin_cos_in_range;
-pub(crate) use lanes::SineLanes;
+pub use kernel::sin_cos_in_range;
+pub use lanes::{Coefficients, FUSES, SineLanes};
 
 /// Returns sines and cosines of all angles of a call: each of the exact sum of its `angles` and its
 /// offset.

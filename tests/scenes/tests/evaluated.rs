@@ -1,12 +1,15 @@
-//! Checks that runs with the evaluator equal those of the compiled scenes, digit by digit.
+//! Checks that runs by the engines, tapes and machine code, equal those of the compiled scenes, digit by digit.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use bgdyn_cli::simulate::{Evaluated, Form, Numbers};
+use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::read_scene;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_codegen::tape::Tape;
+use bgdyn_jit::Jit;
 use bgdyn_sim::{
     CanonicalPlant, Gauss2, HybridState, Integrator, Rk4, Rodas4, Run, ScenePlant, StateVector,
 };
@@ -44,47 +47,64 @@ macro_rules! alike {
     };
 }
 
-fn evaluated<M: Integrator<Numbers>>(
+/// Returns the engines of this machine.
+fn engines() -> Vec<Box<dyn Engine>> {
+    let mut all: Vec<Box<dyn Engine>> = vec![Box::new(Tape)];
+    match Jit::new() {
+        Ok(jit) => all.push(Box::new(jit)),
+        Err(why) => println!("no machine code: {why}"),
+    }
+    all
+}
+
+fn evaluated<'a, M: Integrator<Numbers>>(
+    engine: &dyn Engine,
     method: M,
-    system: &SceneEquations,
-    form: Form,
-    slopes: bool,
-) -> Run<Evaluated<'_>, M> {
-    let plant = Evaluated::new(system, form, slopes);
+    system: &'a SceneEquations,
+    (form, slopes): (Form, bool),
+) -> Run<Evaluated<'a>, M> {
+    let plant = Evaluated::new(engine, system, form, slopes);
+    assert_eq!(plant.engine(), engine.name());
     let begin = plant.begin();
     Run::by(method, plant, begin)
 }
 
 #[test]
 fn with_events() {
-    let scene = stick_slip::StickSlip::<f64>::default();
-    let system = read("stick_slip");
-    let other = evaluated(Rk4, &system, Form::Natural, false);
-    alike!(Run::new(&scene), other, 1e-3, 2000);
+    for engine in engines() {
+        let scene = stick_slip::StickSlip::<f64>::default();
+        let system = read("stick_slip");
+        let other = evaluated(&*engine, Rk4, &system, (Form::Natural, false));
+        alike!(Run::new(&scene), other, 1e-3, 2000);
 
-    let scene = scara_everything::ScaraEverything::<f64>::default();
-    let system = read("scara_everything");
-    let other = evaluated(Rk4, &system, Form::Natural, false);
-    alike!(Run::new(&scene), other, 2e-4, 2000);
+        let scene = scara_everything::ScaraEverything::<f64>::default();
+        let system = read("scara_everything");
+        let other = evaluated(&*engine, Rk4, &system, (Form::Natural, false));
+        alike!(Run::new(&scene), other, 2e-4, 2000);
+    }
 }
 
 #[test]
 fn with_slopes() {
-    let scene = hydraulic_cylinder::HydraulicCylinder::<f64>::default();
-    let compiled = Run::by(Rodas4, ScenePlant::with_slope(&scene), Run::begin(&scene));
-    let system = read("hydraulic_cylinder");
-    let other = evaluated(Rodas4, &system, Form::Natural, true);
-    alike!(compiled, other, 1e-5, 500);
+    for engine in engines() {
+        let scene = hydraulic_cylinder::HydraulicCylinder::<f64>::default();
+        let compiled = Run::by(Rodas4, ScenePlant::with_slope(&scene), Run::begin(&scene));
+        let system = read("hydraulic_cylinder");
+        let other = evaluated(&*engine, Rodas4, &system, (Form::Natural, true));
+        alike!(compiled, other, 1e-5, 500);
+    }
 }
 
 #[test]
 fn in_momenta() {
-    let scene = stiff_spring_pendulum::StiffSpringPendulum::<f64>::default();
-    let plant = CanonicalPlant::new(&scene);
-    let HybridState { t, y, modes } = Run::begin(&scene);
-    let y = plant.to_canonical(t, &y, &modes);
-    let compiled = Run::by(Gauss2::new(), plant, HybridState { t, y, modes });
-    let system = read("stiff_spring_pendulum");
-    let other = evaluated(Gauss2::new(), &system, Form::Canonical, false);
-    alike!(compiled, other, 5e-5, 500);
+    for engine in engines() {
+        let scene = stiff_spring_pendulum::StiffSpringPendulum::<f64>::default();
+        let plant = CanonicalPlant::new(&scene);
+        let HybridState { t, y, modes } = Run::begin(&scene);
+        let y = plant.to_canonical(t, &y, &modes);
+        let compiled = Run::by(Gauss2::new(), plant, HybridState { t, y, modes });
+        let system = read("stiff_spring_pendulum");
+        let other = evaluated(&*engine, Gauss2::new(), &system, (Form::Canonical, false));
+        alike!(compiled, other, 5e-5, 500);
+    }
 }

@@ -8,6 +8,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::states::Failure;
+use crate::engine::EngineChoice;
 use crate::output::print;
 use crate::spec_file::Choice;
 
@@ -29,6 +30,8 @@ pub(crate) struct Eval {
     /// Set a run-time parameter, such as `payload=500 g` [default: the value in the spec]. May be repeated
     #[arg(long = "parameter", value_name = "NAME=VALUE")]
     pub(super) parameters: Vec<String>,
+    #[command(flatten)]
+    pub(super) engine: EngineChoice,
 }
 
 /// The printed report.

@@ -17,7 +17,6 @@ use serde_json::{Value, json};
 use super::arguments::Eval;
 use super::closed::{closed, singular_loop};
 use super::states::{Failure, finite, parameters, plain, singular, states};
-use crate::engine::ENGINE;
 use crate::usage::Usage;
 
 impl Eval {
@@ -36,17 +35,21 @@ impl Eval {
                 "this scene has no function `{method}`; it has {known}"
             ))
         })?;
+        let parameters = parameters(&system.scene.parameters, &self.parameters)?;
+        let states = states(&self.states)?;
+        let engine = self.engine.engine_for(states.len())?;
+        let prepare = |role| engine.prepare(&system.function(role));
         let call = SceneCall {
             system,
             role,
-            parameters: parameters(&system.scene.parameters, &self.parameters)?,
-            function: ENGINE.prepare(&system.function(role)),
+            parameters,
+            function: prepare(role),
             inputs: roles
                 .contains(&SceneFunction::Inputs)
-                .then(|| ENGINE.prepare(&system.function(SceneFunction::Inputs))),
+                .then(|| prepare(SceneFunction::Inputs)),
             names: SceneNames::of(system),
         };
-        let states = states(&self.states)?;
+        self.engine.tell(&*call.function);
         self.report(call.result_names(), &states, |state| call.value(state))
     }
 }

@@ -1,19 +1,19 @@
 //! The poses of links at the rows of a page.
 
 use bgdyn_codegen::bond_graph::SiteId;
-use bgdyn_codegen::engine::CallArguments;
+use bgdyn_codegen::engine::{CallArguments, Engine};
 use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_codegen::mechanism::Motion;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Dd;
 use bgdyn_runtime::manifold::quaternion_of;
 use bgdyn_runtime::nalgebra::Matrix3;
 
 use super::body::Placed;
-use crate::engine::ENGINE;
 use crate::simulate::run_table::Row;
 
 /// Scale of a quaternion's components.
@@ -30,7 +30,8 @@ pub(super) fn poses(system: &SceneEquations, link: usize, rows: &[&Row]) -> Vec<
     // Hidden links are no sites.
     let before = links[..link].iter().filter(|l| !l.hidden).count();
     let pose = function(mechanism, Method::Pose(SiteId(before)), &Options::default());
-    let pose = ENGINE.prepare(&pose.expect("every formulation knows poses"));
+    // Machine code does not pay for so few rows.
+    let pose = Tape.prepare(&pose.expect("every formulation knows poses"));
     let mut last = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
     let at = |row: &&Row| {
         let parameters = parameters(system, row);
