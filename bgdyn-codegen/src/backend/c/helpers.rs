@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 29] = [
+const HELPERS: [&str; 34] = [
     "mul_add",
     "smaller",
     "larger",
@@ -29,6 +29,8 @@ const HELPERS: [&str; 29] = [
     "quaternion_product",
     "quaternion_exponential",
     "spherical_normalize",
+    "arc_ratio",
+    "quaternion_logarithm",
     "spherical_position_rates",
     "spherical_integrate",
     "floating_normalize",
@@ -37,10 +39,16 @@ const HELPERS: [&str; 29] = [
     "planar_normalize",
     "planar_position_rates",
     "planar_integrate",
+    "spherical_difference",
+    "floating_difference",
+    "planar_difference",
 ];
 
 /// Number of terms of the series of sines.
 const SERIES: u32 = 18;
+
+/// Number of terms of the series of the arc tangent.
+const TERMS: u32 = 16;
 
 /// Returns the helpers that a text calls, directly or by others.
 pub(super) fn helpers(text: &str, style: &Style) -> String {
@@ -99,6 +107,11 @@ fn manifold_template(name: &str) -> &'static str {
         "planar_normalize" => include_str!("helpers/planar_normalize.h"),
         "planar_position_rates" => include_str!("helpers/planar_position_rates.h"),
         "planar_integrate" => include_str!("helpers/planar_integrate.h"),
+        "arc_ratio" => include_str!("helpers/arc_ratio.h"),
+        "quaternion_logarithm" => include_str!("helpers/quaternion_logarithm.h"),
+        "spherical_difference" => include_str!("helpers/spherical_difference.h"),
+        "floating_difference" => include_str!("helpers/floating_difference.h"),
+        "planar_difference" => include_str!("helpers/planar_difference.h"),
         _ => unreachable!("the names of HELPERS"),
     }
 }
@@ -111,6 +124,13 @@ fn inverse_factorials(first: u32, style: &Style) -> String {
     };
     let all = (0..SERIES).map(|k| inverse(first + 2 * k));
     all.collect::<Vec<_>>().join(", ")
+}
+
+/// Returns 1, 1/3, 1/5, …
+fn odd_reciprocals(style: &Style) -> String {
+    let all = (0..TERMS).map(|k| Dd::ONE / Dd::from(f64::from(2 * k + 1)));
+    let all: Vec<String> = all.map(|x| style.number(x.to_f64())).collect();
+    all.join(", ")
 }
 
 /// Returns a helper with the types, numbers and names of the style.
@@ -129,6 +149,8 @@ fn written(name: &str, style: &Style) -> String {
     let text = text.replace("LARGEST", &style.number(largest));
     let text = text.replace("PIVOT_FLOOR", &style.number(floor));
     let text = text.replace("SERIES", &SERIES.to_string());
+    let text = text.replace("TERMS", &TERMS.to_string());
+    let text = text.replace("RECIPROCALS", &odd_reciprocals(style));
     let text = text.replace("EVEN", &inverse_factorials(2, style));
     let text = text.replace("ODD", &inverse_factorials(3, style));
     let text = text.replace("SMALL_TAIL", &style.number(small_tail));

@@ -3,6 +3,7 @@
 mod block;
 mod closing;
 mod context;
+mod difference;
 mod expression;
 mod files;
 mod function;

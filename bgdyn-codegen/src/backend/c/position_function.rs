@@ -42,7 +42,7 @@ impl PositionFunction {
     }
 }
 
-/// Returns a signature: `q` has NQ components, other arguments have NV.
+/// Returns a signature: `q`, `q1` and `q0` have NQ components, other arguments have NV.
 pub(super) fn signature(
     context: &ModelContext<'_>,
     kind: &str,
@@ -53,11 +53,11 @@ pub(super) fn signature(
     let (style, real) = (context.style, context.style.real());
     let parameters = of_model(context.naming, style, true).map(|p| p.declaration);
     // Of loops and contacts: functions that call those of the model.
-    let calls =
-        context.model.bond_graph.closed.is_some() && !matches!(name, "neutral" | "normalize");
+    let calls = context.model.bond_graph.closed.is_some()
+        && !matches!(name, "neutral" | "normalize" | "difference");
     let parameters = parameters.filter(|_| calls);
     let argument = |name: &str| {
-        let size = style.constant(if name == "q" { "NQ" } else { "NV" });
+        let size = style.constant(if name.starts_with('q') { "NQ" } else { "NV" });
         format!("const {real} {name}[{size}]")
     };
     let arguments = arguments.split_whitespace().map(argument);

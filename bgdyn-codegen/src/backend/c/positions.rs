@@ -5,6 +5,7 @@
 
 use super::closing;
 use super::context::ModelContext;
+use super::difference::difference;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
 use crate::bond_graph::{JointSegment, joint_segments};
 
@@ -43,6 +44,7 @@ pub(super) fn position_functions(context: &ModelContext<'_>) -> Vec<PositionFunc
             });
         }
     }
+    functions.extend((context.nv > 0).then(|| difference(context)));
     functions
 }
 

@@ -1,0 +1,247 @@
+//! Positions of mechanisms by the functions of the runtime, around those of the evaluator.
+
+use bgdyn_codegen::bond_graph::{ClosedTree, JointSegment, joint_segments};
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::plan::{dependent_joint, independent_positions};
+use bgdyn_runtime::ACTUATORS;
+use bgdyn_runtime::closure::{self, Dependent};
+use bgdyn_runtime::manifold;
+use bgdyn_runtime::nalgebra::SVector;
+
+use crate::values::CNumber;
+
+/// Room for the positions and velocities of every mechanism here.
+const ROOM: usize = 64;
+
+/// Positions or velocities, followed by zeros.
+pub type Vector<T> = SVector<T, ROOM>;
+
+/// A mechanism, with the arguments that its functions read beside positions and velocities.
+pub struct Reference<'a, T> {
+    pub model: &'a Model,
+    pub parameters: Vec<T>,
+}
+
+impl<T: CNumber> Reference<'_, T> {
+    fn function(&self, method: Method, q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+        let inputs = Inputs {
+            q: q.as_slice().to_vec(),
+            v: v.as_slice().to_vec(),
+            parameters: self.parameters.clone(),
+            ..Inputs::default()
+        };
+        let function = self.model.function(method).expect("a usual method");
+        vector(&function.evaluate(inputs).0)
+    }
+
+    fn dependents(&self, closed: &ClosedTree) -> Vec<Dependent> {
+        let all = closed.closure.closing();
+        all.map(|j| dependent_joint(closed, j)).collect()
+    }
+
+    /// Returns the closed position, and the number of the cause if there is none.
+    pub fn close(&self, closed: &ClosedTree, q: Vector<T>) -> (closure::Closing<Vector<T>>, i128) {
+        let dependents = self.dependents(closed);
+        let step = |q: &Vector<T>| self.function(Method::ClosingStep, q, &vector(&[]));
+        let closing = match closed.closure.nonholonomic() {
+            false => closure::close(q, &dependents, step),
+            true => {
+                let joints = joint_segments(&closed.tree);
+                let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
+                closure::close_along(q, &dependents, step, moved)
+            }
+        };
+        let nq = self.model.mechanism.nq();
+        let cause = match closing.refused {
+            Some(cause) => (cause % ACTUATORS - ROOM + nq + 1) as i128,
+            None => -i128::from(closing.q.iter().any(|x| !x.is_finite())),
+        };
+        (closing, cause)
+    }
+
+    /// Returns the position after velocities, and the number of the cause if there is none.
+    pub fn integrate(&self, q: &Vector<T>, dv: &Vector<T>) -> (Vector<T>, i128) {
+        let Some(closed) = self.model.bond_graph.closed.as_deref() else {
+            let joints = joint_segments(&self.model.bond_graph);
+            return (integrated(&joints, q, dv), 0);
+        };
+        let joints = joint_segments(&closed.tree);
+        let rates = |q: &Vector<T>| self.function(Method::TreeVelocity, q, dv);
+        let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
+        let (found, others) = match closed.closure.nonholonomic() {
+            false => (moved(q, &rates(q)), independent_positions(closed)),
+            true => (closure::follow(q, rates, moved), Vec::new()),
+        };
+        if self.model.function(Method::ClosingStep).is_none() {
+            return (found, 0);
+        }
+        let (closing, cause) = self.close(closed, found);
+        let q = closing.or_nan(&self.dependents(closed), &others);
+        let is_wild = q.iter().any(|x| !x.is_finite());
+        (
+            q,
+            if cause > 0 {
+                cause
+            } else {
+                -i128::from(is_wild)
+            },
+        )
+    }
+
+    /// Returns the rates of the positions at velocities.
+    pub fn position_rates(&self, q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+        match self.model.bond_graph.closed.as_deref() {
+            None => rates(&joint_segments(&self.model.bond_graph), q, v),
+            Some(closed) => {
+                let moved = self.function(Method::TreeVelocity, q, v);
+                rates(&joint_segments(&closed.tree), q, &moved)
+            }
+        }
+    }
+
+    /// Returns the velocities that lead from q0 to q1.
+    pub fn difference(&self, q1: &Vector<T>, q0: &Vector<T>) -> Vector<T> {
+        let graph = &self.model.bond_graph;
+        let (joints, independents): (_, Option<Vec<usize>>) = match graph.closed.as_deref() {
+            None => (joint_segments(graph), None),
+            Some(closed) => {
+                let all = closed.closure.independents.iter();
+                (
+                    joint_segments(&closed.tree),
+                    Some(all.map(|j| j.0).collect()),
+                )
+            }
+        };
+        let (mut all, mut at) = (Vec::new(), 0);
+        for joint in &joints {
+            let [q1, q0] = [q1, q0].map(|q| unit(joint, &q.as_slice()[at..at + joint.nq]));
+            at += joint.nq;
+            if joint.leaders.is_empty() {
+                all.extend(match joint.manifold {
+                    "spherical" => manifold::spherical::difference(array(&q1), array(&q0)).to_vec(),
+                    "floating" => manifold::floating::difference(array(&q1), array(&q0)).to_vec(),
+                    "planar" => manifold::planar::difference(array(&q1), array(&q0)).to_vec(),
+                    _ => q1.iter().zip(&q0).map(|(&x, &y)| x - y).collect(),
+                });
+            }
+        }
+        match independents {
+            None => vector(&all),
+            Some(own) => vector(&own.iter().map(|&j| all[j]).collect::<Vec<T>>()),
+        }
+    }
+
+    /// Returns the neutral position, or with loops one at which all close.
+    pub fn neutral(&self) -> Vector<T> {
+        if let Some(closed) = self.model.bond_graph.closed.as_deref() {
+            let start = closed.closure.start.iter().map(|x| T::from_f64(x.hi()));
+            return vector(&start.collect::<Vec<T>>());
+        }
+        let joints = joint_segments(&self.model.bond_graph);
+        let nothing = vector(&[]);
+        joint_by_joint(
+            &joints,
+            &nothing,
+            &nothing,
+            &|joint, q, _| match joint.manifold {
+                "spherical" => manifold::spherical::neutral().to_vec(),
+                "floating" => manifold::floating::neutral().to_vec(),
+                _ => q.to_vec(),
+            },
+        )
+    }
+
+    /// Returns the positions with quaternions of length 1.
+    pub fn normalize(&self, q: &Vector<T>) -> Vector<T> {
+        let graph = &self.model.bond_graph;
+        let joints = match graph.closed.as_deref() {
+            None => joint_segments(graph),
+            Some(closed) => joint_segments(&closed.tree),
+        };
+        joint_by_joint(&joints, q, &vector(&[]), &|joint, q, _| {
+            normalized(joint, q)
+        })
+    }
+}
+
+/// Returns the values, followed by zeros.
+pub fn vector<T: CNumber>(values: &[T]) -> Vector<T> {
+    let mut all = Vector::repeat(T::from_f64(0.0));
+    all.as_mut_slice()[..values.len()].copy_from_slice(values);
+    all
+}
+
+fn array<T: Copy, const N: usize>(values: &[T]) -> [T; N] {
+    values.try_into().expect("the joint's own components")
+}
+
+/// A function of a joint's own positions and velocities.
+type OfJoint<T> = dyn Fn(&JointSegment, &[T], &[T]) -> Vec<T>;
+
+/// Returns the positions of the joints from those of each, its velocities, and all velocities.
+fn joint_by_joint<T: CNumber>(
+    joints: &[JointSegment],
+    q: &Vector<T>,
+    v: &Vector<T>,
+    of: &OfJoint<T>,
+) -> Vector<T> {
+    let (mut found, mut at) = (Vec::new(), 0);
+    for joint in joints {
+        let own = &q.as_slice()[found.len()..found.len() + joint.nq];
+        let term = |&(j, ratio): &(usize, f64)| T::from_f64(ratio) * v[j];
+        let led = joint.leaders.iter().map(term).reduce(|x, y| x + y);
+        let moved = match led {
+            Some(sum) => vec![sum],
+            None => v.as_slice()[at..at + joint.nv].to_vec(),
+        };
+        found.extend(of(joint, own, &moved));
+        at += joint.nv;
+    }
+    vector(&found)
+}
+
+fn normalized<T: CNumber>(joint: &JointSegment, q: &[T]) -> Vec<T> {
+    match joint.manifold {
+        "spherical" => manifold::spherical::normalize(array(q)).to_vec(),
+        "floating" => manifold::floating::normalize(array(q)).to_vec(),
+        _ => q.to_vec(),
+    }
+}
+
+/// Returns the positions of a joint, with its quaternion scaled to length 1 if it may have any.
+fn unit<T: CNumber>(joint: &JointSegment, q: &[T]) -> Vec<T> {
+    match joint.any_length {
+        true => normalized(joint, q),
+        false => q.to_vec(),
+    }
+}
+
+fn integrated<T: CNumber>(joints: &[JointSegment], q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+    joint_by_joint(joints, q, v, &|joint, q, d| {
+        let unit = unit(joint, q);
+        match joint.manifold {
+            "spherical" => manifold::spherical::integrate(array(&unit), array(d)).to_vec(),
+            "floating" => manifold::floating::integrate(array(&unit), array(d)).to_vec(),
+            "planar" => manifold::planar::integrate(array(&unit), array(d)).to_vec(),
+            _ => q.iter().zip(d).map(|(&q, &d)| q + d).collect(),
+        }
+    })
+}
+
+fn rates<T: CNumber>(joints: &[JointSegment], q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+    joint_by_joint(joints, q, v, &|joint, q, v| {
+        let unit = unit(joint, q);
+        match joint.manifold {
+            "spherical" => manifold::spherical::position_rates(array(q), array(v)).to_vec(),
+            "floating" => {
+                let [turned, own] =
+                    [&unit[..], q].map(|q| manifold::floating::position_rates(array(q), array(v)));
+                turned[..3].iter().chain(&own[3..]).copied().collect()
+            }
+            "planar" => manifold::planar::position_rates(array(q), array(v)).to_vec(),
+            _ => v.to_vec(),
+        }
+    })
+}
