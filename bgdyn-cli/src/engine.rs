@@ -58,9 +58,7 @@ impl EngineChoice {
             _ => self.engine(),
         }
     }
-}
 
-impl EngineChoice {
     /// Says what computes a function, unless nobody asked and it is the tape.
     pub(crate) fn tell(&self, function: &dyn Callable) {
         let name = function.engine();
