@@ -9,9 +9,10 @@ use super::tokens::number;
 use crate::bond_graph::ClosedTree;
 use crate::mechanism::CoordinateId;
 use crate::mechanism::closure::{
-    AngleTerm, PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector,
-    closing_polygons, snapped,
+    PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector, closing_polygons,
+    snapped,
 };
+use crate::plan::{AngleSums, slider_numbers, triangle_numbers, turned_joints};
 
 /// What closes planar loops.
 pub(super) struct PolygonClosing {
@@ -52,30 +53,25 @@ pub(super) fn polygon_closing(closed: &ClosedTree) -> Option<PolygonClosing> {
 /// Sums of angles whose sines are computed in one call.
 #[derive(Default)]
 struct Angles {
-    all: Vec<Vec<AngleTerm>>,
+    sums: AngleSums,
 }
 
 impl Angles {
     /// Returns the vector, turned by an angle of this call; `prefix` begins the names of its sines.
     fn turned(&mut self, prefix: &str, turned: &TurnedVector) -> TokenStream {
         let vector = constant_vector(turned.vector);
-        if turned.angle.is_empty() {
+        let Some(k) = self.sums.index(turned) else {
             return quote! { plane::constant(#vector) };
-        }
-        let known = self.all.iter().position(|angle| *angle == turned.angle);
-        let k = known.unwrap_or_else(|| {
-            self.all.push(turned.angle.clone());
-            self.all.len() - 1
-        });
+        };
         let sine = format_ident!("{prefix}{k}");
         quote! { plane::turned(#sine, #vector) }
     }
 
     /// Returns the call, at the positions of this name.
     fn call(&self, prefix: &str, q: &str) -> TokenStream {
-        let sines = (0..self.all.len()).map(|k| format_ident!("{prefix}{k}"));
+        let sines = (0..self.sums.all.len()).map(|k| format_ident!("{prefix}{k}"));
         let q = format_ident!("{q}");
-        let sums = self.all.iter().map(|angle| {
+        let sums = self.sums.all.iter().map(|angle| {
             let terms = angle.iter().map(|term| {
                 let at = position(&q, term.joint);
                 if term.opposite {
@@ -86,8 +82,8 @@ impl Angles {
             });
             quote! { &[#(#terms),*] }
         });
-        let count = size(self.all.len());
-        match self.all.is_empty() {
+        let count = size(self.sums.all.len());
+        match self.sums.all.is_empty() {
             true => TokenStream::new(),
             false => quote! {
                 let [#(#sines),*] = T::sin_cos_all([#(#sums),*], [(0.0, 0.0); #count]);
@@ -158,10 +154,8 @@ impl PolygonText<'_> {
         let here = arms.map(|arm| angles.turned("k", arm));
         let sines = angles.call("k", "q");
         let (there, sines_there) = turned_vectors("f", "from", &arms);
-        let [a, b] = arms.map(|arm| length(arm.vector));
-        let [outer, inner] = [a + b, a - b].map(|x| x * x);
-        let lengths = [outer, inner, a * a - b * b].map(constant);
-        let unit = constant(Dd::ONE / (a * b));
+        let (lengths, unit) = triangle_numbers(arms);
+        let (lengths, unit) = (lengths.map(constant), constant(unit));
         let (branch, positive) = (self.branch(), self.polygon.positive);
         let turning = self.turning(&arms);
         quote! {
@@ -183,8 +177,7 @@ impl PolygonText<'_> {
         let [here, direction] = [arm, along].map(|v| angles.turned("k", v));
         let sines = angles.call("k", "q");
         let (there, sines_there) = turned_vectors("f", "from", &[arm, along]);
-        let a = length(arm.vector);
-        let [square, unit] = [a * a, Dd::ONE / a].map(constant);
+        let [square, unit] = slider_numbers(arm).map(constant);
         let (branch, positive) = (self.branch(), self.polygon.positive);
         let x = position(&format_ident!("q"), slide);
         let turning = self.turning(&[arm]);
@@ -234,7 +227,7 @@ impl PolygonText<'_> {
         let vectors: Vec<_> = (0..count).map(|k| format_ident!("to{k}")).collect();
         let places: Vec<_> = (0..count).map(size).collect();
         let place = self.place();
-        let joints = self.turned_joints(links);
+        let joints = turned_joints(self.polygon, links);
         let changes = joints.iter().map(|(_, terms)| {
             let terms = terms.iter().map(|&(k, negative)| {
                 let turn = &turns[k];
@@ -276,37 +269,6 @@ impl PolygonText<'_> {
             }
             #(loops.check_angle(#own, #place);)*
         }
-    }
-
-    /// Returns the dependent joints whose positions are angles, each with the links whose turns its change is the sum of,
-    /// and whether these are subtracted.
-    fn turned_joints(&self, links: &[&TurnedVector]) -> Vec<(PlaneJoint, Vec<(usize, bool)>)> {
-        let dependents = self.polygon.dependents();
-        let own = |link: usize| -> Vec<AngleTerm> {
-            let terms = links[link].angle.iter().copied();
-            terms
-                .filter(|term| dependents.contains(&term.joint))
-                .collect()
-        };
-        let mut order: Vec<usize> = (0..links.len()).collect();
-        order.sort_by_key(|&k| own(k).len());
-        let mut found: Vec<(PlaneJoint, Vec<(usize, bool)>)> = vec![];
-        for link in order {
-            let terms = own(link);
-            let known = |term: &AngleTerm| found.iter().find(|(joint, _)| *joint == term.joint);
-            let Some(last) = terms.iter().find(|term| known(term).is_none()) else {
-                continue;
-            };
-            let mut sum = vec![(link, last.opposite)];
-            for other in &terms {
-                for &(k, negative) in known(other).iter().flat_map(|(_, terms)| terms) {
-                    // The turn of this link less that of the joint before.
-                    sum.push((k, negative != (other.opposite == last.opposite)));
-                }
-            }
-            found.push((last.joint, sum));
-        }
-        found
     }
 }
 
@@ -354,8 +316,4 @@ fn constant(x: Dd) -> TokenStream {
 fn constant_vector(v: PlaneVector) -> TokenStream {
     let [x, y] = snapped(v).map(constant);
     quote! { [#x, #y] }
-}
-
-fn length([x, y]: PlaneVector) -> Dd {
-    (x * x + y * y).sqrt()
 }

@@ -6,6 +6,7 @@ mod controller;
 mod counted;
 mod list;
 mod positions;
+mod runtime_polygons;
 mod runtime_positions;
 mod same_bits;
 mod scenes;

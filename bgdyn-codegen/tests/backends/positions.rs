@@ -2,6 +2,7 @@
 
 use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::mechanism::closure::{PolygonForm, closing_polygons};
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
@@ -51,6 +52,10 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
         }
         let size = [0.01, 0.3, 1.0, 0.0][k % 4];
         state.v.iter_mut().for_each(|v| *v = *v * T::from_f64(size));
+        let wild = [f64::NAN, f64::INFINITY].get(k.wrapping_sub(13)).copied();
+        if let (Some(wild), Some(q)) = (wild, state.q.get_mut(k % nq.max(1))) {
+            *q = T::from_f64(wild);
+        }
         states.push(state);
     }
     // From another state, or from the same one.
@@ -92,7 +97,7 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
                 (if closes { cause } else { 0 }, integrated),
             ];
             if let (true, Some(closed)) = (closes, closed) {
-                let (closing, cause) = reference.close(closed, q);
+                let (closing, cause) = reference.close(closed, q, None);
                 counts[usize::from(cause != 0)] += 1;
                 answers.push((cause, closing.q));
             }
@@ -159,12 +164,20 @@ fn model_of_positions(path: &str) -> Model {
     model(path, &options)
 }
 
-/// Positions that close, and positions that do not.
+/// Positions that close, and positions that do not; in closed form and by Newton's method.
 #[test]
 fn closed_mechanisms() {
-    let mut counts = [0, 0];
+    let (mut counts, mut forms) = ([0, 0], [0; 3]);
     for path in paths() {
         let model = model_of_positions(&path);
+        let closed = model.bond_graph.closed.as_deref();
+        for polygon in closed.iter().flat_map(|c| closing_polygons(&c.closure).0) {
+            forms[match polygon.form {
+                PolygonForm::Triangle { .. } => 0,
+                PolygonForm::Slider { .. } => 1,
+                PolygonForm::Cylinder { .. } => 2,
+            }] += 1;
+        }
         for found in [
             check::<f64>(&name(&path), &model),
             check::<f32>(&name(&path), &model),
@@ -173,4 +186,5 @@ fn closed_mechanisms() {
         }
     }
     assert!(counts[0] > 500 && counts[1] > 50, "{counts:?}");
+    assert!(forms.iter().all(|count| *count > 0), "{forms:?}");
 }

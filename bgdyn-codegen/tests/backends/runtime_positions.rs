@@ -10,10 +10,11 @@ use bgdyn_runtime::closure::{self, Dependent};
 use bgdyn_runtime::manifold;
 use bgdyn_runtime::nalgebra::SVector;
 
+use crate::runtime_polygons::close_polygons;
 use crate::values::CNumber;
 
 /// Room for the positions and velocities of every mechanism here.
-const ROOM: usize = 64;
+pub const ROOM: usize = 64;
 
 /// Positions or velocities, followed by zeros.
 pub type Vector<T> = SVector<T, ROOM>;
@@ -42,12 +43,20 @@ impl<T: CNumber> Reference<'_, T> {
     }
 
     /// Returns the closed position, and the number of the cause if there is none.
-    pub fn close(&self, closed: &ClosedTree, q: Vector<T>) -> (closure::Closing<Vector<T>>, i128) {
+    pub fn close(
+        &self,
+        closed: &ClosedTree,
+        q: Vector<T>,
+        from: Option<&Vector<T>>,
+    ) -> (closure::Closing<Vector<T>>, i128) {
         let dependents = self.dependents(closed);
         let step = |q: &Vector<T>| self.function(Method::ClosingStep, q, &vector(&[]));
-        let closing = match closed.closure.nonholonomic() {
-            false => closure::close(q, &dependents, step),
-            true => {
+        let polygons = close_polygons(closed, &q, from);
+        let closing = match (closed.closure.nonholonomic(), polygons) {
+            (_, Some(polygons)) if polygons.others.is_empty() => polygons.closing,
+            (_, Some(polygons)) => polygons.closing.then(&polygons.others, ROOM, step),
+            (false, None) => closure::close(q, &dependents, step),
+            (true, None) => {
                 let joints = joint_segments(&closed.tree);
                 let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
                 closure::close_along(q, &dependents, step, moved)
@@ -77,7 +86,7 @@ impl<T: CNumber> Reference<'_, T> {
         if self.model.function(Method::ClosingStep).is_none() {
             return (found, 0);
         }
-        let (closing, cause) = self.close(closed, found);
+        let (closing, cause) = self.close(closed, found, Some(q));
         let q = closing.or_nan(&self.dependents(closed), &others);
         let is_wild = q.iter().any(|x| !x.is_finite());
         (

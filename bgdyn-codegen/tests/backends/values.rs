@@ -10,7 +10,7 @@ use bgdyn_runtime::{ACTUATORS, Dd, Scalar};
 use crate::c_program::velocity_count;
 
 /// A type of numbers that C has as well.
-pub trait CNumber: Scalar<Refused = Option<usize>> + Default + PartialEq {
+pub trait CNumber: Scalar<Refused = Option<usize>, Mask = bool> + Default + PartialEq {
     /// Its name in C.
     const NAME: &'static str;
     /// Half the spacing of numbers at 1.

@@ -17,14 +17,14 @@ pub type PlaneVector<T> = [T; 2];
 
 /// The sine of the angle to a singular position, in units of the largest last step of Newton's method, below which the
 /// sign of the root is a rounding error of the angles.
-const FLAT: f64 = 1e-2;
+pub const FLAT: f64 = 1e-2;
 
 /// Coefficients of atan x / x in powers of x² for x in 0 … 1, to 1e-5 (Abramowitz and Stegun 1964, 4.4.49).
-const ARC_TANGENT: [f64; 5] = [0.999_866, -0.330_299_5, 0.180_141, -0.085_133, 0.020_835_1];
+pub const ARC_TANGENT: [f64; 5] = [0.999_866, -0.330_299_5, 0.180_141, -0.085_133, 0.020_835_1];
 
 /// The tangent below which t − t³/3 + t⁵/5 is atan t to rounding, in scalars with the digits of `f64`; in those with
 /// fewer.
-const NEAR: [f64; 2] = [5e-3, 0.05];
+pub const NEAR: [f64; 2] = [5e-3, 0.05];
 
 /// Returns a constant in the scalar.
 #[inline]

@@ -1,15 +1,18 @@
-//! Positions of mechanisms with loops, wheels or knife edges: Newton's method for those that close, and ways along
-//! velocities that constraints allow.
+//! Positions of mechanisms with loops, wheels or knife edges: those that close, in closed form or by Newton's method, and
+//! ways along velocities that constraints allow.
 //!
 //! They are `bgdyn_runtime::closure` around the functions `closing_step` and `tree_velocity` of the file.
 
-use bgdyn_runtime::closure::{CLOSED, CLOSED_COARSELY, Dependent, LARGEST, STEPS};
+use bgdyn_runtime::closure::Dependent;
 
 use super::context::ModelContext;
+use super::newton::Newton;
 use super::parameters::of_model;
+use super::polygon::polygon_function;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
-use super::style::{Real, Style};
+use super::style::Style;
 use crate::bond_graph::{ClosedTree, joint_segments};
+use crate::mechanism::closure::{Polygon, closing_polygons};
 use crate::method::Method;
 use crate::plan::{dependent_joint, independent_positions};
 
@@ -19,98 +22,16 @@ const CAUSES: [&str; 2] = [
     "is out of reach or at a singular position; or -1 where a position is not finite.",
 ];
 
-/// Newton's method for positions that close, in a function of the file itself.
-pub(super) struct Newton<'a> {
-    pub(super) style: &'a Style,
-    /// The joints that close, with the index of each velocity in a step.
-    pub(super) joints: Vec<Dependent>,
-    /// The index of the first loop among the causes.
-    pub(super) first: usize,
-    /// The name of the vector that has the positions, and its size in C.
-    pub(super) argument: &'static str,
-    pub(super) size: String,
-    /// The statement that computes the step `change`, and its size in C.
-    pub(super) step: String,
-    pub(super) steps: String,
-    /// The statement that moves positions by `change`; `None` where each joint that closes has one position, less its
-    /// step.
-    pub(super) moved: Option<String>,
-    /// The declaration of the run-time parameters, with a comma.
-    pub(super) parameters: String,
-}
-
-impl Newton<'_> {
-    /// The function returns 0, or the number of the first loop that does not close.
-    pub(super) fn function(&self) -> PositionFunction {
-        let (style, real) = (self.style, self.style.real());
-        let [zero, largest, one] = [0.0, LARGEST, 1.0].map(|x| style.number(x));
-        let closed = style.number(match style.real {
-            Real::Double => CLOSED,
-            Real::Float => CLOSED_COARSELY,
-        });
-        let row = |joint: &Dependent| {
-            let cause = self.first + joint.closes + 1;
-            format!("{{{}, {}, {cause}}}", joint.velocity, joint.position)
-        };
-        let rows: Vec<String> = self.joints.iter().map(row).collect();
-        let (count, absolute) = (rows.len(), style.of_library("fabs"));
-        let [larger, pivot] = ["larger", "checked_pivot"].map(|name| style.global(name));
-        let mut body = vec![
-            "/* velocity, position and cause of each joint that closes */".into(),
-            format!("const int joints[{count}][3] = {{{}}};", rows.join(", ")),
-            format!("{real} change[{}];", self.steps),
-            "int refused = 1;".into(),
-            format!("for (int k = 0; refused != 0 && k < {STEPS}; ++k) {{"),
-            format!("    {real} last = {zero};"),
-            "    refused = 0;".into(),
-            format!("    {}", self.step),
-            format!("    for (int i = 0; i < {count}; ++i) {{"),
-            format!("        const {real} size = {absolute}(change[joints[i][0]]);"),
-            format!("        last = {larger}(last, size);"),
-            format!("        (void){pivot}({closed} - size, {zero}, joints[i][2], &refused);"),
-            "    }".into(),
-            format!("    const {real} scale = ({largest} < last) ? {largest} / last : {one};"),
-        ];
-        let back = self.step_back("change[@] * scale");
-        body.extend(back.iter().map(|line| format!("    {line}")));
-        body.extend(["}".into(), self.step.clone()]);
-        body.extend(self.step_back("change[@]"));
-        body.push("return refused;".into());
-        let (name, parameters) = (style.global("newton"), &self.parameters);
-        let (argument, size) = (self.argument, &self.size);
-        PositionFunction {
-            about: Vec::new(),
-            signature: format!("static int {name}({parameters}{real} {argument}[{size}])"),
-            body,
-        }
-    }
-
-    /// Returns the statements that subtract a step from the positions; `@` is the index of a velocity in it.
-    fn step_back(&self, step: &str) -> Vec<String> {
-        if let Some(moved) = &self.moved {
-            let step = step.replace('@', "j");
-            return vec![
-                format!("for (int j = 0; j < {}; ++j) {{", self.steps),
-                format!("    change[j] = -({step});"),
-                "}".into(),
-                moved.clone(),
-            ];
-        }
-        let (q, step) = (self.argument, step.replace('@', "joints[i][0]"));
-        vec![
-            format!("for (int i = 0; i < {}; ++i) {{", self.joints.len()),
-            format!("    {q}[joints[i][1]] = {q}[joints[i][1]] - {step};"),
-            "}".into(),
-        ]
-    }
-}
-
 /// A mechanism with loops or contacts.
 struct ClosingText<'a> {
     closed: &'a ClosedTree,
     context: &'a ModelContext<'a>,
     /// The joints whose positions close.
     joints: Vec<Dependent>,
+    /// The loops in closed form, each after those that it depends on.
+    polygons: Vec<Polygon>,
+    /// The joints of all other loops.
+    others: Vec<Dependent>,
 }
 
 /// Returns the functions of positions, each after those that it calls.
@@ -119,10 +40,14 @@ pub(super) fn closing_functions(
     context: &ModelContext<'_>,
 ) -> Vec<PositionFunction> {
     let joints = closed.closure.closing().map(|j| dependent_joint(closed, j));
+    let (polygons, others) = closing_polygons(&closed.closure);
+    let others = others.into_iter().map(|j| dependent_joint(closed, j));
     let text = ClosingText {
         closed,
         context,
         joints: joints.collect(),
+        polygons,
+        others: others.collect(),
     };
     let has = |method| context.model.function(method).is_some();
     let closes = has(Method::ClosingStep);
@@ -134,7 +59,8 @@ pub(super) fn closing_functions(
         functions.push(text.moved());
     }
     if closes {
-        functions.extend([text.newton(), text.close()]);
+        functions.extend(text.closers());
+        functions.push(text.close());
     }
     if is_along_tree {
         functions.push(text.position_rates());
@@ -193,14 +119,30 @@ impl ClosingText<'_> {
         }
     }
 
-    /// Newton's method.
-    fn newton(&self) -> PositionFunction {
+    /// Returns the functions that close positions in place.
+    fn closers(&self) -> Vec<PositionFunction> {
+        if self.polygons.is_empty() {
+            return vec![self.newton("newton", &self.joints, false)];
+        }
+        let first = self.context.model.mechanism.nq();
+        let polygons = polygon_function(&self.polygons, self.closed, first, self.style());
+        let mut functions = vec![polygons];
+        if !self.others.is_empty() {
+            functions.push(self.newton("close_others", &self.others, true));
+        }
+        functions
+    }
+
+    /// Newton's method for these joints.
+    fn newton(&self, name: &'static str, joints: &[Dependent], is_last: bool) -> PositionFunction {
         let style = self.style();
         let parameters = of_model(self.context.naming, style, true);
         let slips = self.closed.closure.nonholonomic();
         let newton = Newton {
             style,
-            joints: self.joints.clone(),
+            name,
+            is_last,
+            joints: joints.to_vec(),
             first: self.context.model.mechanism.nq(),
             argument: "q",
             size: style.constant("NQ"),
@@ -212,9 +154,45 @@ impl ClosingText<'_> {
         newton.function()
     }
 
+    /// Returns the statements that close the positions `found`, and note the cause `refused`; `branch` is the name of
+    /// closed positions on whose branch planar loops are to be, or NULL.
+    fn closed(&self, branch: &str) -> Vec<String> {
+        if self.polygons.is_empty() {
+            let call = self.call("newton", "found");
+            return vec![format!("const int refused = {call};")];
+        }
+        let polygons = self.style().global("close_polygons");
+        if self.others.is_empty() {
+            return vec![format!("const int refused = {polygons}(found, {branch});")];
+        }
+        let others = self.call("close_others", "found, open");
+        vec![
+            format!("const int open = {polygons}(found, {branch});"),
+            format!("const int refused = {others};"),
+        ]
+    }
+
+    /// Describes the way in which positions close.
+    fn way(&self) -> Vec<&'static str> {
+        match (self.polygons.is_empty(), self.others.is_empty()) {
+            (true, _) => vec!["Newton's method, at most 11 steps of at most 0.5 rad or m."],
+            (false, true) => vec![
+                "in closed form, on the branch that is nearer to the dependent positions in q, angles with the whole turns",
+                "nearest to those in q.",
+            ],
+            (false, false) => vec![
+                "planar loops in closed form, on the branch that is nearer to the dependent positions in q, angles with the",
+                "whole turns nearest to those in q; the others by Newton's method, at most 11 steps of at most 0.5 rad or m.",
+            ],
+        }
+    }
+
     fn close(&self) -> PositionFunction {
         let about = match self.closed.closure.nonholonomic() {
             true => "The positions, changed so that all wheels touch and all loops close:",
+            false if self.others.is_empty() => {
+                "The positions with the dependent ones changed so that all loops close:"
+            }
             false => {
                 "The positions with the dependent ones changed so that all loops close, from those in q:"
             }
@@ -223,19 +201,14 @@ impl ClosingText<'_> {
             self.array("found", "NQ"),
             "memcpy(found, q, sizeof found);".into(),
         ];
-        body.push(format!(
-            "const int refused = {};",
-            self.call("newton", "found")
-        ));
+        body.extend(self.closed("NULL"));
         body.extend(self.returned());
         PositionFunction {
-            about: [
-                about,
-                "Newton's method, at most 11 steps of at most 0.5 rad or m.",
-            ]
-            .into_iter()
-            .chain(CAUSES)
-            .collect(),
+            about: [about]
+                .into_iter()
+                .chain(self.way())
+                .chain(CAUSES)
+                .collect(),
             signature: signature(self.context, "int", "close", "q", "NQ"),
             body,
         }
@@ -278,13 +251,13 @@ impl ClosingText<'_> {
             self.array("found", "NQ"),
             self.call("tree_velocity", "q, dv, rates") + ";",
             format!("{moved}(q, rates, found);"),
-            format!("const int refused = {};", self.call("newton", "found")),
         ];
+        body.extend(self.closed("q"));
         body.extend(self.not_closed(&independent_positions(self.closed)));
         body.extend(self.returned());
         let about = [
-            "Positions after the independent velocities dv for one unit of time: along the velocities at q, then closed by",
-            "Newton's method. Positions in loops are NaN where a loop does not close.",
+            "Positions after the independent velocities dv for one unit of time: along the velocities at q, then closed as by",
+            "`close`, on the branch of q. Positions in loops are NaN where a loop does not close.",
         ];
         PositionFunction {
             about: about.into_iter().chain(CAUSES).collect(),
@@ -350,10 +323,7 @@ impl ClosingText<'_> {
                 body,
             };
         }
-        body.push(format!(
-            "const int refused = {};",
-            self.call("newton", "found")
-        ));
+        body.extend(self.closed("NULL"));
         body.extend(self.not_closed(&[]));
         body.extend(self.returned());
         let closed =

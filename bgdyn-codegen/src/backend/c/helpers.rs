@@ -3,11 +3,12 @@
 //! They compute what the runtime of bgdyn computes, in the same order, so that results have the same bits.
 
 use bgdyn_runtime::Dd;
+use bgdyn_runtime::closure::polygon;
 
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 34] = [
+const HELPERS: [&str; 46] = [
     "mul_add",
     "smaller",
     "larger",
@@ -42,6 +43,18 @@ const HELPERS: [&str; 34] = [
     "spherical_difference",
     "floating_difference",
     "planar_difference",
+    "polygon_check",
+    "polygon_root",
+    "polygon_triangle",
+    "polygon_slider",
+    "polygon_cylinder",
+    "polygon_is_other",
+    "polygon_is_nearer",
+    "polygon_arc_tangent",
+    "polygon_turn",
+    "polygon_small_turn",
+    "polygon_are_exact",
+    "polygon_check_angle",
 ];
 
 /// Number of terms of the series of sines.
@@ -112,6 +125,25 @@ fn manifold_template(name: &str) -> &'static str {
         "spherical_difference" => include_str!("helpers/spherical_difference.h"),
         "floating_difference" => include_str!("helpers/floating_difference.h"),
         "planar_difference" => include_str!("helpers/planar_difference.h"),
+        name => polygon_template(name),
+    }
+}
+
+/// Returns the template of a function of planar loops in closed form, those of `bgdyn_runtime::closure::polygon`.
+fn polygon_template(name: &str) -> &'static str {
+    match name {
+        "polygon_check" => include_str!("helpers/polygon_check.h"),
+        "polygon_root" => include_str!("helpers/polygon_root.h"),
+        "polygon_triangle" => include_str!("helpers/polygon_triangle.h"),
+        "polygon_slider" => include_str!("helpers/polygon_slider.h"),
+        "polygon_cylinder" => include_str!("helpers/polygon_cylinder.h"),
+        "polygon_is_other" => include_str!("helpers/polygon_is_other.h"),
+        "polygon_is_nearer" => include_str!("helpers/polygon_is_nearer.h"),
+        "polygon_arc_tangent" => include_str!("helpers/polygon_arc_tangent.h"),
+        "polygon_turn" => include_str!("helpers/polygon_turn.h"),
+        "polygon_small_turn" => include_str!("helpers/polygon_small_turn.h"),
+        "polygon_are_exact" => include_str!("helpers/polygon_are_exact.h"),
+        "polygon_check_angle" => include_str!("helpers/polygon_check_angle.h"),
         _ => unreachable!("the names of HELPERS"),
     }
 }
@@ -144,6 +176,13 @@ fn written(name: &str, style: &Style) -> String {
         Real::Double => (1e5, 1.0 / 2_097_152.0),
         Real::Float => (1e4, 1.0 / 2048.0),
     };
+    let (closing_step, [fine, coarse]) = (style.closing_step(), polygon::NEAR);
+    let short_turn = match style.real {
+        Real::Double => fine,
+        Real::Float => coarse,
+    };
+    let arc_tangent = polygon::ARC_TANGENT.iter().rev();
+    let arc_tangent: Vec<String> = arc_tangent.map(|&x| style.number(x)).collect();
     // Names of the mechanism come last: they may contain any of the words.
     let text = template(name, style).replace("REAL", style.real());
     let text = text.replace("LARGEST", &style.number(largest));
@@ -155,6 +194,10 @@ fn written(name: &str, style: &Style) -> String {
     let text = text.replace("ODD", &inverse_factorials(3, style));
     let text = text.replace("SMALL_TAIL", &style.number(small_tail));
     let text = text.replace("NEAR", &style.number(near));
+    let text = text.replace("CLOSING_STEP", &closing_step);
+    let text = text.replace("SHORT_TURN", &style.number(short_turn));
+    let text = text.replace("FLAT_SINE", &style.number(polygon::FLAT));
+    let text = text.replace("ARC_TANGENT", &arc_tangent.join(", "));
     let text = text.replace('@', &style.prefix);
     let text = text.replace("INLINED", &style.constant("INLINE"));
     let quoted = |(index, part): (usize, &str)| match (index % 2 == 1, part.parse::<f64>()) {

@@ -2,10 +2,10 @@
 
 use bgdyn_runtime::closure::Dependent;
 
-use super::closing::Newton;
 use super::context::FunctionContext;
 use super::files::{CFiles, comment, lines_of};
 use super::function::{CFunction, definition, signature, written_functions};
+use super::newton::Newton;
 use super::parameters::of_model;
 use super::position_function::PositionFunction;
 use super::scene_tables::{sizes, tables};
@@ -111,6 +111,8 @@ fn closing_functions(
     };
     let newton = Newton {
         style,
+        name: "newton",
+        is_last: false,
         joints: layout.closing.iter().map(joint).collect(),
         first: layout.nv() + layout.nx(),
         argument: "state",

@@ -1,6 +1,7 @@
 //! How numbers and global names are written in one pair of files.
 
 use bgdyn_runtime::Dd;
+use bgdyn_runtime::closure::{CLOSED, CLOSED_COARSELY};
 
 use crate::backend::given::{BackendError, GivenOptions};
 use crate::name::is_identifier;
@@ -93,6 +94,14 @@ impl Style {
             (true, Real::Float) => format!("{:?}F", x as f32),
             (false, _) => format!("{}{}", if x < 0.0 { "-" } else { "" }, self.infinite()),
         }
+    }
+
+    /// Returns the step of Newton's method after which one more is exact to rounding.
+    pub(super) fn closing_step(&self) -> String {
+        self.number(match self.real {
+            Real::Double => CLOSED,
+            Real::Float => CLOSED_COARSELY,
+        })
     }
 
     /// Returns the macro of `math.h` for an infinite number.
