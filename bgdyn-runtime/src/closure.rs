@@ -1,7 +1,7 @@
 //! The dependent positions of kinematic loops by Newton's method or in closed form, and ways along velocities that
 //! constraints allow.
 
-mod assembly;
+pub mod assembly;
 pub mod polygon;
 
 use nalgebra::SVector;

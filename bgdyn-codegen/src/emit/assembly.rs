@@ -7,7 +7,8 @@ use super::closed_positions::start;
 use super::constants::size;
 use super::contacts::{argument_types, tree_integration};
 use crate::bond_graph::ClosedTree;
-use crate::mechanism::closure::{Closure, ClosureBlock};
+use crate::mechanism::closure::Closure;
+use crate::plan::{AssemblyConditions, BranchConditions};
 
 /// Returns the constants and the function. It calls `constraint_residual` and `constraint_jacobian`.
 pub(super) fn assembly(closed: &ClosedTree) -> (TokenStream, TokenStream) {
@@ -50,23 +51,17 @@ pub(super) fn assembly(closed: &ClosedTree) -> (TokenStream, TokenStream) {
 
 /// Returns the constant with the rows that close, the blocks that tell the branch, and the joints of the loops.
 fn conditions(closure: &Closure) -> TokenStream {
-    let row = |row: &crate::mechanism::closure::LoopRow| {
-        let closes = size(row.closes);
-        match row.kind.has_positions() {
-            true => quote! { ::core::option::Option::Some(#closes) },
-            false => quote! { ::core::option::Option::None },
+    let conditions = AssemblyConditions::new(closure);
+    let rows = conditions.rows.iter().map(|row| match row {
+        Some(closes) => {
+            let closes = size(*closes);
+            quote! { ::core::option::Option::Some(#closes) }
         }
-    };
-    let rows = closure.rows.iter().map(row);
-    // With rows on velocities positions close by shortest steps, and no determinant tells a branch.
-    let slips = closure.nonholonomic();
-    let blocks = closure.blocks.iter().zip(&closure.signs);
-    let blocks = blocks.filter(|_| !slips);
-    let blocks = blocks.map(|(block, positive)| branch(closure, block, *positive));
-    let joints = closure.positions.iter().enumerate();
-    let joints = joints.filter_map(|(j, position)| Some((j, (*position)?)));
-    let joints = joints.filter(|_| !slips).map(|(j, position)| {
-        let [velocity, position] = [j, position.0].map(size);
+        None => quote! { ::core::option::Option::None },
+    });
+    let blocks = conditions.blocks.iter().map(branch);
+    let joints = conditions.joints.iter().map(|&(velocity, position)| {
+        let [velocity, position] = [velocity, position].map(size);
         quote! { (#velocity, #position) }
     });
     quote! {
@@ -79,11 +74,10 @@ fn conditions(closure: &Closure) -> TokenStream {
     }
 }
 
-fn branch(closure: &Closure, block: &ClosureBlock, positive: bool) -> TokenStream {
+fn branch(block: &BranchConditions) -> TokenStream {
     let rows = block.rows.iter().map(|&r| size(r));
-    let columns = block.dependents.iter().map(|j| size(j.0));
-    let first = block.rows.first().map_or(0, |&r| closure.rows[r].closes);
-    let closes = size(first);
+    let columns = block.columns.iter().map(|&j| size(j));
+    let (positive, closes) = (block.positive, size(block.closes));
     quote! {
         __rt::closure::BranchBlock {
             rows: &[#(#rows),*],

@@ -4,6 +4,7 @@
 //! [`Listing`] adds what text needs: names of values, titles, comments. A language adds its syntax and its
 //! reserved words.
 
+mod assembly;
 mod block;
 mod closing;
 mod columns;
@@ -22,6 +23,7 @@ mod reads;
 mod sines;
 mod summary;
 
+pub use assembly::{AssemblyConditions, BranchConditions};
 pub use block::{BlockPlan, BlockStep};
 pub use closing::{
     actuated_pivot_names, closing_names, dependent_joint, independent_positions, loop_names,

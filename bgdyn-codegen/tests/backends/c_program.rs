@@ -178,7 +178,7 @@ pub fn run<T: CNumber>(program: &Path, states: &[Vec<T>]) -> Vec<Vec<i128>> {
 pub struct CProgram {
     /// The name of the files without an ending, which is the prefix as well.
     pub file: String,
-    /// The arrays of a state, with their numbers of elements.
+    /// The arrays of a state, with their numbers of elements; those whose name begins with `is_` are of type `int`.
     pub arrays: Vec<(&'static str, usize)>,
     /// Names of the run-time parameters.
     pub parameters: Vec<String>,
@@ -232,6 +232,13 @@ int main(void)
         );
         let mut line = |line: String| writeln!(text, "        {line}").expect("text");
         for (name, count) in &self.arrays {
+            if name.starts_with("is_") {
+                line(format!("int {name}[{count}];"));
+                line(format!(
+                    "for (int k = 0; k < {count}; ++k) {{ {real} x; next(&x); {name}[k] = x > 0; }}"
+                ));
+                continue;
+            }
             line(format!("{real} {name}[{}];", count.max(&1)));
             line(format!("(void){name};"));
             line(format!(

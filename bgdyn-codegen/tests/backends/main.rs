@@ -1,5 +1,6 @@
 //! The backends: what each of them says of itself, and that generated C has the evaluator's bits.
 
+mod assembled;
 mod c_program;
 mod closed_mechanisms;
 mod controller;

@@ -27,6 +27,11 @@ pub struct Reference<'a, T> {
 
 impl<T: CNumber> Reference<'_, T> {
     fn function(&self, method: Method, q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+        vector(&self.values(method, q, v))
+    }
+
+    /// Returns the values of a function.
+    pub fn values(&self, method: Method, q: &Vector<T>, v: &Vector<T>) -> Vec<T> {
         let inputs = Inputs {
             q: q.as_slice().to_vec(),
             v: v.as_slice().to_vec(),
@@ -34,7 +39,7 @@ impl<T: CNumber> Reference<'_, T> {
             ..Inputs::default()
         };
         let function = self.model.function(method).expect("a usual method");
-        vector(&function.evaluate(inputs).0)
+        function.evaluate(inputs).0
     }
 
     fn dependents(&self, closed: &ClosedTree) -> Vec<Dependent> {
@@ -227,7 +232,8 @@ fn unit<T: CNumber>(joint: &JointSegment, q: &[T]) -> Vec<T> {
     }
 }
 
-fn integrated<T: CNumber>(joints: &[JointSegment], q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+/// Returns the positions after velocities of these joints.
+pub fn integrated<T: CNumber>(joints: &[JointSegment], q: &Vector<T>, v: &Vector<T>) -> Vector<T> {
     joint_by_joint(joints, q, v, &|joint, q, d| {
         let unit = unit(joint, q);
         match joint.manifold {

@@ -8,15 +8,15 @@ use crate::singular::{BRANCHES, NOT_ASSEMBLED};
 
 /// The attempts: the share of the way from the guess to a closed position at which one begins, and its number of
 /// steps; 64 in all.
-const ATTEMPTS: [(f64, usize); 3] = [(0.0, 28), (0.5, 18), (1.0, 18)];
+pub const ATTEMPTS: [(f64, usize); 3] = [(0.0, 28), (0.5, 18), (1.0, 18)];
 
 /// The damping at the beginning, over the largest diagonal entry of J Jᵀ; its factors after a step that closes the
 /// loops further, and after one that does not; the least one.
-const DAMPING: [f64; 4] = [1e-3, 0.02, 8.0, 1e-22];
+pub const DAMPING: [f64; 4] = [1e-3, 0.02, 8.0, 1e-22];
 
 /// Largest residual, m or rad, after which one more step is exact to rounding, in scalars with the digits of `f64`;
 /// in those with fewer.
-const CLOSED: [f64; 2] = [1e-10, 1e-5];
+pub const CLOSED: [f64; 2] = [1e-10, 1e-5];
 
 /// Rows of one block of conditions, and its dependent velocities: their determinant tells the branch.
 #[derive(Clone, Copy, Debug)]

@@ -5,6 +5,7 @@
 
 use bgdyn_runtime::closure::Dependent;
 
+use super::assembly::assembly_functions;
 use super::context::ModelContext;
 use super::newton::Newton;
 use super::parameters::of_model;
@@ -55,8 +56,12 @@ pub(super) fn closing_functions(
     let is_along_tree = has(Method::TreeVelocity);
     let integrates = is_along_tree && (closes || closed.closure.position_rows().is_empty());
     let mut functions = Vec::new();
-    if (closes && slips) || integrates {
+    let assembles = context.model.assembles;
+    if (closes && slips) || integrates || assembles {
         functions.push(text.moved());
+    }
+    if assembles {
+        functions.extend(assembly_functions(closed, context));
     }
     if closes {
         functions.extend(text.closers());

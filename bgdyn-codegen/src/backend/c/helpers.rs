@@ -8,7 +8,7 @@ use bgdyn_runtime::closure::polygon;
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 46] = [
+const HELPERS: [&str; 49] = [
     "mul_add",
     "smaller",
     "larger",
@@ -55,6 +55,9 @@ const HELPERS: [&str; 46] = [
     "polygon_small_turn",
     "polygon_are_exact",
     "polygon_check_angle",
+    "is_held",
+    "shortest_step",
+    "block_determinant",
 ];
 
 /// Number of terms of the series of sines.
@@ -125,12 +128,12 @@ fn manifold_template(name: &str) -> &'static str {
         "spherical_difference" => include_str!("helpers/spherical_difference.h"),
         "floating_difference" => include_str!("helpers/floating_difference.h"),
         "planar_difference" => include_str!("helpers/planar_difference.h"),
-        name => polygon_template(name),
+        name => closing_template(name),
     }
 }
 
-/// Returns the template of a function of planar loops in closed form, those of `bgdyn_runtime::closure::polygon`.
-fn polygon_template(name: &str) -> &'static str {
+/// Returns the template of a function that closes or assembles positions, those of `bgdyn_runtime::closure`.
+fn closing_template(name: &str) -> &'static str {
     match name {
         "polygon_check" => include_str!("helpers/polygon_check.h"),
         "polygon_root" => include_str!("helpers/polygon_root.h"),
@@ -144,6 +147,9 @@ fn polygon_template(name: &str) -> &'static str {
         "polygon_small_turn" => include_str!("helpers/polygon_small_turn.h"),
         "polygon_are_exact" => include_str!("helpers/polygon_are_exact.h"),
         "polygon_check_angle" => include_str!("helpers/polygon_check_angle.h"),
+        "is_held" => include_str!("helpers/is_held.h"),
+        "shortest_step" => include_str!("helpers/shortest_step.h"),
+        "block_determinant" => include_str!("helpers/block_determinant.h"),
         _ => unreachable!("the names of HELPERS"),
     }
 }
@@ -167,6 +173,11 @@ fn odd_reciprocals(style: &Style) -> String {
 
 /// Returns a helper with the types, numbers and names of the style.
 fn written(name: &str, style: &Style) -> String {
+    filled(template(name, style), style)
+}
+
+/// Returns a template with the types, numbers and names of the style.
+pub(super) fn filled(template: &str, style: &Style) -> String {
     let (largest, floor) = match style.real {
         Real::Double => (f64::MAX, 64.0 * f64::EPSILON),
         Real::Float => (f64::from(f32::MAX), 64.0 * f64::from(f32::EPSILON)),
@@ -184,7 +195,7 @@ fn written(name: &str, style: &Style) -> String {
     let arc_tangent = polygon::ARC_TANGENT.iter().rev();
     let arc_tangent: Vec<String> = arc_tangent.map(|&x| style.number(x)).collect();
     // Names of the mechanism come last: they may contain any of the words.
-    let text = template(name, style).replace("REAL", style.real());
+    let text = template.replace("REAL", style.real());
     let text = text.replace("LARGEST", &style.number(largest));
     let text = text.replace("PIVOT_FLOOR", &style.number(floor));
     let text = text.replace("SERIES", &SERIES.to_string());
@@ -198,6 +209,10 @@ fn written(name: &str, style: &Style) -> String {
     let text = text.replace("SHORT_TURN", &style.number(short_turn));
     let text = text.replace("FLAT_SINE", &style.number(polygon::FLAT));
     let text = text.replace("ARC_TANGENT", &arc_tangent.join(", "));
+    let sizes = ["NQ", "NT", "NC"].into_iter();
+    let text = sizes.fold(text, |text, size| {
+        text.replace(&format!("SIZE_{size}"), &style.constant(size))
+    });
     let text = text.replace('@', &style.prefix);
     let text = text.replace("INLINED", &style.constant("INLINE"));
     let quoted = |(index, part): (usize, &str)| match (index % 2 == 1, part.parse::<f64>()) {

@@ -1,5 +1,6 @@
 //! C99: a header and a source file, without heap, static variables, or a library but libm.
 
+mod assembly;
 mod block;
 mod closing;
 mod context;

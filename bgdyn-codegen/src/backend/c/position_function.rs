@@ -20,6 +20,18 @@ pub(super) struct PositionFunction {
 }
 
 impl PositionFunction {
+    /// Returns the function of a definition in C.
+    pub(super) fn of_definition(text: &str, about: Vec<&'static str>) -> Self {
+        let (signature, body) = text.split_once("\n{\n").unwrap_or((text, ""));
+        let body = body.trim_end().trim_end_matches('}').lines();
+        let body = body.map(|line| line.strip_prefix("    ").unwrap_or(line).to_string());
+        PositionFunction {
+            about,
+            signature: signature.into(),
+            body: body.collect(),
+        }
+    }
+
     /// Returns its declaration with its documentation; nothing for a function of the file itself.
     pub(super) fn prototype(&self) -> Vec<String> {
         if self.about.is_empty() {

@@ -160,7 +160,7 @@ fn names_of_loops(context: &ModelContext<'_>) -> Vec<Table> {
             &actuated_pivot_names(closed, graph),
         ));
     }
-    if has(|m| *m == Method::ClosingStep) {
+    if has(|m| *m == Method::ClosingStep) || context.model.assembles {
         let about = "Names of the positions, then of the loops and contacts: the causes of positions that do not close.";
         tables.push(table(
             about,
