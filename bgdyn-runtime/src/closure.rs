@@ -292,7 +292,7 @@ fn zipped<Z: StateVector>(a: &Z, b: &Z, with: impl Fn(Z::Scalar, Z::Scalar) -> Z
 }
 
 /// Steps of [`towards`].
-const PARTS: usize = 16;
+pub const PARTS: usize = 16;
 
 /// Returns the closed position closest to `target` on the way from the closed position `start`: the positions with
 /// the indices `free.0` move in equal parts as far as the loops close; positions outside of loops are those of

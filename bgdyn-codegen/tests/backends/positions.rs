@@ -42,6 +42,11 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
     ];
     calls.extend(closes.then(|| call("close", &["q"], true)));
     calls.extend((nv > 0).then(|| call("difference", &["q", "q0"], false)));
+    let samples = match closed {
+        Some(closed) => closes || closed.closure.position_rows().is_empty(),
+        None => nv > 0,
+    };
+    calls.extend(samples.then(|| call("sample", &["u"], false)));
     let mut random = Random(20_261_128);
     let mut states: Vec<Inputs<T>> = Vec::new();
     for k in 0..STATES {
@@ -65,25 +70,29 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
             .clone()
     });
     let starts: Vec<Vec<T>> = starts.collect();
+    let units = (0..STATES).map(|_| (0..nv).map(|_| T::from_f64(random.unit())).collect());
+    let units: Vec<Vec<T>> = units.collect();
     let mut program = CProgram::of(model, calls);
-    program.arrays.push(("q0", nq));
-    let row = |(state, start): (&Inputs<T>, &Vec<T>)| {
+    program.arrays.extend([("q0", nq), ("u", nv)]);
+    let row = |((state, start), units): ((&Inputs<T>, &Vec<T>), &Vec<T>)| {
         let parts = [
             &state.q,
             &state.v,
             &state.a,
             &state.u,
             start,
+            units,
             &state.parameters,
         ];
         parts.into_iter().flatten().copied().collect()
     };
-    let rows: Vec<Vec<T>> = states.iter().zip(&starts).map(row).collect();
+    let rows: Vec<Vec<T>> = states.iter().zip(&starts).zip(&units).map(row).collect();
     let (files, mut counts) = (files(model, &[("float", T::NAME)]), [0, 0]);
     for compiler in compilers() {
         let called = format!("{name}_positions");
         let compiled = compile::<T>(&compiler, &called, &files, &program);
-        for ((state, start), found) in states.iter().zip(&starts).zip(run(&compiled, &rows)) {
+        let all = states.iter().zip(&starts).zip(&units);
+        for (((state, start), units), found) in all.zip(run(&compiled, &rows)) {
             let reference = Reference {
                 model,
                 parameters: state.parameters.clone(),
@@ -102,6 +111,7 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
                 answers.push((cause, closing.q));
             }
             answers.extend((nv > 0).then(|| (0, reference.difference(&q, &vector(start)))));
+            answers.extend(samples.then(|| (0, reference.sample(&vector(units)))));
             let mut found = found.into_iter();
             for (call, (cause, q)) in program.calls.iter().zip(answers) {
                 let what = format!("{compiler}: {name}: {}\n{state:?}", call.name);

@@ -1,5 +1,7 @@
 //! Positions of mechanisms by the functions of the runtime, around those of the evaluator.
 
+use std::f64::consts::PI;
+
 use bgdyn_codegen::bond_graph::{ClosedTree, JointSegment, joint_segments};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
@@ -147,6 +149,33 @@ impl<T: CNumber> Reference<'_, T> {
         }
     }
 
+    /// Returns evenly distributed positions from numbers in 0 … 1.
+    pub fn sample(&self, u: &Vector<T>) -> Vector<T> {
+        let graph = &self.model.bond_graph;
+        let Some(closed) = graph.closed.as_deref() else {
+            return sampled(&joint_segments(graph), u);
+        };
+        let dependents = self.dependents(closed);
+        let step = |q: &Vector<T>| self.function(Method::ClosingStep, q, &vector(&[]));
+        if !closed.closure.nonholonomic() {
+            let target = sampled(&joint_segments(graph), u);
+            let independents = independent_positions(closed);
+            let start = self.neutral();
+            return closure::towards(start, target, (&independents, &dependents), step);
+        }
+        let joints = joint_segments(&closed.tree);
+        let mut moved = Vector::repeat(T::from_f64(0.5));
+        for (j, &u) in closed.closure.independents.iter().zip(u) {
+            moved[j.0] = u;
+        }
+        let q = sampled(&joints, &moved);
+        if self.model.function(Method::ClosingStep).is_none() {
+            return q;
+        }
+        let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
+        closure::close_along(q, &dependents, step, moved).or_nan(&dependents, &[])
+    }
+
     /// Returns the neutral position, or with loops one at which all close.
     pub fn neutral(&self) -> Vector<T> {
         if let Some(closed) = self.model.bond_graph.closed.as_deref() {
@@ -230,6 +259,25 @@ fn unit<T: CNumber>(joint: &JointSegment, q: &[T]) -> Vec<T> {
         true => normalized(joint, q),
         false => q.to_vec(),
     }
+}
+
+/// Returns evenly distributed positions of these joints from numbers in 0 … 1; those that follow others are zero.
+fn sampled<T: CNumber>(joints: &[JointSegment], u: &Vector<T>) -> Vector<T> {
+    let one = T::from_f64(1.0);
+    let (mut found, mut at) = (Vec::new(), 0);
+    for joint in joints {
+        let own = &u.as_slice()[at..at + joint.nv];
+        at += joint.nv;
+        let half = T::from_f64(if joint.turns { PI } else { 1.0 });
+        found.extend(match joint.manifold {
+            _ if joint.nv == 0 => vec![T::default(); joint.nq],
+            "spherical" => manifold::spherical::sample(array(own)).to_vec(),
+            "floating" => manifold::floating::sample(array(own)).to_vec(),
+            "planar" => manifold::planar::sample(array(own)).to_vec(),
+            _ => own.iter().map(|&u| (u + u - one) * half).collect(),
+        });
+    }
+    vector(&found)
 }
 
 /// Returns the positions after velocities of these joints.

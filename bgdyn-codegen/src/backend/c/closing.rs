@@ -11,6 +11,7 @@ use super::newton::Newton;
 use super::parameters::of_model;
 use super::polygon::polygon_function;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
+use super::sample::closed_sample;
 use super::style::Style;
 use crate::bond_graph::{ClosedTree, joint_segments};
 use crate::mechanism::closure::{Polygon, closing_polygons};
@@ -76,6 +77,9 @@ pub(super) fn closing_functions(
             false => text.integrate(),
         });
     }
+    if closes || closed.closure.position_rows().is_empty() {
+        functions.extend(closed_sample(closed, closes, context));
+    }
     functions
 }
 
@@ -124,14 +128,16 @@ impl ClosingText<'_> {
         }
     }
 
-    /// Returns the functions that close positions in place.
+    /// Returns the functions that close positions in place: all by Newton's method, and where there are planar loops
+    /// these in closed form, and then the others.
     fn closers(&self) -> Vec<PositionFunction> {
+        let whole = self.newton("newton", &self.joints, false);
         if self.polygons.is_empty() {
-            return vec![self.newton("newton", &self.joints, false)];
+            return vec![whole];
         }
         let first = self.context.model.mechanism.nq();
         let polygons = polygon_function(&self.polygons, self.closed, first, self.style());
-        let mut functions = vec![polygons];
+        let mut functions = vec![whole, polygons];
         if !self.others.is_empty() {
             functions.push(self.newton("close_others", &self.others, true));
         }

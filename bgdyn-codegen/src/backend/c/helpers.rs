@@ -8,7 +8,7 @@ use bgdyn_runtime::closure::polygon;
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 49] = [
+const HELPERS: [&str; 52] = [
     "mul_add",
     "smaller",
     "larger",
@@ -43,6 +43,9 @@ const HELPERS: [&str; 49] = [
     "spherical_difference",
     "floating_difference",
     "planar_difference",
+    "spherical_sample",
+    "floating_sample",
+    "planar_sample",
     "polygon_check",
     "polygon_root",
     "polygon_triangle",
@@ -128,6 +131,9 @@ fn manifold_template(name: &str) -> &'static str {
         "spherical_difference" => include_str!("helpers/spherical_difference.h"),
         "floating_difference" => include_str!("helpers/floating_difference.h"),
         "planar_difference" => include_str!("helpers/planar_difference.h"),
+        "spherical_sample" => include_str!("helpers/spherical_sample.h"),
+        "floating_sample" => include_str!("helpers/floating_sample.h"),
+        "planar_sample" => include_str!("helpers/planar_sample.h"),
         name => closing_template(name),
     }
 }

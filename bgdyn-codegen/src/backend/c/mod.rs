@@ -16,6 +16,7 @@ mod polygon;
 mod position_function;
 mod positions;
 mod result;
+mod sample;
 mod scene;
 mod scene_result;
 mod scene_tables;

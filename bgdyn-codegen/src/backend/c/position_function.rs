@@ -1,5 +1,7 @@
 //! A function of positions, and vectors of positions that are computed joint by joint.
 
+use std::f64::consts::PI;
+
 use super::context::ModelContext;
 use super::files::{comment, lines_of};
 use super::parameters::of_model;
@@ -105,7 +107,7 @@ pub(super) fn joint_by_joint(
                 }
             }
             _ => {
-                reads_q = true;
+                reads_q |= name != "sample";
                 lines.extend(manifold(joint, name, (q, v), velocities, style));
             }
         }
@@ -144,6 +146,12 @@ fn plain(
         "integrate" if !joint.leaders.is_empty() => format!("q[{q}] + ({moved})"),
         "integrate" => format!("q[{q}] + {moved}"),
         "position_rates" => moved,
+        "sample" if joint.nv > 0 => {
+            let half = if joint.turns { PI } else { 1.0 };
+            let [one, half] = [1.0, half].map(|x| style.number(x));
+            format!("({moved} + {moved} - {one}) * {half}")
+        }
+        "sample" => style.number(0.0),
         _ => format!("q[{q}]"),
     }
 }
@@ -164,6 +172,9 @@ fn manifold(
         "normalize" => format!("{}({from}, &found[{q}]);", of(name)),
         _ => format!("{}({from}, &{velocities}[{v}], &found[{q}]);", of(name)),
     };
+    if name == "sample" {
+        return vec![format!("{}(&{velocities}[{v}], &found[{q}]);", of(name))];
+    }
     let own = format!("&q[{q}]");
     if !joint.any_length || name == "normalize" {
         return vec![call(&own)];

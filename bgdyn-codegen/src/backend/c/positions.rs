@@ -7,6 +7,7 @@ use super::closing;
 use super::context::ModelContext;
 use super::difference::difference;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
+use super::sample::sample;
 use crate::bond_graph::{JointSegment, joint_segments};
 
 /// Returns the functions of positions, each after those that it calls. A mechanism without positions has none.
@@ -42,6 +43,7 @@ pub(super) fn position_functions(context: &ModelContext<'_>) -> Vec<PositionFunc
                 signature,
                 body,
             });
+            functions.push(sample(context));
         }
     }
     functions.extend((context.nv > 0).then(|| difference(context)));
