@@ -8,19 +8,8 @@ use super::constants::size;
 use super::tokens::number;
 use crate::bond_graph::ClosedTree;
 use crate::math::Vec3;
-use crate::mechanism::closure::{
-    ClosingRow, Closure, ContactShape, LoopRow, PlaneContact, RowKind,
-};
-use crate::mechanism::joint::DoubleDouble;
 use crate::method::Method;
-
-/// Whether a method returns loads of loops or contacts.
-fn has_loads(method: &Method) -> bool {
-    matches!(
-        method,
-        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
-    )
-}
+use crate::plan::{UndeterminedLoad, has_loads, undetermined_loads};
 
 /// Returns the constants of the reactions, if a method returns some.
 pub(super) fn reaction_constants(closed: &ClosedTree, present: &[Method]) -> Option<TokenStream> {
@@ -29,9 +18,9 @@ pub(super) fn reaction_constants(closed: &ClosedTree, present: &[Method]) -> Opt
     }
     let closure = &closed.closure;
     let names = closure.loops.iter().map(|one| one.name.as_str());
-    let left_out: Vec<&LoopRow> = left_out(closure).collect();
-    let undetermined = left_out.iter().map(|row| undetermined(closure, row));
-    let (nr, nu) = (size(closure.loops.len()), size(left_out.len()));
+    let loads = undetermined_loads(closure);
+    let undetermined = loads.iter().map(undetermined);
+    let (nr, nu) = (size(closure.loops.len()), size(loads.len()));
     Some(quote! {
         /// Number of the loops and contacts.
         pub const NR: usize = #nr;
@@ -45,49 +34,12 @@ pub(super) fn reaction_constants(closed: &ClosedTree, present: &[Method]) -> Opt
     })
 }
 
-/// Returns the rows without a multiplier.
-fn left_out(closure: &Closure) -> impl Iterator<Item = &LoopRow> {
-    let following = closure.following.iter().map(|one| &one.row);
-    closure.dropped.iter().chain(following)
-}
-
-/// Returns the load of a row that was left out.
-fn undetermined(closure: &Closure, row: &LoopRow) -> TokenStream {
-    let one = &closure.loops[row.closes];
-    let none = Vec3([Dd::ZERO; 3]);
-    let unit = |k: usize| {
-        let at = |i| if i == k { Dd::ONE } else { Dd::ZERO };
-        Vec3(std::array::from_fn(at))
-    };
-    let axes = one.chain.start.rotation;
-    let end = || one.chain.frames(&closure.start, &DoubleDouble);
-    let (force, moment) = match row.kind {
-        RowKind::Closing(ClosingRow::Place(k)) => (axes * unit(k), none),
-        RowKind::Closing(ClosingRow::Tilt(k) | ClosingRow::Turn(k)) => (none, axes * unit(k)),
-        RowKind::Closing(ClosingRow::Length) => {
-            (axes * end().end().scale(Dd::ONE / one.length), none)
-        }
-        RowKind::Closing(ClosingRow::Angle) => {
-            let across = (end().last_axes() * one.chain.end.rotation).column(0);
-            (none, axes * across.cross(unit(2)))
-        }
-        RowKind::Contact(row) => match (row.contact_axis(), one.contact.as_ref()) {
-            (Some(k), _) => (unit(k), none),
-            (None, contact) => (contact.map_or(none, |contact| axes * edge(contact)), none),
-        },
-    };
-    let [force, moment] = [force, moment].map(components);
-    let (reaction, row) = (size(row.closes), closure.row_name(row));
+/// Returns a load that nothing determines.
+fn undetermined(load: &UndeterminedLoad) -> TokenStream {
+    let [force, moment] = [load.force, load.moment].map(components);
+    let (reaction, row) = (size(load.reaction), &load.row);
     quote! {
         __rt::Undetermined { reaction: #reaction, row: #row, force: #force, moment: #moment }
-    }
-}
-
-/// Returns the direction of a knife edge in the axes of its place.
-fn edge(contact: &PlaneContact) -> Vec3<Dd> {
-    match contact.shape {
-        ContactShape::Edge(direction) | ContactShape::Disc(direction) => direction,
-        ContactShape::Sphere | ContactShape::Ellipsoid(_) => Vec3([Dd::ZERO; 3]),
     }
 }
 
@@ -125,7 +77,7 @@ pub(super) fn reaction_docs(method: Method, closed: Option<&ClosedTree>) -> Vec<
         ]),
         _ => {}
     }
-    let some = closed.is_some_and(|closed| left_out(&closed.closure).next().is_some());
+    let some = closed.is_some_and(|closed| !undetermined_loads(&closed.closure).is_empty());
     if has_loads(&method) && some {
         docs.extend([
             "",

@@ -22,6 +22,7 @@ mod products;
 mod reads;
 mod sines;
 mod summary;
+mod undetermined;
 
 pub use assembly::{AssemblyConditions, BranchConditions};
 pub use block::{BlockPlan, BlockStep};
@@ -42,3 +43,4 @@ pub use products::{ProductPlan, ProductTable};
 pub use reads::{is_part, leaves, leaves_of, reads_dependents, unread};
 pub use sines::AnglePair;
 pub use summary::summary_of;
+pub use undetermined::{UndeterminedLoad, has_loads, undetermined_loads};

@@ -72,17 +72,25 @@ pub fn compile<T: CNumber>(
     program: &CProgram,
 ) -> PathBuf {
     let folder = write(&format!("{name}_{compiler}_{}", T::NAME), files);
-    let file = &program.file;
-    fs::write(folder.join("main.c"), program.text::<T>()).expect("a file");
+    build(compiler, &folder, &program.file, &program.text::<T>())
+}
+
+/// Compiles the file of this name in a folder with the text of a program around it.
+pub fn build(compiler: &str, folder: &Path, file: &str, main: &str) -> PathBuf {
+    fs::write(folder.join("main.c"), main).expect("a file");
     let output = Command::new(compiler)
-        .current_dir(&folder)
+        .current_dir(folder)
         .args(FLAGS)
         .args([&format!("{file}.c"), "main.c", "-o", "program", "-lm"])
         .output()
         .expect("the compiler runs");
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{compiler}: {name}\n{said}");
-    is_header_of_cpp(&folder, file);
+    assert!(
+        output.status.success(),
+        "{compiler}: {}\n{said}",
+        folder.display()
+    );
+    is_header_of_cpp(folder, file);
     folder.join("program")
 }
 

@@ -12,4 +12,5 @@ mod runtime_positions;
 mod same_bits;
 mod scenes;
 mod still;
+mod undetermined;
 mod values;

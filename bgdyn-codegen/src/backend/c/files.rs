@@ -2,7 +2,7 @@
 
 use super::helpers::helpers;
 use super::style::Style;
-use super::tables::{Size, Table};
+use super::table::{Size, Table};
 use super::words::{field, in_comment};
 use crate::mechanism::Parameter;
 
@@ -13,6 +13,8 @@ pub(super) struct CFiles<'a> {
     /// What the spec says of itself; may be empty.
     pub(super) description: &'a str,
     pub(super) sizes: Vec<Size>,
+    /// Types of the elements of tables, with their documentation.
+    pub(super) types: Vec<String>,
     pub(super) tables: Vec<Table>,
     /// Run-time parameters.
     pub(super) parameters: &'a [Parameter],
@@ -44,6 +46,7 @@ impl CFiles<'_> {
             "#endif".into(),
             String::new(),
         ]);
+        lines.extend(self.types.iter().cloned());
         for table in &self.tables {
             lines.extend(comment(&[table.about]));
             lines.push(format!("extern {};", table.declaration));

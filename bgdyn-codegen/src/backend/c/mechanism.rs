@@ -6,10 +6,11 @@ use super::function::{CFunction, definition, signature, written_functions};
 use super::positions::position_functions;
 use super::style::Style;
 use super::tables::{sizes, tables};
+use super::undetermined::{undetermined, undetermined_type};
 use crate::function::Function;
 use crate::method::{Method, Shape};
 use crate::model::Model;
-use crate::plan::{Naming, summary_of, unread};
+use crate::plan::{Naming, has_loads, summary_of, unread};
 
 /// Returns what the files of a mechanism have.
 pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a> {
@@ -31,6 +32,7 @@ pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a>
         title: format!("Dynamics of `{}`", model.mechanism.name()),
         description: model.mechanism.description().unwrap_or_default(),
         sizes: sizes(&context),
+        types: undetermined_type(&context),
         tables: tables(&context),
         parameters: model.mechanism.parameters(),
         prototypes,
@@ -55,6 +57,12 @@ fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String>
         lines.push(format!("Does not read: {}.", unread.join(", ")));
     }
     lines.extend(result_order(function.shape()).map(String::from));
+    if has_loads(&method) && !undetermined(context).is_empty() {
+        lines.push(format!(
+            "Loads along those of {} are left out, and not determined.",
+            context.style.global("undetermined_loads")
+        ));
+    }
     if function.shape().checked() {
         lines.extend(causes(function, context));
     }

@@ -22,8 +22,10 @@ mod scene_result;
 mod scene_tables;
 mod sines;
 mod style;
+mod table;
 mod tables;
 mod tail;
+mod undetermined;
 mod words;
 
 use super::contract::{Backend, BackendInput, GeneratedFile};

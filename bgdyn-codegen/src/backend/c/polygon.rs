@@ -26,7 +26,7 @@ pub(super) fn polygon_function(
     for polygon in polygons {
         let name = in_comment(&closed.closure.loops[polygon.closes].name);
         let cause = first + polygon.closes + 1;
-        let text = PolygonText {
+        let text = LoopText {
             polygon,
             style,
             cause,
@@ -51,7 +51,7 @@ fn indented(lines: Vec<String>) -> impl Iterator<Item = String> {
 }
 
 /// A loop.
-struct PolygonText<'a> {
+struct LoopText<'a> {
     polygon: &'a Polygon,
     style: &'a Style,
     /// The number of the loop among the causes.
@@ -131,7 +131,7 @@ impl<'a> TurnedVectors<'a> {
     }
 }
 
-impl PolygonText<'_> {
+impl LoopText<'_> {
     /// Returns the statements that set its dependent positions.
     fn closing(&self) -> Vec<String> {
         match &self.polygon.form {

@@ -45,6 +45,7 @@ pub(super) fn scene_files<'a>(
         title: format!("The scene `{}`", scene.name),
         description: scene.description.as_deref().unwrap_or_default(),
         sizes: sizes(&interface),
+        types: Vec::new(),
         tables: tables(&interface, style),
         parameters: &scene.parameters,
         prototypes,

@@ -1,7 +1,7 @@
 //! The sizes of a scene, and its tables.
 
 use super::style::Style;
-use super::tables::{Size, Table};
+use super::table::{Size, Table};
 use crate::interface::SceneInterface;
 use crate::layout::Variable;
 

@@ -1,23 +1,12 @@
 //! The sizes of a mechanism, and the tables of its names and limits.
 
 use super::context::ModelContext;
+use super::table::{Size, Table};
+use super::undetermined::{undetermined, undetermined_table};
 use crate::function::Function;
 use crate::mechanism::{CoordinateId, Limits};
 use crate::method::{Method, Shape};
 use crate::plan::{actuated_pivot_names, closing_names, loop_names, pivot_names, tree_pivot_names};
-
-/// A size: the end of its macro's name, its meaning, its value.
-pub(super) type Size = (&'static str, &'static str, usize);
-
-/// A constant array.
-pub(super) struct Table {
-    /// What it has, in one sentence.
-    pub(super) about: &'static str,
-    /// Type of its elements, its name and its size.
-    pub(super) declaration: String,
-    /// Its elements in C.
-    pub(super) elements: Vec<String>,
-}
 
 /// Returns the sizes that signatures and tables use.
 pub(super) fn sizes(context: &ModelContext<'_>) -> Vec<Size> {
@@ -35,6 +24,9 @@ pub(super) fn sizes(context: &ModelContext<'_>) -> Vec<Size> {
         ]);
         let actuated = closure.actuated.as_ref();
         sizes.extend(actuated.map(|all| ("NA", "actuated joints", all.joints.len())));
+        let undetermined = undetermined(context).len();
+        let about = "loads that are statically undetermined";
+        sizes.extend((undetermined > 0).then_some(("NS", about, undetermined)));
     }
     let prescribed = mechanism.prescribed_names().len();
     if prescribed > 0 {
@@ -77,6 +69,7 @@ pub(super) fn tables(context: &ModelContext<'_>) -> Vec<Table> {
         ),
     ];
     tables.extend(names_of_loops(context));
+    tables.push(undetermined_table(context));
     let prescribed = model.mechanism.prescribed_names();
     let prescribed: Vec<&str> = prescribed.iter().map(String::as_str).collect();
     let about = "Names of the prescribed joints, in the order of `drive_efforts`.";
