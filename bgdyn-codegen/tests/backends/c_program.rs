@@ -72,15 +72,17 @@ pub fn compile<T: CNumber>(
     program: &CProgram,
 ) -> PathBuf {
     let folder = write(&format!("{name}_{compiler}_{}", T::NAME), files);
-    build(compiler, &folder, &program.file, &program.text::<T>())
+    build(compiler, &folder, &program.file, &program.text::<T>(), &[])
 }
 
-/// Compiles the file of this name in a folder with the text of a program around it.
-pub fn build(compiler: &str, folder: &Path, file: &str, main: &str) -> PathBuf {
+/// Compiles the file of this name in a folder with the text of a program around it, with these flags beside the usual
+/// ones.
+pub fn build(compiler: &str, folder: &Path, file: &str, main: &str, flags: &[&str]) -> PathBuf {
     fs::write(folder.join("main.c"), main).expect("a file");
     let output = Command::new(compiler)
         .current_dir(folder)
         .args(FLAGS)
+        .args(flags)
         .args([&format!("{file}.c"), "main.c", "-o", "program", "-lm"])
         .output()
         .expect("the compiler runs");
@@ -206,7 +208,8 @@ impl CProgram {
         }
     }
 
-    fn text<T: CNumber>(&self) -> String {
+    /// Returns the text of the program.
+    pub fn text<T: CNumber>(&self) -> String {
         let (file, real) = (&self.file, T::NAME);
         let word = format!("uint{}_t", 8 * size_of::<T>());
         let mut text = format!(

@@ -5,6 +5,7 @@ mod c_program;
 mod closed_mechanisms;
 mod controller;
 mod counted;
+mod lanes;
 mod list;
 mod positions;
 mod runtime_polygons;

@@ -32,7 +32,7 @@ int main(void)
 ";
     for compiler in compilers() {
         let folder = write(&format!("undetermined_{compiler}"), &files);
-        let program = build(&compiler, &folder, "four_bar", main);
+        let program = build(&compiler, &folder, "four_bar", main, &[]);
         let output = Command::new(program).output().expect("the program runs");
         let text = String::from_utf8(output.stdout).expect("text");
         assert_eq!(text, EXPECTED, "{compiler}");

@@ -103,7 +103,13 @@ fn template(name: &str, style: &Style) -> &'static str {
         ("sin_cos", _) => include_str!("helpers/sin_cos.h"),
         ("sin_cos_sum", _) if style.libm => include_str!("helpers/sin_cos_sum_of_library.h"),
         ("sin_cos_sum", _) => include_str!("helpers/sin_cos_sum.h"),
-        ("sin_cos_all", _) => include_str!("helpers/sin_cos_all.h"),
+        // On processors with registers for four of them, and everywhere else.
+        ("sin_cos_all", Real::Double) => concat!(
+            include_str!("helpers/sin_cos_lanes_double.h"),
+            include_str!("helpers/sin_cos_all.h"),
+            "#endif\n"
+        ),
+        ("sin_cos_all", Real::Float) => include_str!("helpers/sin_cos_all.h"),
         (name, _) => manifold_template(name),
     }
 }
@@ -221,6 +227,7 @@ pub(super) fn filled(template: &str, style: &Style) -> String {
     });
     let text = text.replace('@', &style.prefix);
     let text = text.replace("INLINED", &style.constant("INLINE"));
+    let text = text.replace("NO_LANES", &style.constant("NO_LANES"));
     let quoted = |(index, part): (usize, &str)| match (index % 2 == 1, part.parse::<f64>()) {
         (false, _) => part.to_string(),
         (true, Ok(number)) => style.number(number),

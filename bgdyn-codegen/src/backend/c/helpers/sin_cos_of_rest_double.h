@@ -1,6 +1,6 @@
 /* Sines are a part of the function that needs them, except where code is to be short. */
 #if defined(__GNUC__) && !defined(__OPTIMIZE_SIZE__)
-#define INLINED static inline __attribute__((always_inline))
+#define INLINED static inline __attribute__((always_inline, unused))
 #else
 #define INLINED static inline
 #endif
