@@ -1,5 +1,9 @@
 #if defined(__GNUC__) && defined(__AVX2__) && defined(__FMA__) && !defined(__OPTIMIZE_SIZE__) && !defined(NO_LANES)
 #include <immintrin.h>
+#if !defined(__clang__)
+/* GCC would collect neighbouring results in registers to store them at once: that takes longer than to store them. */
+#pragma GCC optimize("no-tree-slp-vectorize")
+#endif
 
 /* a b + c in four lanes. */
 INLINED __m256d @_mul_add_lanes(__m256d a, __m256d b, double c)
