@@ -17,6 +17,15 @@ has() { command -v "$1" >/dev/null; }
 # apt_get PACKAGE…: 0 where they are installed; 1, with the reason in `why`, where apt cannot be used here or has no
 # such packages. Where it has them and does not install them, the script ends with 1.
 apt_get() {
+  local result=0
+  # Steps that run beside each other install one after the other.
+  ! has flock || { exec 8>"${TMPDIR:-/tmp}/bgdyn_ci_apt" && flock 8; }
+  apt_get_alone "$@" || result=$?
+  ! has flock || exec 8>&-
+  return "$result"
+}
+
+apt_get_alone() {
   local sudo=() package said
   has apt-get || { why="there is no apt-get"; return 1; }
   if [ "$(id -u)" != 0 ]; then

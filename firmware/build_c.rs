@@ -6,7 +6,7 @@ use std::process::Command;
 
 use bgdyn_codegen::backend::{BackendInput, GivenOptions, backend_named};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
+use bgdyn_codegen::selection;
 
 const COMPILER: &str = "arm-none-eabi-gcc";
 const ARCHIVER: &str = "arm-none-eabi-ar";
@@ -53,7 +53,7 @@ fn write(arm: &str, folder: &Path) {
         methods: Some(vec!["dynamics".into()]),
         ..Options::default()
     };
-    let model = pipeline::model(mechanism.expect("a sound spec"), &options);
+    let model = selection::model(mechanism.expect("a sound spec"), &options);
     let backend = backend_named("c").expect("a backend");
     let given = [("float", "float".to_string()), ("prefix", format!("c_{arm}"))];
     let given = given.map(|(name, value)| (name.to_string(), value));

@@ -13,7 +13,7 @@ use bgdyn_codegen::build_script::Build;
 use bgdyn_codegen::emit::struct_ident;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
+use bgdyn_codegen::selection;
 
 const ARMS: [&str; 4] = ["scara", "puma560", "panda", "ur5"];
 
@@ -119,7 +119,7 @@ fn model(path: &Path, arm: &str) -> Model {
         derivatives: true,
         ..Options::default()
     };
-    pipeline::model(mechanism, &options).expect("methods that exist")
+    selection::model(mechanism, &options).expect("methods that exist")
 }
 
 /// Writes the C files of a model, compiles them, and links the library. All names begin with that of the compiler.

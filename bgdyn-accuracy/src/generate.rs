@@ -11,8 +11,8 @@ use bgdyn_codegen::formulation::FORMULATIONS;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Method, SceneFunction};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::scene::{IntegratorName, Scene, StepControl};
+use bgdyn_codegen::selection::scene_functions;
 use bgdyn_codegen::system::SceneEquations;
 
 /// Largest number of coordinates for which the literal sum is generated: it grows with the cube of their

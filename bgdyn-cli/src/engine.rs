@@ -1,5 +1,7 @@
 //! The engines that compute functions for the commands `eval`, `simulate` and `accuracy`.
 
+use std::collections::BTreeMap;
+
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::engine::{Callable, Engine};
 use bgdyn_codegen::tape::Tape;
@@ -10,7 +12,7 @@ use crate::output::tell;
 /// The words of the option.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum EngineName {
-    /// Machine code where it can be had and pays, else the tape
+    /// The tape at first, machine code for functions that are called often
     #[default]
     Auto,
     /// Machine code, made at run time
@@ -29,37 +31,25 @@ pub(crate) struct EngineChoice {
         value_name = "NAME",
         default_value_t,
         hide_possible_values = true,
-        long_help = "What computes the functions: `jit`, machine code made at run time; `tape`, lists of operations; `auto`, machine code where it can be had and pays. The numbers do not depend on it"
+        long_help = "What computes the functions: `jit`, machine code made at run time; `tape`, lists of operations; `auto`, the tape at first, and machine code, where it can be had, from the ten thousandth call of a function. The numbers do not depend on it"
     )]
     engine: EngineName,
 }
 
 impl EngineChoice {
-    /// Returns the engine for functions that are called often.
+    /// Returns the engine.
     ///
     /// # Errors
     /// If machine code is asked for, and cannot be had: why.
     pub(crate) fn engine(&self) -> Result<Box<dyn Engine>> {
-        match (self.engine, machine_code()) {
-            (EngineName::Tape, _) => Ok(Box::new(Tape)),
-            (EngineName::Jit, Err(why)) => Err(anyhow!("no machine code: {why}")),
-            (EngineName::Auto, Err(_)) => Ok(Box::new(Tape)),
-            (_, Ok(engine)) => Ok(engine),
-        }
-    }
-
-    /// Returns the engine for functions that are called this often: machine code pays after [`PAYS`] calls.
-    ///
-    /// # Errors
-    /// As [`EngineChoice::engine`].
-    pub(crate) fn engine_for(&self, calls: usize) -> Result<Box<dyn Engine>> {
         match self.engine {
-            EngineName::Auto if calls < PAYS => Ok(Box::new(Tape)),
-            _ => self.engine(),
+            EngineName::Tape => Ok(Box::new(Tape)),
+            EngineName::Jit => machine_code().map_err(|why| anyhow!("no machine code: {why}")),
+            EngineName::Auto => Ok(often_called()),
         }
     }
 
-    /// Says what computes a function, unless nobody asked and it is the tape.
+    /// Says what computed a function, unless nobody asked and it is the tape.
     pub(crate) fn tell(&self, function: &dyn Callable) {
         let name = function.engine();
         if self.engine != EngineName::Auto || name != Tape.name() {
@@ -69,7 +59,23 @@ impl EngineChoice {
 }
 
 /// About so many calls of a function take on the tape the time in which its machine code is made.
+#[cfg(feature = "jit")]
 const PAYS: usize = 10_000;
+
+/// Returns the engine that makes machine code of functions after [`PAYS`] calls, or the tape where there is no machine code.
+#[cfg(feature = "jit")]
+fn often_called() -> Box<dyn Engine> {
+    match bgdyn_jit::Jit::new() {
+        Ok(jit) => Box::new(bgdyn_jit::OftenCalled::after(PAYS, jit)),
+        Err(_) => Box::new(Tape),
+    }
+}
+
+/// Returns the tape.
+#[cfg(not(feature = "jit"))]
+fn often_called() -> Box<dyn Engine> {
+    Box::new(Tape)
+}
 
 /// Returns the engine that makes machine code, or why there is none.
 #[cfg(feature = "jit")]
@@ -83,28 +89,22 @@ fn machine_code() -> Result<Box<dyn Engine>, &'static str> {
     Err("this command was built without its feature `jit`")
 }
 
-/// What computes the functions of a scene.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct EnginesUsed(Vec<(&'static str, usize)>);
-
-impl EnginesUsed {
-    /// Counts a function.
-    pub(crate) fn note(&mut self, function: &dyn Callable) {
-        let name = function.engine();
-        match self.0.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, count)) => *count += 1,
-            None => self.0.push((name, 1)),
-        }
+/// Returns what computed functions until now, in words: with the numbers of functions, if it was not one engine for all.
+pub(crate) fn engines_of<'a>(functions: impl Iterator<Item = &'a dyn Callable>) -> String {
+    let mut counts = BTreeMap::new();
+    for function in functions {
+        *counts.entry(function.engine()).or_insert(0) += 1;
     }
-
-    /// Returns the engine in words: both with the numbers of their functions, if one left some to the other.
-    pub(crate) fn words(&self) -> String {
-        match &self.0[..] {
-            [(name, _)] => (*name).to_owned(),
-            all => {
-                let one = |(name, count): &(&str, usize)| format!("{name} ({count} functions)");
-                all.iter().map(one).collect::<Vec<_>>().join(" and ")
-            }
-        }
+    let in_words = |(name, count): (&str, u32)| match count {
+        1 => format!("{name} (1 function)"),
+        _ => format!("{name} ({count} functions)"),
+    };
+    match counts.len() {
+        1 => counts.into_keys().collect(),
+        _ => counts
+            .into_iter()
+            .map(in_words)
+            .collect::<Vec<_>>()
+            .join(" and "),
     }
 }

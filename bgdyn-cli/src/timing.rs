@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::emit::{OutputOptions, scene_module, source_text, struct_ident};
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::scene_functions;
+use bgdyn_codegen::selection::scene_functions;
 use bgdyn_codegen::system::SceneEquations;
 
 use crate::cargo_project::CargoProject;

@@ -14,8 +14,8 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::function;
 use bgdyn_codegen::random::Random;
+use bgdyn_codegen::selection::function;
 use bgdyn_codegen::tape::Tape;
 
 const METHODS: [Method; 5] = [

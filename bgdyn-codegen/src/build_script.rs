@@ -28,7 +28,7 @@ use crate::fault::{Faults, Severity};
 use crate::files::{beside, stem};
 use crate::options::Options;
 use crate::options::{formulation_named, preference_named};
-use crate::pipeline::generate_file;
+use crate::pipeline::generate_module;
 use crate::refusal::Refusal;
 use crate::verify::explain;
 
@@ -177,7 +177,7 @@ impl Build {
         let stem = stem(&self.spec);
         let (place, options) = (self.place()?, self.options()?);
         let (tokens, findings) =
-            generate_file(&text, &stem, &place, &options, |path| self.load(path))
+            generate_module(&text, &stem, &place, &options, |path| self.load(path))
                 .map_err(|r| self.refused(r, &text))?;
         Ok(Source {
             module: self.module.clone().unwrap_or(stem),

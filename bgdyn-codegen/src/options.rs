@@ -160,11 +160,19 @@ impl Options {
         Err(vec![UnknownName::whole("formulation", message)])
     }
 
-    /// Checks that a scene's mechanism has a canonical form, if it is selected.
+    /// Checks that the options fit a scene with this mechanism.
     ///
     /// # Errors
-    /// The option, with the joint whose velocities are quasi-velocities.
-    pub fn check_canonical(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
+    /// Every option that only mechanisms have; or the canonical form, with the joint that has none.
+    pub fn check_scene(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
+        match self.misplaced_mechanism_options() {
+            misplaced if misplaced.is_empty() => self.check_canonical(graph),
+            misplaced => Err(misplaced),
+        }
+    }
+
+    /// Checks that a scene's mechanism has a canonical form, if it is selected.
+    fn check_canonical(&self, graph: &Multibody) -> Result<(), Vec<UnknownName>> {
         let quasi = graph.frames.iter().find(|f| {
             let own = f.motion.velocity_positions();
             own.iter().any(Option::is_none)
@@ -203,7 +211,7 @@ impl Options {
     }
 
     /// Returns the selected options that only mechanisms have, for the generation of a scene.
-    pub fn misplaced_mechanism_options(&self) -> Vec<UnknownName> {
+    fn misplaced_mechanism_options(&self) -> Vec<UnknownName> {
         let asked = [
             (self.methods.is_some(), "methods", "a scene has its own"),
             (self.frames.is_some(), "frames", "see the key `outputs`"),

@@ -13,13 +13,13 @@
 //!
 //! ```
 //! use bgdyn_codegen::engine::{CallArguments, Engine};
-//! use bgdyn_codegen::{method::Method, options::Options, pipeline};
+//! use bgdyn_codegen::{method::Method, options::Options, selection};
 //! use bgdyn_jit::Jit;
 //!
 //! let spec = std::fs::read_to_string("../specs/double_pendulum.yaml").expect("the spec");
 //! let (mechanism, _faults) = bgdyn_codegen::read(&spec, Some("double_pendulum"));
 //! let mechanism = mechanism.expect("sound");
-//! let gravity = pipeline::function(&mechanism, Method::Gravity, &Options::default()).expect("known");
+//! let gravity = selection::function(&mechanism, Method::Gravity, &Options::default()).expect("known");
 //! let engine = Jit::new().expect("machine code can be had here");
 //! let gravity = engine.prepare(&gravity);
 //! let at = CallArguments { q: &[0.0, 0.0], ..CallArguments::default() };
@@ -30,6 +30,7 @@ mod code_memory;
 mod elementary;
 mod host;
 mod machine_code;
+mod often_called;
 mod pairs;
 mod refusal;
 mod sines;
@@ -44,6 +45,7 @@ use bgdyn_codegen::tape::{Tape, Unrolled};
 use cranelift_codegen::isa::TargetIsa;
 
 pub use machine_code::MachineCode;
+pub use often_called::OftenCalled;
 pub use refusal::{MOST_INSTRUCTIONS, Refusal};
 
 use code_memory::CodeMemory;

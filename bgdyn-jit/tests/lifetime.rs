@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use bgdyn_codegen::engine::{CallArguments, Callable, Engine};
+use bgdyn_codegen::engine::{CallArguments, Callable, Engine, Status};
 use bgdyn_codegen::expr::{Builder, Expr, Inputs, Leaf};
 use bgdyn_codegen::function::{Block, Function};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
 use bgdyn_codegen::random::Random;
-use bgdyn_jit::{Jit, MOST_INSTRUCTIONS, Refusal};
+use bgdyn_codegen::selection;
+use bgdyn_jit::{Jit, MOST_INSTRUCTIONS, OftenCalled, Refusal};
 
 fn scara() -> Mechanism {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/scara.yaml");
@@ -19,7 +19,7 @@ fn scara() -> Mechanism {
 }
 
 fn function(mechanism: &Mechanism, method: Method) -> Function {
-    pipeline::function(mechanism, method, &Options::default()).expect("every formulation knows it")
+    selection::function(mechanism, method, &Options::default()).expect("every formulation knows it")
 }
 
 fn jit() -> Jit {
@@ -215,4 +215,37 @@ fn a_small_difference_is_found() {
     for wrong in &wrong {
         assert_ne!(value(wrong), wanted);
     }
+}
+
+/// The tape computes the first calls, machine code the others, with the same bits; threads may come at the same time.
+#[test]
+fn what_is_called_often_becomes_machine_code() {
+    let function = function(&scara(), Method::InverseDynamics);
+    let at = Inputs {
+        q: vec![0.1, -2.0, 0.3, 7.0],
+        v: vec![1.0, 2.0, -3.0, 4.0],
+        a: vec![-4.0, 3.0, 2.0, 1.0],
+        ..Inputs::default()
+    };
+    let (expected, _) = function.evaluate(at.clone());
+    let engine = OftenCalled::after(100, jit());
+    let prepared = engine.prepare(&function);
+    let call = || {
+        let (values, status) = prepared.value(&CallArguments::from(&at));
+        assert_eq!(status, Status::Done);
+        assert!(
+            values
+                .iter()
+                .zip(&expected)
+                .all(|(x, y)| x.to_bits() == y.to_bits())
+        );
+    };
+    (0..100).for_each(|_| call());
+    assert_eq!(prepared.engine(), "tape");
+    std::thread::scope(|scope| {
+        for _ in 0..4 {
+            scope.spawn(|| (0..50).for_each(|_| call()));
+        }
+    });
+    assert_eq!(prepared.engine(), "machine code");
 }

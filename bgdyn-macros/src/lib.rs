@@ -10,9 +10,9 @@ mod input;
 use std::path::Path;
 
 use bgdyn_codegen::emit::OutputOptions;
-use bgdyn_codegen::pipeline;
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::explain;
+use bgdyn_codegen::{pipeline, stub};
 use proc_macro::TokenStream;
 use quote::quote;
 
@@ -88,7 +88,7 @@ fn module(
             .map_err(|e| e.to_string())
     };
     let stand_in = |text: &str, place: &OutputOptions| {
-        pipeline::stub(
+        stub::stub_module(
             text,
             &bgdyn_codegen::files::stem(Path::new(&place.source)),
             place,
@@ -109,7 +109,7 @@ fn module(
         let file = bgdyn_codegen::files::beside(&path, &mechanism);
         place.also.push(file.display().to_string());
     }
-    match pipeline::generate_file(
+    match pipeline::generate_module(
         &text,
         &bgdyn_codegen::files::stem(&path),
         &place,

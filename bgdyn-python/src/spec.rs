@@ -10,6 +10,7 @@ use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::{Argument, Method};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
+use bgdyn_codegen::selection;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Cause as Refused;
 
@@ -193,7 +194,7 @@ impl Spec {
         if let Some(found) = kept().get(&name) {
             return Ok(Arc::clone(found));
         }
-        let function = pipeline::function(&self.mechanism, method, &self.options)
+        let function = selection::function(&self.mechanism, method, &self.options)
             .ok_or_else(|| format!("the selected formulation does not compute `{name}`"))?;
         let call = Tape.prepare(&function);
         let made = Arc::new(Prepared {
@@ -217,7 +218,7 @@ impl Spec {
             methods: Some(vec![self.name_of(method)]),
             ..self.options.clone()
         };
-        let made = pipeline::generate(&self.text, &self.name, &output, &options);
+        let made = pipeline::generate_module(&self.text, &self.name, &output, &options, |path| Err(path.into()));
         let (tokens, _) = made.map_err(|refusal| format!("{refusal:?}"))?;
         Ok(bgdyn_codegen::emit::source_text(tokens))
     }

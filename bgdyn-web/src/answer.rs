@@ -4,12 +4,14 @@ use bgdyn_cli::commands::{check, ops};
 use bgdyn_cli::graph::{mechanism_svg, scene_svg};
 use bgdyn_cli::schema;
 use bgdyn_cli::spec_file::SpecFile;
+use bgdyn_codegen::backend::FilesError;
 use bgdyn_codegen::backend::{BackendError, GivenOptions, backend_named};
 use bgdyn_codegen::closed_form::{NoClosedForm, closed_form, latex, text};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::{self, FilesError, generate_files};
+use bgdyn_codegen::pipeline::generate_files;
 use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::selection;
 use bgdyn_codegen::system::SceneEquations;
 use serde_json::{Value, json};
 
@@ -85,9 +87,9 @@ fn no_closed_form(refused: &NoClosedForm, limit: usize) -> String {
 pub(crate) fn counts(file: &SpecFile) -> Result<Value, String> {
     let options = Options::default();
     let functions = match file.is_scene() {
-        true => pipeline::scene_functions(&scene(file)?, &options),
+        true => selection::scene_functions(&scene(file)?, &options),
         false => {
-            let model = pipeline::model(mechanism(file)?, &options);
+            let model = selection::model(mechanism(file)?, &options);
             model
                 .map_err(|names| refused(file, Refusal::Options(names)))?
                 .functions

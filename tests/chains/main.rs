@@ -14,7 +14,7 @@ use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::function;
+use bgdyn_codegen::selection::function;
 use counted::{Counted, executed};
 use golden_values::equals_golden;
 

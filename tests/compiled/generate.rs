@@ -9,6 +9,7 @@ use bgdyn_codegen::files::stem;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
+use bgdyn_codegen::selection;
 
 fn options(derivatives: bool) -> Options {
     Options {
@@ -23,7 +24,7 @@ pub fn model(path: &Path, derivatives: bool) -> Model {
     let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem(path)));
     let shown = path.display().to_string();
     let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&shown, &text)));
-    pipeline::model(mechanism, &options(derivatives)).expect("no name is asked for")
+    selection::model(mechanism, &options(derivatives)).expect("no name is asked for")
 }
 
 /// The model of a spec, compared with equation (6), and the text of its module.

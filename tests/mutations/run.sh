@@ -81,42 +81,42 @@ recursion=$src/formulation/recursion
 codegen=(-p bgdyn-codegen --test)
 
 mutate "paper oracle" $src/formulation/literal/sum.rs \
-    '+ omega.cross(tensor * omega)' '- omega.cross(tensor * omega)' "${codegen[@]}" paper_oracle
+    '+ omega.cross(tensor * omega)' '- omega.cross(tensor * omega)' "${codegen[@]}" references paper_oracle::
 mutate "Lagrange oracle" $recursion/inverse_dynamics.rs \
     'self.moment + p.cross(self.force)' 'self.moment - p.cross(self.force)' \
-    "${codegen[@]}" lagrange_oracle
+    "${codegen[@]}" references lagrange_oracle::
 mutate "golden values" $recursion/motion.rs \
-    'rate * (total + z)' 'rate * (total - z)' "${codegen[@]}" golden
+    'rate * (total + z)' 'rate * (total - z)' "${codegen[@]}" references golden::
 mutate "golden values" $src/expr/eval.rs \
     'if b.negative => at(a) - at(&b.node)' 'if b.negative => at(a) + at(&b.node)' \
-    "${codegen[@]}" golden
+    "${codegen[@]}" references golden::
 mutate "golden values of places" $src/formulation/site.rs \
     'angular = angular + column.angular.scale(rate)' 'angular = angular - column.angular.scale(rate)' \
-    "${codegen[@]}" golden_poses
+    "${codegen[@]}" references golden_poses::
 mutate "oracle of scenes: rotors" $recursion/rotors.rs \
     'efforts[rotor.joint] + carried' 'efforts[rotor.joint] - carried' "${codegen[@]}" oracle
 mutate "oracle of scenes: a law" $src/effect/lugre.rs \
     'stiffness * z + damping * rate' 'stiffness * z - damping * rate' "${codegen[@]}" oracle
 mutate "laws: formulations equal" $recursion/mass_matrix.rs \
-    'Vec3([-y, x, b.zero()])' 'Vec3([y, x, b.zero()])' "${codegen[@]}" laws
+    'Vec3([-y, x, b.zero()])' 'Vec3([y, x, b.zero()])' "${codegen[@]}" formulations laws::
 mutate "laws: forward undoes inverse" $src/formulation/solve.rs \
-    'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" laws
+    'mass[i][j] - l * row[j]' 'mass[i][j] + l * row[j]' "${codegen[@]}" formulations laws::
 mutate "long chains: momenta meet axes" $recursion/common_axes.rs \
-    'sum + w * l' 'sum - w * l' "${codegen[@]}" long_chains
+    'sum + w * l' 'sum - w * l' "${codegen[@]}" formulations long_chains::
 mutate "long chains: signs in tables" $src/inner_products.rs \
-    'negative: negative ^ minus' 'negative' "${codegen[@]}" long_chains
+    'negative: negative ^ minus' 'negative' "${codegen[@]}" formulations long_chains::
 mutate "laws: gravity = dV/dq" $recursion/energies.rs \
-    'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" laws
+    'energy - frames.gravity[j]' 'energy + frames.gravity[j]' "${codegen[@]}" formulations laws::
 mutate "properties: T" $recursion/energies.rs \
-    '(squares - products)' '(squares + products)' "${codegen[@]}" properties
+    '(squares - products)' '(squares + products)' "${codegen[@]}" formulations properties::
 mutate "properties: rates" $recursion/rotation.rs \
-    'y.scale(c) - x.scale(s)' 'y.scale(c) + x.scale(s)' "${codegen[@]}" properties rates
+    'y.scale(c) - x.scale(s)' 'y.scale(c) + x.scale(s)' "${codegen[@]}" formulations properties::rates
 mutate "derivatives" $src/expr/diff.rs \
-    'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" motions derivatives
+    'g.mul(sin, da).flipped(true)' 'g.mul(sin, da)' "${codegen[@]}" formulations motions::derivatives
 mutate "derivatives, solved" $src/formulation/derivatives/forward_dynamics.rs \
-    '(-builder.expr(e)).signed()' 'builder.expr(e).signed()' "${codegen[@]}" motions derivatives
+    '(-builder.expr(e)).signed()' 'builder.expr(e).signed()' "${codegen[@]}" formulations motions::derivatives
 mutate "generated text" $src/emit/operation.rs \
-    'if b.negative { quote!(-) }' 'if b.negative { quote!(+) }' "${codegen[@]}" text
+    'if b.negative { quote!(-) }' 'if b.negative { quote!(+) }' "${codegen[@]}" files text::
 mutate "compiled = evaluator" $src/emit/operation.rs \
     'if b.negative { quote!(-) }' 'if b.negative { quote!(+) }' -p compiled -- agreement::
 mutate "compiled = evaluator, every scalar" $src/emit/operation.rs \
@@ -144,10 +144,10 @@ once "rotors' joints in derivatives" $recursion/derivatives/inverse_dynamics.rs 
     'own[j].beyond.push(seen);' 'let _ = seen;' scenes rotors::
 once "axes that are almost z" $recursion/geometry.rs \
     'let third = (0..3).find(|&k| exact(k));' \
-    'let third = (0..3).find(|&k| exact(k) || z.0[k].abs() == Dd::ONE);' noisy_axes
+    'let third = (0..3).find(|&k| exact(k) || z.0[k].abs() == Dd::ONE);' formulations noisy_axes::
 once "axes almost parallel" $recursion/geometry.rs \
     'z.0[..2].iter().all(|x| x.hi().abs() < NOISE)' \
-    '(z.0[2].abs() - Dd::ONE).hi().abs() < NOISE' noisy_axes
+    '(z.0[2].abs() - Dd::ONE).hi().abs() < NOISE' formulations noisy_axes::
 mutate "origins far from a parent without an axis" $recursion/geometry.rs \
     'origin[*k].hi().abs() <= FAR * size * z[*k].hi().abs()' 'size < f64::MAX' \
     "${codegen[@]}" joints noisy::

@@ -89,7 +89,7 @@ fn the_generator_counts_the_same_again() {
         let text = std::fs::read_to_string(path).unwrap();
         let (mechanism, _) = bgdyn_codegen::read(&text, Some(name));
         let model =
-            bgdyn_codegen::pipeline::model(mechanism.unwrap(), &Default::default()).unwrap();
+            bgdyn_codegen::selection::model(mechanism.unwrap(), &Default::default()).unwrap();
         let counted: Vec<_> = model
             .functions
             .iter()

@@ -134,7 +134,7 @@ fn parameters_set_at_run_time_equal_constants_and_the_evaluator() {
     let text = include_str!("specs/puma_payload.yaml");
     let (mechanism, _) = bgdyn_codegen::read(text, Some("puma_payload"));
     let evaluator =
-        bgdyn_codegen::pipeline::model(mechanism.expect("a sound spec"), &Default::default());
+        bgdyn_codegen::selection::model(mechanism.expect("a sound spec"), &Default::default());
     let evaluator = evaluator.expect("nothing unknown");
     let (model, constant) = (changed::<f64>(), PumaChanged::<f64>::default());
     let mut random = Random(29);

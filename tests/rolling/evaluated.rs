@@ -18,7 +18,7 @@ fn model(text: &str) -> Model {
         derivatives: true,
         ..Options::default()
     };
-    bgdyn_codegen::pipeline::model(mechanism, &options).expect("a model")
+    bgdyn_codegen::selection::model(mechanism, &options).expect("a model")
 }
 
 #[test]

@@ -17,7 +17,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
+use bgdyn_codegen::selection;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_jit::Jit;
@@ -133,7 +133,7 @@ macro_rules! arms {
                     states.iter().map(|s| [&s.q, &s.v, &s.a, &s.tau].map(|x| of(x))).collect();
                 let model = models::$module::$model::<f64>::default();
                 for method in METHODS {
-                    let function = pipeline::function(&mechanism, method, &Options::default());
+                    let function = selection::function(&mechanism, method, &Options::default());
                     let function = function.expect("every formulation knows it");
                     let rustc = |k: usize| {
                         let [q, v, a, tau] = black_box(&inputs[k]);

@@ -36,10 +36,9 @@ impl Eval {
         let method = Method::named(&graph, &self.method).map_err(Usage)?;
         let parameters = parameters(mechanism.parameters(), &self.parameters)?;
         let states = states(&self.states)?;
-        let function = bgdyn_codegen::pipeline::function(&mechanism, method, &options)
+        let function = bgdyn_codegen::selection::function(&mechanism, method, &options)
             .ok_or_else(|| Usage(format!("this formulation does not know `{}`", self.method)))?;
-        let prepared = self.engine.engine_for(states.len())?.prepare(&function);
-        self.engine.tell(&*prepared);
+        let prepared = self.engine.engine()?.prepare(&function);
         let call = MethodCall {
             mechanism: &mechanism,
             graph: &graph,
@@ -48,7 +47,9 @@ impl Eval {
             parameters: &parameters,
         };
         let value = |state: &Value| evaluate(&call, state);
-        self.report(vec![], &states, value)
+        self.report(vec![], &states, value)?;
+        self.engine.tell(&*prepared);
+        Ok(())
     }
 }
 

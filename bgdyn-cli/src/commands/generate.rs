@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow};
+use bgdyn_codegen::backend::FilesError;
 use bgdyn_codegen::backend::{
     BACKENDS, Backend, BackendError, GeneratedFile, GivenOptions, backend_named,
 };
-use bgdyn_codegen::pipeline::{FilesError, generate_files};
+use bgdyn_codegen::pipeline::generate_files;
 use clap::Args;
 
 use crate::output::{print, tell};

@@ -10,7 +10,7 @@ use bgdyn_codegen::function::{Considered, Function};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::{function, scene_functions};
+use bgdyn_codegen::selection::{function, scene_functions};
 use bgdyn_codegen::system::SceneEquations;
 use clap::Args;
 use serde::{Serialize, Serializer};
@@ -54,7 +54,8 @@ impl Ops {
             return Err(Usage(message.into()).into());
         }
         let mechanism = spec.mechanism()?;
-        let model = bgdyn_codegen::pipeline::model(mechanism.clone(), &options).map_err(unknown)?;
+        let model =
+            bgdyn_codegen::selection::model(mechanism.clone(), &options).map_err(unknown)?;
         let explained = self.explain.then(|| explained(&mechanism, &model));
         self.report(&model.functions, explained)
     }
@@ -69,10 +70,7 @@ impl Ops {
     }
 
     fn scene(&self, system: &SceneEquations, options: &Options) -> Result<()> {
-        let misplaced = options.misplaced_mechanism_options();
-        if !misplaced.is_empty() {
-            return Err(unknown(misplaced).into());
-        }
+        options.check_scene(&system.graph).map_err(unknown)?;
         if self.explain {
             let message = "`--explain` is for mechanisms; of a scene see `--per-effect`";
             return Err(Usage(message.into()).into());

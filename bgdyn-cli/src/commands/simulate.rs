@@ -109,12 +109,10 @@ impl Simulate {
                 way,
                 columns: &columns,
             };
-            print(&format!(
-                "{}, by {}\n",
-                report::summary(&file.stem, &way.integration),
-                plant.engine()
-            ))?;
-            return self.many.run(&batch, &given, &varied);
+            let summary = report::summary(&file.stem, &way.integration);
+            print(&format!("{summary}\n"))?;
+            self.many.run(&batch, &given, &varied)?;
+            return print(&format!("computed by {}\n", plant.engine()));
         }
         let system = system
             .with_overrides(&given)

@@ -59,9 +59,9 @@ impl<'a> Evaluated<'a> {
         }
     }
 
-    /// Returns what computes the functions, in words.
+    /// Returns what computed the functions until now, in words.
     pub fn engine(&self) -> String {
-        self.functions.engines.words()
+        self.functions.engines()
     }
 
     /// Returns the functions of the scene, for other starts of it.

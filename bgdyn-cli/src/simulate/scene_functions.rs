@@ -1,14 +1,12 @@
 //! The functions of a scene that a run calls, prepared by the engine.
 
-use std::cell::RefCell;
-
 use bgdyn_codegen::engine::{Callable, Engine};
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::QuasiJoint;
 use bgdyn_runtime::closure::Dependent;
 
-use crate::engine::EnginesUsed;
+use crate::engine::engines_of;
 
 /// The variables in which a scene is integrated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,8 +39,6 @@ pub(super) struct SceneFunctions {
     pub(super) corners: Vec<f64>,
     /// The joints with quasi-velocities, by their components in the state.
     pub(super) quasi_joints: Vec<QuasiJoint>,
-    /// What computes them.
-    pub(super) engines: EnginesUsed,
 }
 
 /// The closing of loops.
@@ -70,12 +66,7 @@ impl SceneFunctions {
         slopes: bool,
     ) -> Self {
         let roles = system.roles();
-        let engines = RefCell::new(EnginesUsed::default());
-        let prepare = |role| {
-            let prepared = engine.prepare(&system.function(role));
-            engines.borrow_mut().note(&*prepared);
-            prepared
-        };
+        let prepare = |role| engine.prepare(&system.function(role));
         let if_there = |role| roles.contains(&role).then(|| prepare(role));
         let canonical = || Canonical {
             to: prepare(SceneFunction::ToCanonical),
@@ -109,8 +100,29 @@ impl SceneFunctions {
                 .iter()
                 .map(|joint| joint.in_state(layout))
                 .collect(),
-            engines: engines.take(),
         }
+    }
+
+    /// Returns what computed the functions until now, in words.
+    pub(super) fn engines(&self) -> String {
+        let canonical = self.canonical.iter();
+        let canonical = canonical.flat_map(|form| [&form.to, &form.from, &form.rates]);
+        let optional = [
+            &self.inputs,
+            &self.events,
+            &self.contacts,
+            &self.outputs,
+            &self.jacobian,
+            &self.position_rates,
+        ];
+        let always = [&self.derivative, &self.power, &self.energy];
+        let closing = self.closing.iter().map(|closing| &closing.step);
+        let all = always.into_iter().chain(optional.into_iter().flatten());
+        engines_of(
+            all.chain(canonical)
+                .chain(closing)
+                .map(|function| &**function),
+        )
     }
 }
 

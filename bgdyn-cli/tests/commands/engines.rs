@@ -36,7 +36,9 @@ fn a_run_has_the_same_digits_by_every_engine() {
     let (table, told) = simulated("auto");
     assert_eq!(table, tape);
     if has_machine_code() {
-        assert!(told.contains(", by machine code\n"), "{told}");
+        // The start and the balance of energy call some functions a few times only.
+        assert!(told.contains(", by machine code ("), "{told}");
+        assert!(told.contains(") and tape ("), "{told}");
         let (table, told) = simulated("jit");
         assert_eq!(table, tape);
         assert!(told.contains(", by machine code\n"), "{told}");
@@ -55,8 +57,10 @@ fn a_batch_names_its_engine() {
         (table.expect("a table"), run.stdout)
     };
     let (tape, told) = run("tape");
-    assert!(told.contains(", by tape\n"), "{told}");
-    assert_eq!(run("auto").0, tape);
+    assert!(told.ends_with("computed by tape\n"), "{told}");
+    let (table, told) = run("auto");
+    assert_eq!(table, tape);
+    assert!(told.ends_with("computed by tape\n"), "few calls: {told}");
 }
 
 /// Few states are computed by the tape, which starts at once; nothing is said of it unless somebody asks.

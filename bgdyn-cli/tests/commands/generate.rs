@@ -4,7 +4,7 @@ use std::fs;
 
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::generate;
+use bgdyn_codegen::pipeline::generate_module;
 
 use crate::{bgdyn, root, scratch};
 
@@ -27,7 +27,10 @@ fn the_source_is_the_same_in_every_run_and_in_every_place() {
 fn the_source_is_what_the_macro_gets() {
     let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
     let place = OutputOptions::source_text("scara4.yaml".into());
-    let (tokens, _) = generate(&text, "scara4", &place, &Options::default()).expect("a good spec");
+    let (tokens, _) = generate_module(&text, "scara4", &place, &Options::default(), |path| {
+        Err(path.into())
+    })
+    .expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
     // Trailing commas in lists and the quotes of documentation depend on the formatting; the titles above

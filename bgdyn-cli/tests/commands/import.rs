@@ -1,4 +1,4 @@
-//! `bgdyn import` with its options, as a user calls it; what they mean is tested in `import_more`.
+//! `bgdyn import` with its options, as a user calls it; what they mean is tested in `import`.
 
 use crate::{bgdyn, scratch};
 

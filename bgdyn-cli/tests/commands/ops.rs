@@ -64,7 +64,7 @@ fn counts_of_every_spec_are_the_models() {
             derivatives: true,
             ..Options::default()
         };
-        let model = bgdyn_codegen::pipeline::model(mechanism.expect("no fault"), &options)
+        let model = bgdyn_codegen::selection::model(mechanism.expect("no fault"), &options)
             .expect("no names");
         let shown = path.display().to_string();
         let json = bgdyn(&["ops", &shown, "--json", "--derivatives"]).good();

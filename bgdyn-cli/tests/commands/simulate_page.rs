@@ -7,7 +7,7 @@ use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::{Options, formulation_named};
-use bgdyn_codegen::pipeline::function;
+use bgdyn_codegen::selection::function;
 use serde_json::Value;
 
 use crate::{bgdyn, root, scratch, table_rows};

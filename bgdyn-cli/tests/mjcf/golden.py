@@ -3,7 +3,7 @@
     golden.py
 
 Needs mujoco and numpy; the conversion of states is that of benches/peers/mjcf.py. The variants are those of
-bgdyn-cli/tests/import_more/mjcf.rs.
+bgdyn-cli/tests/import/mjcf.rs.
 """
 
 import json

@@ -4,6 +4,7 @@ use super::given::{BackendError, BackendOption, GivenOptions};
 use crate::function::Function;
 use crate::model::Model;
 use crate::plan::PlanLimits;
+use crate::refusal::Refusal;
 use crate::system::SceneEquations;
 
 /// Writes files in a language from a mechanism or a scene.
@@ -43,4 +44,25 @@ pub struct GeneratedFile {
     pub name: String,
     /// Its text.
     pub text: String,
+}
+
+/// The reason why a backend has no files.
+#[derive(Clone, Debug)]
+pub enum FilesError {
+    /// The spec, or an option of the generator, is refused.
+    Refused(Refusal),
+    /// The backend refuses one of its options, or cannot write something.
+    Backend(BackendError),
+}
+
+impl From<Refusal> for FilesError {
+    fn from(refusal: Refusal) -> Self {
+        FilesError::Refused(refusal)
+    }
+}
+
+impl From<BackendError> for FilesError {
+    fn from(error: BackendError) -> Self {
+        FilesError::Backend(error)
+    }
 }

@@ -5,7 +5,7 @@ mod contract;
 mod given;
 mod rust;
 
-pub use contract::{Backend, BackendInput, GeneratedFile};
+pub use contract::{Backend, BackendInput, FilesError, GeneratedFile};
 pub use given::{BackendError, BackendOption, GivenOptions};
 
 /// All backends; the first one is the default.

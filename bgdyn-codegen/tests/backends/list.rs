@@ -9,7 +9,7 @@ use bgdyn_codegen::expr::Node;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::plan::{BlockPlan, BlockStep, FunctionPlan, Tail, matrix_destinations};
-use bgdyn_codegen::{pipeline, read};
+use bgdyn_codegen::{read, selection};
 
 const SCARA: &str = include_str!("../../../specs/scara.yaml");
 
@@ -19,7 +19,7 @@ fn scara() -> Model {
         derivatives: true,
         ..Options::default()
     };
-    pipeline::model(mechanism.expect("sound"), &options).expect("known names")
+    selection::model(mechanism.expect("sound"), &options).expect("known names")
 }
 
 fn given(backend: &dyn Backend, pairs: &[(&str, &str)]) -> Result<GivenOptions, BackendError> {

@@ -8,7 +8,7 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::{pipeline, read};
+use bgdyn_codegen::{read, selection};
 
 use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
 use crate::values::{CNumber, Expected, close_to, expected, state};
@@ -25,7 +25,7 @@ pub fn model(path: &str, options: &Options) -> Model {
 pub fn model_of(text: &str, stem: &str, options: &Options) -> Model {
     let (mechanism, faults) = read(text, Some(stem));
     let mechanism = mechanism.unwrap_or_else(|| panic!("{stem}: {faults:?}"));
-    pipeline::model(mechanism, options).expect("known names")
+    selection::model(mechanism, options).expect("known names")
 }
 
 /// Returns the text of a spec, and the stem of its file.

@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::formulation;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
+use bgdyn_codegen::selection;
 
 use super::findings::{found, refused_text, with_joints};
 use super::robot::Robot;
@@ -154,7 +154,7 @@ fn a_formulation_that_does_not_serve_says_so() {
         formulation: formulation::by_name("common_axes"),
         ..Options::default()
     };
-    let refusal = pipeline::model(robot.mechanism, &options)
+    let refusal = selection::model(robot.mechanism, &options)
         .err()
         .expect("it does not serve");
     let said = refusal[0].message.as_str();
@@ -176,7 +176,7 @@ fn other_mechanisms_have_no_drive_efforts() {
         ..Options::default()
     };
     let plain = Robot::read(&with_joints(&JOINTS));
-    let refusal = pipeline::model(plain.mechanism, &options)
+    let refusal = selection::model(plain.mechanism, &options)
         .err()
         .expect("no such method");
     assert!(
@@ -185,7 +185,7 @@ fn other_mechanisms_have_no_drive_efforts() {
         refusal[0].message
     );
     let own = Robot::read(&format!("{}{LEFT}", with_joints(&JOINTS)));
-    let model = pipeline::model(own.mechanism, &options).expect("its method");
+    let model = selection::model(own.mechanism, &options).expect("its method");
     assert_eq!(model.functions.len(), 1);
     assert_eq!(model.functions[0].name(), "drive_efforts");
 }

@@ -317,7 +317,13 @@ fn unread(module: &str, method: &str) -> String {
 fn the_documentation_lists_what_is_not_read() {
     let text = golden_text("quadrotor_arm.yaml");
     let output = OutputOptions::source_text("quadrotor_arm.yaml".into());
-    let generated = pipeline::generate(&text, "quadrotor_arm", &output, &Options::default());
+    let generated = pipeline::generate_module(
+        &text,
+        "quadrotor_arm",
+        &output,
+        &Options::default(),
+        |path| Err(path.into()),
+    );
     let module = generated.expect("a module").0.to_string();
     let places = ["`q[0]` (free_x)", "`q[1]` (free_y)", "`q[2]` (free_z)"];
     for method in ["inverse_dynamics", "bias", "gravity", "forward_dynamics"] {

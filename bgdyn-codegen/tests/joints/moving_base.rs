@@ -7,6 +7,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::selection;
 use bgdyn_codegen::verify::explain;
 use bgdyn_runtime::Dd;
 
@@ -272,7 +273,7 @@ fn every_mechanism_on_a_moving_base_is_accepted() {
             ..Options::default()
         };
         let mechanism = Robot::read(&given(&text)).mechanism;
-        let model = pipeline::model(mechanism, &options).expect("a model");
+        let model = selection::model(mechanism, &options).expect("a model");
         match pipeline::verify(&model, &options) {
             Ok(()) => {}
             Err(Refusal::Unequal(found)) => panic!("{name}: {}", explain(&found)),

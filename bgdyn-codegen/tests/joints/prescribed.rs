@@ -6,6 +6,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::selection;
 use bgdyn_codegen::verify::explain;
 use bgdyn_runtime::Dd;
 
@@ -301,7 +302,7 @@ fn every_mechanism_with_prescribed_joints_is_accepted() {
             derivatives: seed % 3 == 0,
             ..Options::default()
         };
-        let model = pipeline::model(pair.own.mechanism.clone(), &options).expect("options");
+        let model = selection::model(pair.own.mechanism.clone(), &options).expect("options");
         let drives = Method::DriveEfforts(pair.np());
         assert!(
             model.functions.iter().any(|f| f.method == drives),

@@ -4,8 +4,9 @@ use bgdyn_codegen::formulation;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::{model, verify};
+use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::selection::model;
 use bgdyn_codegen::verify::{check_functions, explain};
 use bgdyn_runtime::Dd;
 
@@ -20,7 +21,7 @@ fn options(way: Way) -> Options {
     }
 }
 
-/// What `pipeline::model` returns, of functions that are made once for all tests.
+/// What `model` returns, of functions that are made once for all tests.
 fn whole(text: &str, way: Way) -> Model {
     let robot = Robot::read(text);
     let methods = options(way).select(&robot.graph).expect("methods");

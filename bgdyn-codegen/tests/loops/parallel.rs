@@ -3,8 +3,9 @@
 
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::{model, verify};
+use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::random::Random;
+use bgdyn_codegen::selection::model;
 use bgdyn_runtime::Dd;
 
 use super::drawn::{NORMAL, at, connect, four_bar, link, on, turning, xyz};

@@ -3,8 +3,9 @@
 use bgdyn_codegen::formulation;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::{Options, Preference};
-use bgdyn_codegen::pipeline::{model, verify};
+use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::selection::model;
 use bgdyn_codegen::verify::explain;
 
 use super::actuated::actuated;

@@ -4,8 +4,8 @@ use bgdyn_codegen::effect::EFFECTS;
 use bgdyn_codegen::emit::{OutputOptions, scene_module};
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::random::Random;
+use bgdyn_codegen::selection::scene_functions;
 use bgdyn_codegen::system::SceneEquations;
 
 use super::common::{scene, state};

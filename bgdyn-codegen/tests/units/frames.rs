@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::generate;
+use bgdyn_codegen::pipeline::generate_module;
 
 #[test]
 fn frames_of_different_names_are_different_types() {
@@ -15,7 +15,10 @@ fn frames_of_different_names_are_different_types() {
         frames.join(", ")
     );
     let output = OutputOptions::source_text("one.yaml".into());
-    let (module, _) = generate(&spec, "one", &output, &Options::default()).expect("a module");
+    let (module, _) = generate_module(&spec, "one", &output, &Options::default(), |path| {
+        Err(path.into())
+    })
+    .expect("a module");
     let module = module.to_string();
     let wanted = [
         "Tool", "Tool1", "Tool_1", "Tool_1_2", "Tool_12", "TooL", "TOol",

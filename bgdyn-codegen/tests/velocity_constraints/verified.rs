@@ -5,9 +5,10 @@ use bgdyn_codegen::formulation;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::{model, verify};
+use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::refusal::Refusal;
+use bgdyn_codegen::selection::model;
 use bgdyn_codegen::verify::explain;
 
 use super::files::spec;

@@ -13,8 +13,8 @@ use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::read_scene;
+use bgdyn_codegen::selection::scene_functions;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::verify::{check_functions, check_scene, explain};
 
@@ -74,7 +74,7 @@ fn every_spec_passes() {
             derivatives: mechanism.nv() <= 10,
             ..Options::default()
         };
-        let model = bgdyn_codegen::pipeline::model(mechanism, &options).expect("a model");
+        let model = bgdyn_codegen::selection::model(mechanism, &options).expect("a model");
         let found = check_functions("spec", &model.bond_graph, &model.functions);
         assert!(found.is_empty(), "{}: {}", path.display(), explain(&found));
     }
@@ -201,7 +201,7 @@ fn a_difference_names_all_that_is_needed_to_see_it() {
 fn a_mechanism_without_coordinates_passes() {
     let text = "format: 1\nlinks:\n  - name: post\n    joint: { type: fixed, origin: { xyz: [1, 2, 3] } }\n    \
                 mass: 2\n    com: [0.1, 0, 0.3]\n";
-    let model = bgdyn_codegen::pipeline::model(mechanism(text, "post"), &all()).expect("a model");
+    let model = bgdyn_codegen::selection::model(mechanism(text, "post"), &all()).expect("a model");
     let found = check_functions("post", &model.bond_graph, &model.functions);
     assert!(found.is_empty(), "{}", explain(&found));
 }
@@ -209,8 +209,9 @@ fn a_mechanism_without_coordinates_passes() {
 /// The step of the pipeline between the model and its text.
 #[test]
 fn a_wrong_function_refuses_the_module_unless_told_not_to_look() {
-    use bgdyn_codegen::pipeline::{model, verify};
+    use bgdyn_codegen::pipeline::verify;
     use bgdyn_codegen::refusal::Refusal;
+    use bgdyn_codegen::selection::model;
     let path = &files("specs", "scara.yaml")[0];
     let mut model = model(mechanism(&text(path), "scara"), &Options::default()).expect("a model");
     assert_eq!(verify(&model, &Options::default()), Ok(()));

@@ -159,7 +159,7 @@ fn a_turned_sign_is_found_in_every_function_of_a_scene() {
 /// Each method alone, with the sign of one of its outputs changed.
 #[test]
 fn a_turned_sign_is_found_in_every_method() {
-    let model = bgdyn_codegen::pipeline::model(mechanism(ARM, "arm"), &all()).expect("a model");
+    let model = bgdyn_codegen::selection::model(mechanism(ARM, "arm"), &all()).expect("a model");
     let state = |n: usize, from: f64| {
         (0..n)
             .map(|k| Dd::from_f64(from + 0.4 * k as f64))

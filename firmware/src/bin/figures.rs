@@ -17,6 +17,13 @@ use firmware::measure::{Counter, double_precision, stack};
 use firmware::subject::{Function, Generated, Out, Plain, Subject, functions};
 use textbook::{Body, Textbook};
 
+use random::Random;
+
+// That of the generator, which the boards do not depend on.
+#[allow(dead_code)]
+#[path = "../../../bgdyn-codegen/src/random.rs"]
+mod random;
+
 /// Largest number of instructions of generated functions in `f32`.
 const BARS: [(&str, &str, u32); 2] = [
     ("scara", "inverse dynamics", 350),
@@ -184,7 +191,7 @@ impl<const N: usize> Arm<'_, N> {
         for k in 0..STATES {
             let mut record = self.record(&mut random);
             if k % 4 == 3 {
-                record.q[1] = 3e5 * random.next() as f32;
+                record.q[1] = 3e5 * random.signed() as f32;
             }
             for ((name, a), (_, b)) in a.iter().zip(&b) {
                 let (mut x, mut y) = (Out::default(), Out::default());
@@ -248,7 +255,7 @@ impl<const N: usize> Arm<'_, N> {
 
     /// Returns a random state: any angle, ±0.3 m; rates and accelerations within ±2, efforts within ±10.
     fn record<T: Scalar>(&self, random: &mut Random) -> Record<T, N> {
-        let mut joints = |size: f64| [(); N].map(|()| size * random.next());
+        let mut joints = |size: f64| [(); N].map(|()| size * random.signed());
         let mut q = joints(core::f64::consts::PI);
         for (q, &slides) in q.iter_mut().zip(&self.slides) {
             *q *= if slides { 0.1 } else { 1.0 };
@@ -262,18 +269,5 @@ impl<const N: usize> Arm<'_, N> {
             v: joints(2.0).map(T::from_f64),
             tau: joints(10.0).map(T::from_f64),
         }
-    }
-}
-
-/// Uniformly distributed numbers: xorshift (Marsaglia 2003).
-struct Random(u32);
-
-impl Random {
-    /// Returns a number in [−1, 1).
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 17;
-        self.0 ^= self.0 << 5;
-        f64::from(self.0 as i32) / f64::from(1_u32 << 31)
     }
 }

@@ -37,7 +37,7 @@ impl Eval {
         })?;
         let parameters = parameters(&system.scene.parameters, &self.parameters)?;
         let states = states(&self.states)?;
-        let engine = self.engine.engine_for(states.len())?;
+        let engine = self.engine.engine()?;
         let prepare = |role| engine.prepare(&system.function(role));
         let call = SceneCall {
             system,
@@ -49,8 +49,9 @@ impl Eval {
                 .then(|| prepare(SceneFunction::Inputs)),
             names: SceneNames::of(system),
         };
+        self.report(call.result_names(), &states, |state| call.value(state))?;
         self.engine.tell(&*call.function);
-        self.report(call.result_names(), &states, |state| call.value(state))
+        Ok(())
     }
 }
 

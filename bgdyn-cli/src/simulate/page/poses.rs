@@ -6,7 +6,7 @@ use bgdyn_codegen::math::{Mat3, Vec3, rodrigues};
 use bgdyn_codegen::mechanism::Motion;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::function;
+use bgdyn_codegen::selection::function;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Dd;

@@ -35,7 +35,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
             frames: Some(vec![]),
             ..Options::default()
         };
-        let model = bgdyn_codegen::pipeline::model(mechanism, &options).expect("known methods");
+        let model = bgdyn_codegen::selection::model(mechanism, &options).expect("known methods");
         let place = OutputOptions::source_text(format!("{name}.yaml"));
         let place = place.with_module(&name).expect("a name");
         let source = out.join(format!("loop_{name}.rs"));

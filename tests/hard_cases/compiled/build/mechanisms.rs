@@ -177,7 +177,7 @@ pub(crate) fn write(root: &Path, out: &Path) -> String {
             ..Options::default()
         };
         let model =
-            bgdyn_codegen::pipeline::model(mechanism, &options).expect("the methods of the trait");
+            bgdyn_codegen::selection::model(mechanism, &options).expect("the methods of the trait");
         let place = OutputOptions::source_text(format!("{name}.yaml"));
         let place = place.with_module(&name).expect("a name");
         let (spec, source) = (

@@ -10,8 +10,8 @@ use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::scene_functions;
 use bgdyn_codegen::read_scene;
+use bgdyn_codegen::selection::scene_functions;
 use bgdyn_codegen::system::SceneEquations;
 
 use crate::arm::{ALL, TENSOR, mechanism};

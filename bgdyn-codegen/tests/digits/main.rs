@@ -1,0 +1,9 @@
+//! Tests of lost digits, single hard states, and any argument.
+
+mod accuracy;
+mod bars;
+#[path = "../common/mod.rs"]
+mod common;
+mod guard;
+mod hard_cases;
+mod limits;

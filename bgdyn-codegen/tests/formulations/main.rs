@@ -1,0 +1,15 @@
+//! Tests that formulations equal each other and obey the laws of mechanics.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod derivatives_vs_literal;
+mod laws;
+mod long_chains;
+mod massless;
+mod motions;
+mod no_moving_joint;
+mod noisy_axes;
+mod parameters;
+mod properties;
+mod regressions;
+mod singular;

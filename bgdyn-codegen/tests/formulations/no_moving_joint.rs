@@ -1,0 +1,35 @@
+//! Checks that a mechanism without a moving joint is accepted, and all its methods can be generated.
+
+use bgdyn_codegen::emit::OutputOptions;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::generate_module;
+use bgdyn_codegen::read;
+
+const TEXT: &str = "
+format: 1
+links:
+  - name: bench
+    mass: 3
+    com: [0, 0, 2]
+frames:
+  - { name: vice, link: bench, origin: { xyz: [1, 0, 0] } }
+";
+
+#[test]
+fn everything_is_generated() {
+    let options = Options {
+        derivatives: true,
+        ..Options::default()
+    };
+    let place = OutputOptions::source_text("still.yaml".into());
+    let (tokens, _) = generate_module(TEXT, "still", &place, &options, |path| Err(path.into()))
+        .expect("no fault");
+    assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
+    let (mechanism, _) = read(TEXT, Some("still"));
+    let model = bgdyn_codegen::selection::model(mechanism.expect("no fault"), &options)
+        .expect("nothing unknown");
+    let energy = model.function(Method::PotentialEnergy).expect("a method");
+    let (value, _) = energy.evaluate::<f64>(Default::default());
+    assert!((value[0] - 3.0 * 9.81 * 2.0).abs() < 1e-12);
+}

@@ -1,0 +1,8 @@
+//! Tests against values from outside of the generator, and against the equations as printed.
+
+#[path = "../common/mod.rs"]
+mod common;
+mod golden;
+mod golden_poses;
+mod lagrange_oracle;
+mod paper_oracle;

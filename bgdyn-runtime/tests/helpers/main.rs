@@ -1,0 +1,12 @@
+//! Tests of what generated code calls: rotations, inertias, poses, inner products, blocks at rest.
+
+#[path = "../exact/mod.rs"]
+mod exact;
+mod pose;
+mod products;
+// That of the generator, whose crate depends on this one.
+#[allow(dead_code)]
+#[path = "../../../bgdyn-codegen/src/random.rs"]
+mod random;
+mod rotations;
+mod stiction;
