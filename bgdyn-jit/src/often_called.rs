@@ -7,7 +7,7 @@ use bgdyn_codegen::engine::{CallArguments, Callable, Engine, Status};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::tape::Tape;
 
-use super::Jit;
+use crate::jit::Jit;
 
 /// The engine for runs of unknown length: a function is computed by the tape at first, and by machine code from a given
 /// call on. Bits do not depend on it.
