@@ -77,7 +77,8 @@ impl Formulation for Subspaces {
     }
 }
 
-fn outputs<'g>(
+/// Returns the results of a method at these arguments; `None` if this formulation does not know it.
+pub(super) fn outputs<'g>(
     b: &'g Builder,
     graph: &Multibody,
     method: Method,

@@ -32,6 +32,8 @@ pub struct ChainStep {
     pub axis: Vec3<Dd>,
     /// Its positions and velocities in the open tree.
     pub degrees: Degrees,
+    /// The columns of other velocities in place of those of its joint, in link axes at the link's origin.
+    pub columns: Option<Vec<(CoordinateId, Column<Dd>)>>,
 }
 
 /// The joints of a loop in series, and its places on the first and the last link.
@@ -316,7 +318,8 @@ impl ChainStep {
         numbers: &impl PoseNumbers<E>,
     ) -> Vec<(CoordinateId, Column<E>)> {
         let link = rotations[usize::from(self.outward)];
-        let all = self.degrees.columns(self.motion, self.axis).into_iter();
+        let own = || self.degrees.columns(self.motion, self.axis);
+        let all = self.columns.clone().unwrap_or_else(own).into_iter();
         all.map(|(j, column)| {
             let turned = |v: Vec3<Dd>| {
                 let v = if self.outward { v } else { -v };

@@ -94,5 +94,6 @@ pub(super) fn step(tree: Tree<'_>, link: LinkId, outward: bool) -> ChainStep {
         motion: joint.kind.motion,
         axis: joint.axis,
         degrees: joint.degrees.clone(),
+        columns: None,
     }
 }
