@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::keep_digits::{CheckedCandidate, check, sort};
-use crate::bond_graph::{BondGraph, with_moved_masses};
+use crate::bond_graph::{BondGraph, FreeBase, with_moved_masses};
 use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
 use crate::formulation::{
     Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared, create,
@@ -36,6 +36,8 @@ pub struct Choice<'a> {
     tree: Option<Box<Choice<'a>>>,
     /// The open tree with masses moved across the pins of planar loops.
     moved: Option<Box<BondGraph>>,
+    /// The open tree on a free base.
+    free_base: Option<Box<BondGraph>>,
     /// Whether formulations may compute dependent positions of loops.
     closes_loops: bool,
     /// The choice without such formulations: derivatives are along all positions.
@@ -60,6 +62,7 @@ impl<'a> Choice<'a> {
 
     /// Does the same without formulations that compute dependent positions of loops: all functions read these.
     pub fn by_elimination(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
+        let free_base = graph.closed.as_deref().and_then(FreeBase::new);
         Choice {
             prepared: Prepared::new(graph),
             asked,
@@ -69,6 +72,7 @@ impl<'a> Choice<'a> {
             tree: (graph.closed.as_deref())
                 .map(|closed| Box::new(Choice::new(&closed.tree, asked))),
             moved: None,
+            free_base: free_base.map(|base| Box::new(base.graph)),
             closes_loops: false,
             eliminated: OnceCell::new(),
         }
@@ -201,6 +205,13 @@ impl<'a> Choice<'a> {
                 && let Some(function) = Choice::new(moved, self.asked).function(other)
             {
                 self.prepared.set_moved_tree_function(other, function);
+            }
+        }
+        for other in formulation.reads_of_free_base(method) {
+            if let (Some(graph), None) = (&self.free_base, self.prepared.function_on_free_base(other))
+                && let Some(function) = Choice::new(graph, self.asked).function(other)
+            {
+                self.prepared.set_function_on_free_base(other, function);
             }
         }
         create(formulation, &self.prepared, method)

@@ -2,29 +2,29 @@
 //!
 //! The open tree of a vehicle often begins with joints of links without mass: heading, height, lean, pitch. The velocities
 //! of its base, the first link with mass, are sums of their rates with coefficients that turn; its twist w in its own
-//! axes takes their place here ([`tree`]). The bodies then do not depend on the pose of the base but for the
-//! direction of gravity, the rows of wheels have constant pivots, and the axes of all links are along those of joints
-//! ([`axes`]). The independent velocities u remain: ω = Σ a_j θ̇_j are further rows, with the rates θ̇_j of the
+//! axes takes their place here ([`crate::bond_graph::FreeBase`]). The bodies then do not depend on the pose of the base but for the
+//! direction of gravity, the rows of wheels have constant pivots, and the axes of all links are along those of
+//! joints. The independent velocities u remain: ω = Σ a_j θ̇_j are further rows, with the rates θ̇_j of the
 //! replaced joints as further velocities ([`rows`]). q̇ = S u, q̈ = S u̇ + z and Sᵀ·(6) are as in [`super::loops`], with
 //! w and θ̇ in q̇; efforts act along u alone.
 
-mod axes;
 mod rows;
-mod tree;
+
+use std::rc::Rc;
 
 use bgdyn_runtime::Dd;
-use rows::BaseRows;
-use tree::BaseTree;
+use rows::{BaseRows, row_axes};
 
 use super::arguments::Arguments;
 use super::loop_methods::{entries, minus, reduced};
 use super::loop_rows::LoopForm;
 use super::velocity_map::VelocityMap;
-use super::{Formulation, Offer, Prepared, solve, subspaces};
-use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
-use crate::expr::{Builder, Expr, Signed};
-use crate::function::Function;
+use super::{Formulation, Offer, Prepared, solve};
+use crate::bond_graph::{BondGraph, FreeBase, LinkFrame, Multibody};
+use crate::expr::{Builder, Expr, Leaf, Signed, copy_into};
+use crate::function::{Function, in_triangle};
 use crate::method::Method;
+use crate::mechanism::closure::ContactAxes;
 use crate::passes::factor;
 
 /// The tree in the twist of its base, with dependent velocities eliminated.
@@ -46,20 +46,23 @@ impl Formulation for BaseTwist {
     fn serves(&self, graph: &BondGraph) -> bool {
         let closed = graph.closed.as_deref().filter(|closed| closed.closure.nonholonomic());
         closed.is_some_and(|closed| {
-            BaseTree::new(closed).is_some_and(|tree| BaseRows::new(closed, &tree, false).is_some())
+            FreeBase::new(closed).is_some_and(|tree| BaseRows::new(closed, &tree, &[]).is_some())
         })
     }
 
     fn knows(&self, method: Method) -> bool {
-        matches!(
-            method,
-            Method::InverseDynamics
-                | Method::Bias
-                | Method::Gravity
-                | Method::MassMatrix
-                | Method::ForwardDynamics
-                | Method::KineticEnergy
-        )
+        !self.reads_of_free_base(method).is_empty()
+    }
+
+    fn reads_of_free_base(&self, method: Method) -> Vec<Method> {
+        match method {
+            Method::InverseDynamics | Method::Bias | Method::Gravity => {
+                vec![Method::InverseDynamics]
+            }
+            Method::ForwardDynamics => vec![Method::InverseDynamics, Method::MassMatrix],
+            Method::MassMatrix | Method::KineticEnergy => vec![method],
+            _ => vec![],
+        }
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
@@ -67,12 +70,17 @@ impl Formulation for BaseTwist {
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
-        let graph = prepared.graph;
-        let tree = BaseTree::new(graph.closed.as_deref()?)?;
-        let leans = graph.closed.as_deref()?.closure.along_planes.is_some();
-        let forms = [(false, false), (true, false), (false, true), (true, true)];
-        let forms = forms.into_iter().filter(|(_, planes)| leans || !planes);
-        let made = forms.filter_map(|form| function(graph, &tree, method, form));
+        let closed = prepared.graph.closed.as_deref()?;
+        let tree = FreeBase::new(closed)?;
+        let forms = row_axes(&closed.closure).into_iter();
+        let forms = forms.flat_map(|axes| {
+            [false, true].map(|other| BaseForm {
+                by_vectors: other && !has_mass(method),
+                in_stages: other && has_mass(method),
+                axes: axes.clone(),
+            })
+        });
+        let made = forms.filter_map(|form| function(prepared, &tree, method, &form));
         // As for loops: see `Elimination`.
         let chosen =
             made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
@@ -80,35 +88,52 @@ impl Formulation for BaseTwist {
     }
 }
 
-/// Returns the function of a method in one form, by vectors and with rows along planes or not, and its number of pivots
-/// that others follow.
+/// A way to write a function.
+struct BaseForm {
+    /// Whether S u and Sᵀ f are computed without the matrix S.
+    by_vectors: bool,
+    /// Whether M is reduced in stages: by the rows that give the velocity of the base first.
+    in_stages: bool,
+    /// The axes of the rows of each contact, if others than usual.
+    axes: Vec<Option<ContactAxes>>,
+}
+
+fn has_mass(method: Method) -> bool {
+    matches!(method, Method::MassMatrix | Method::ForwardDynamics)
+}
+
+/// Returns the function of a method in one form, and its number of pivots that others follow.
 fn function(
-    graph: &BondGraph,
-    tree: &BaseTree,
+    prepared: &Prepared<'_>,
+    tree: &FreeBase,
     method: Method,
-    (by_vectors, along_planes): (bool, bool),
+    form: &BaseForm,
 ) -> Option<(Function, usize)> {
+    let graph = prepared.graph;
     let closed = graph.closed.as_deref()?;
-    let rows = BaseRows::new(closed, tree, along_planes)?;
+    let rows = BaseRows::new(closed, tree, &form.axes)?;
     let b = Builder::new();
     let early;
     let outputs: Vec<Signed> = {
         let x = Arguments::new(&b, graph, method);
         let checked = method.shape().checked();
-        let form = LoopForm {
-            by_vectors,
+        let rows_form = LoopForm {
+            by_vectors: form.by_vectors,
             first_pivot: checked.then_some(graph.coordinates.len()),
             ..LoopForm::default()
         };
-        let rates = rows.rates(&b, &x.q, form);
-        let map = VelocityMap::new(&b, &rows.all, (rates, form), form.first_pivot);
+        let rates = rows.rates(&b, &x.q, rows_form);
+        let map = VelocityMap::new(&b, &rows.all, (rates, rows_form), rows_form.first_pivot);
         early = map.early_pivots();
         let velocities = map.velocities(&x.v);
-        let bias = rows.bias(&b, (&x.q, &velocities), form);
+        let bias = rows.bias(&b, (&x.q, &velocities), rows_form);
         let gravity = rows.of_base(&b, &x.q, closed.tree.gravity).0;
+        let of_tree = |method: Method| prepared.function_on_free_base(method);
         let motion = BaseMotion {
             b: &b,
             tree,
+            in_stages: form.in_stages,
+            of_tree: &of_tree,
             map,
             velocities,
             bias,
@@ -125,7 +150,10 @@ fn function(
 /// The motion of the tree, in the twist of its base.
 struct BaseMotion<'a, 'g> {
     b: &'g Builder,
-    tree: &'a BaseTree,
+    tree: &'a FreeBase,
+    in_stages: bool,
+    /// Returns the function of a method of the tree.
+    of_tree: &'a dyn Fn(Method) -> Option<Rc<Function>>,
     map: VelocityMap<'a, 'g>,
     /// S u
     velocities: Vec<Expr<'g>>,
@@ -140,60 +168,102 @@ impl<'g> BaseMotion<'_, 'g> {
         let b = self.b;
         let still = vec![b.zero(); self.map.independents()];
         Some(match method {
-            Method::InverseDynamics => self.map.efforts(&self.efforts(x, &x.a)?),
-            Method::Bias => self.map.efforts(&self.efforts(x, &still)?),
+            Method::InverseDynamics => self.map.efforts(&self.efforts(&x.a)?),
+            Method::Bias => self.map.efforts(&self.efforts(&still)?),
             Method::Gravity => {
                 let nothing = vec![b.zero(); self.velocities.len()];
-                self.map.efforts(&self.tree_efforts(x, nothing)?)
+                self.map.efforts(&self.tree_efforts(nothing)?)
             }
-            Method::MassMatrix => entries(&self.mass_matrix(x)?),
+            Method::MassMatrix => entries(&self.mass_matrix()?),
             Method::ForwardDynamics => {
-                let bias = self.map.efforts(&self.efforts(x, &still)?);
-                solve::ltdl(b, self.mass_matrix(x)?, minus(&x.tau, &bias))
+                let bias = self.map.efforts(&self.efforts(&still)?);
+                solve::ltdl(b, self.mass_matrix()?, minus(&x.tau, &bias))
             }
-            Method::KineticEnergy => {
-                let arguments = self.arguments(x, self.velocities.clone());
-                subspaces::outputs(b, &self.tree.multibody, method, &arguments)?
-            }
+            Method::KineticEnergy => self.read(method, &[])?,
             _ => return None,
         })
     }
 
     /// Returns the efforts on the tree at q̈ = S u̇ + z.
-    fn efforts(&self, x: &Arguments<'g>, a: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
-        self.tree_efforts(x, self.map.accelerations(a, &self.bias))
+    fn efforts(&self, a: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
+        self.tree_efforts(self.map.accelerations(a, &self.bias))
     }
 
     /// Returns the efforts on the tree at these accelerations; those of further velocities are zero.
-    fn tree_efforts(&self, x: &Arguments<'g>, mut a: Vec<Expr<'g>>) -> Option<Vec<Expr<'g>>> {
+    fn tree_efforts(&self, mut a: Vec<Expr<'g>>) -> Option<Vec<Expr<'g>>> {
         for (j, g) in self.tree.linear.iter().zip(self.gravity) {
             a[j.0] = a[j.0] - g;
         }
-        let arguments = self.arguments(x, a);
-        let graph = &self.tree.multibody;
-        let mut all = subspaces::outputs(self.b, graph, Method::InverseDynamics, &arguments)?;
+        let mut all = self.read(Method::InverseDynamics, &a)?;
         all.resize(self.velocities.len(), self.b.zero());
         Some(all)
     }
 
     /// Returns the lower triangle of Sᵀ M S.
-    fn mass_matrix(&self, x: &Arguments<'g>) -> Option<Vec<Vec<Expr<'g>>>> {
-        let graph = &self.tree.multibody;
-        let arguments = self.arguments(x, Vec::new());
-        let mass = subspaces::outputs(self.b, graph, Method::MassMatrix, &arguments)?;
-        Some(reduced(self.b, &mass, &self.map.map[..graph.coordinates.len()]).reduced)
+    fn mass_matrix(&self) -> Option<Vec<Vec<Expr<'g>>>> {
+        let mass = self.read(Method::MassMatrix, &[])?;
+        let map = &self.map.map[..self.tree.graph.coordinates.len()];
+        if !self.in_stages {
+            return Some(reduced(self.b, &mass, map).reduced);
+        }
+        let (kept, mass) = without_translation(self.b, &mass, (self.map.rates(), self.tree))?;
+        let rows: Vec<Vec<Expr<'g>>> = kept.iter().map(|&j| map[j].clone()).collect();
+        Some(reduced(self.b, &mass, &rows).reduced)
     }
 
-    /// Returns the arguments of a function of the tree. The pose of the base enters none.
-    fn arguments(&self, x: &Arguments<'g>, a: Vec<Expr<'g>>) -> Arguments<'g> {
-        let neutral = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].map(|x| self.b.constant(Dd::from_f64(x)));
-        Arguments {
-            q: x.q.iter().copied().chain(neutral).collect(),
-            v: self.velocities.clone(),
-            a,
-            tau: Vec::new(),
-            active: true,
-            base: None,
+    /// Returns the results of a method of the tree at its velocities and these accelerations.
+    fn read(&self, method: Method, a: &[Expr<'g>]) -> Option<Vec<Expr<'g>>> {
+        let function = (self.of_tree)(method)?;
+        let signed = |all: &[Expr<'g>]| -> Vec<Signed> { all.iter().map(|x| x.signed()).collect() };
+        let (velocities, accelerations) = (signed(&self.velocities), signed(a));
+        let leaf = |leaf: Leaf| match leaf {
+            Leaf::Velocity(j) => Some(velocities[j]),
+            Leaf::Acceleration(j) => accelerations.get(j).copied(),
+            _ => None,
+        };
+        let outputs = &function.blocks[0].outputs;
+        let copied = self
+            .b
+            .with_graph(|g| copy_into(g, &function.graph, outputs, |_, l| leaf(l)));
+        Some(copied.into_iter().map(|e| self.b.expr(e)).collect())
+    }
+}
+
+/// Returns the other velocities of the tree than those of the base along its axes, and the lower triangle of M for them,
+/// if rows give these: v = V w with one row for each. With the parts of M it is M_ww + M_wv V + Vᵀ (M_vw + M_vv V).
+/// `None` without such rows.
+fn without_translation<'g>(
+    b: &'g Builder,
+    mass: &[Expr<'g>],
+    (rates, tree): (&[Vec<Expr<'g>>], &FreeBase),
+) -> Option<(Vec<usize>, Vec<Expr<'g>>)> {
+    let linear = tree.linear.map(|j| j.0);
+    let gives = |k: usize| {
+        let only = |row: &&Vec<Expr<'g>>| {
+            let one = row[k].as_constant() == Some(Dd::ONE);
+            one && linear.iter().all(|&other| other == k || row[other].is_zero())
+        };
+        rates.iter().find(only)
+    };
+    let rows = [gives(linear[0])?, gives(linear[1])?, gives(linear[2])?];
+    let all = 0..tree.graph.coordinates.len();
+    let kept: Vec<usize> = all.filter(|j| !linear.contains(j)).collect();
+    let entry = |i: usize, j: usize| mass[in_triangle(i.max(j), i.min(j))];
+    // M_vw + M_vv V
+    let momentum = |k: usize, j: usize| {
+        let moved = (0..3).map(|l| entry(linear[k], linear[l]) * -rows[l][j]);
+        moved.fold(entry(linear[k], j), |sum, x| sum + x)
+    };
+    let mut lower = Vec::new();
+    for (i, &own) in kept.iter().enumerate() {
+        for &other in &kept[..=i] {
+            let mut sum = entry(own, other);
+            for k in 0..3 {
+                sum = sum - entry(own, linear[k]) * rows[k][other];
+                sum = sum - rows[k][own] * momentum(k, other);
+            }
+            lower.push(sum);
         }
     }
+    Some((kept, lower))
 }

@@ -2,16 +2,18 @@
 
 use bgdyn_runtime::Dd;
 
-use super::axes::snap;
-use super::tree::{BaseTree, tidy};
-use crate::bond_graph::ClosedTree;
+use crate::bond_graph::{ClosedTree, FreeBase, snap, tidy};
 use crate::expr::{Builder, Expr};
 use crate::formulation::loop_rows::{LoopForm, LoopRows, loop_bias, loop_rows};
 use crate::math::Vec3;
 use crate::mechanism::closure::{
-    Closure, ClosureBlock, ContactShape, KinematicLoop, LoopChain, LoopRow, TwistPoint,
+    Closure, ClosureBlock, ContactAxes, ContactRow, ContactShape, DISC_ROWS, KinematicLoop, LoopChain, LoopRow, RowKind,
+    TwistPoint,
 };
 use crate::mechanism::{CoordinateId, Motion, Pose};
+
+/// The largest number of ways to write rows that are compared.
+const MOST_WAYS: usize = 9;
 
 /// The contacts, and the relation of the base's angular velocity to the rates of the joints that its free joint replaces,
 /// ω = Σ a_j θ̇_j. The rates θ̇_j are further velocities, after those of the tree.
@@ -29,18 +31,25 @@ pub(super) struct BaseRows {
 impl BaseRows {
     /// Returns the rows; `None` if a contact is none of a link that the base carries with a plane at rest, or an
     /// independent velocity is that of a translation that the free joint replaces.
-    pub fn new(closed: &ClosedTree, tree: &BaseTree, along_planes: bool) -> Option<Self> {
+    pub fn new(
+        closed: &ClosedTree,
+        tree: &FreeBase,
+        axes: &[Option<ContactAxes>],
+    ) -> Option<Self> {
         let own = &closed.closure;
         let graph = &closed.tree.multibody;
         let nt = own.positions.len();
         let mut contacts = own.clone();
         contacts.along_planes = None;
-        contacts.of_plane = along_planes;
+        contacts.of_plane = false;
         contacts.combined = Vec::new();
         contacts.constants = Vec::new();
         contacts.positions = vec![None; nt + tree.turns.len()];
         let moved = |one: &KinematicLoop| contact(closed, tree, one);
         contacts.loops = own.loops.iter().map(moved).collect::<Option<_>>()?;
+        for (one, &axes) in contacts.loops.iter_mut().zip(axes) {
+            one.contact.as_mut()?.solved = axes;
+        }
         let replaced = |j: &CoordinateId| {
             let merged = !tree.turns.is_empty();
             merged && (tree.linear.contains(j) || tree.angular.contains(j))
@@ -124,8 +133,44 @@ impl BaseRows {
     }
 }
 
+/// Returns the ways to write the rows of all contacts: for each one in the axes of its link, along its plane, or those
+/// of its wheel.
+pub(super) fn row_axes(closure: &Closure) -> Vec<Vec<Option<ContactAxes>>> {
+    let ways = |closes: usize| -> Vec<Option<ContactAxes>> {
+        let one = &closure.loops[closes];
+        let has = |row: ContactRow| {
+            let mut rows = closure.rows.iter();
+            rows.any(|r| r.closes == closes && r.kind == RowKind::Contact(row))
+        };
+        let whole = DISC_ROWS.iter().all(|(_, row)| has(*row));
+        match one.contact.as_ref().map(|contact| (contact.shape, contact.crown)) {
+            Some((ContactShape::Disc(_), crown)) if whole && crown == Dd::ZERO => {
+                let all = [ContactAxes::Link, ContactAxes::Wheel, ContactAxes::Plane];
+                all.map(Some).to_vec()
+            }
+            Some((ContactShape::Disc(_), _)) => vec![None, Some(ContactAxes::Plane)],
+            _ => vec![None],
+        }
+    };
+    let mut all: Vec<Vec<Option<ContactAxes>>> = vec![Vec::new()];
+    for one in 0..closure.loops.len() {
+        let ways = ways(one);
+        let longer = |with: &Vec<Option<ContactAxes>>| {
+            let with = with.clone();
+            ways.clone().into_iter().map(move |way| with.iter().copied().chain([way]).collect())
+        };
+        all = all.iter().flat_map(longer).collect();
+        // Of many contacts all in the same way.
+        if all.len() > MOST_WAYS {
+            let same = |all: &Vec<Option<ContactAxes>>| all.windows(2).all(|w| w[0] == w[1]);
+            all.retain(same);
+        }
+    }
+    all
+}
+
 /// Returns a contact on the link that carries its axle, not before the base, in the new axes.
-fn contact(closed: &ClosedTree, tree: &BaseTree, one: &KinematicLoop) -> Option<KinematicLoop> {
+fn contact(closed: &ClosedTree, tree: &FreeBase, one: &KinematicLoop) -> Option<KinematicLoop> {
     let graph = &closed.tree.multibody;
     let mut moved = one.clone();
     let contact = moved.contact.as_mut()?;

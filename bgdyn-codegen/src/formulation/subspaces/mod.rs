@@ -77,8 +77,7 @@ impl Formulation for Subspaces {
     }
 }
 
-/// Returns the results of a method at these arguments; `None` if this formulation does not know it.
-pub(super) fn outputs<'g>(
+fn outputs<'g>(
     b: &'g Builder,
     graph: &Multibody,
     method: Method,

@@ -1,28 +1,31 @@
-//! The open tree on its base: the first link that can move in every way.
+//! The open tree on a free base: the first link that can move in every way.
 //!
 //! The joints from the world to the base are replaced by one free joint. Its velocities are the twist of the base in
-//! its own axes: in these the inertia of the tree does not depend on where the base is. A wheel that is a body of
-//! revolution about the axis of its joint turns as a rotor: the link that carries it has its mass and inertia at any
-//! angle, and a unit rate has the momentum C n about its axle n.
+//! its own axes: in these the inertia of the tree does not depend on where the base is, and gravity alone depends on
+//! its direction; it is left out. The axes of the links are along those of joints ([`axes`]).
 
+mod axes;
+
+pub use axes::snap;
+use axes::{Base, link_axes};
 use bgdyn_runtime::Dd;
 
-use super::axes::{Base, link_axes, snap};
-use crate::bond_graph::{ClosedTree, Gyrostat, LinkFrame, Multibody, Rotor};
-use crate::math::{Mat3, Vec3};
+use super::build::connected;
+use super::{BondGraph, ClosedTree, LinkFrame, Multibody, PositionVariable};
+use crate::math::Vec3;
 use crate::mechanism::closure::{ChainStep, LoopChain};
 use crate::mechanism::joint::{Column, floating};
-use crate::mechanism::{CoordinateId, Degrees, Inertial, LinkId, Motion, Pose, PositionId, Value};
+use crate::mechanism::{
+    CoordinateId, Degrees, Inertial, LinkId, Motion, Pose, PositionId, Value,
+};
 
 const ZERO: Value = Value::Fixed(Dd::ZERO);
 
-/// Relative to the inertia of a wheel, what differs from that of a body of revolution by rounding alone.
-const ROUNDING: f64 = 1e-24;
-
 /// The open tree of a mechanism with contacts, on a free base.
-pub(super) struct BaseTree {
-    /// The bodies; its base has no gravity, and seven positions that no function reads.
-    pub multibody: Multibody,
+#[derive(Clone, Debug)]
+pub struct FreeBase {
+    /// Its graph, without gravity. The free joint has seven positions after those of the tree, which no function reads.
+    pub graph: BondGraph,
     /// The links from the world to the base, which is the last one.
     pub path: Vec<LinkId>,
     /// The velocities of the tree that are those of the base along its axes, and about them.
@@ -35,7 +38,7 @@ pub(super) struct BaseTree {
     pub axes: Vec<Pose>,
 }
 
-impl BaseTree {
+impl FreeBase {
     /// Returns the tree on its base; `None` if no link can move in every way before one with inertia.
     pub fn new(closed: &ClosedTree) -> Option<Self> {
         let graph = &closed.tree.multibody;
@@ -54,18 +57,15 @@ impl BaseTree {
                 places: &places,
             },
         );
-        let mut tree = BaseTree {
-            multibody: graph.clone(),
+        let multibody = FreeTree { graph, path: &path, velocities: (linear, angular), axes: &axes }.multibody();
+        Some(FreeBase {
+            graph: connected(multibody),
             turns: if merged { angular.to_vec() } else { Vec::new() },
             path,
             linear,
             angular,
             axes,
-        };
-        tree.multibody.gravity = Vec3([Dd::ZERO; 3]);
-        tree.set_frames(graph);
-        tree.set_bodies(graph);
-        Some(tree)
+        })
     }
 
     /// Returns the base.
@@ -73,14 +73,9 @@ impl BaseTree {
         self.path[self.path.len() - 1]
     }
 
-    /// Returns the number of positions before those of the free joint.
-    pub fn first_position(&self) -> usize {
-        self.multibody.positions.len()
-    }
-
     /// Returns the step from a link that the base carries to its parent, in the new axes.
     pub fn step(&self, link: LinkId) -> ChainStep {
-        let frame = &self.multibody.frames[link.0];
+        let frame = &self.graph.frames[link.0];
         step(link, frame, None)
     }
 
@@ -110,79 +105,98 @@ impl BaseTree {
             end: Pose::IDENTITY,
         }
     }
+}
 
-    fn set_frames(&mut self, graph: &Multibody) {
-        let base = self.base();
-        let first = self.first_position();
-        for (i, frame) in self.multibody.frames.iter_mut().enumerate() {
-            let own = LinkId(i) == base;
-            let replaced = self.path.contains(&LinkId(i)) && !own;
-            if replaced || own {
+/// What the tree on a free base is made of.
+struct FreeTree<'a> {
+    /// The open tree.
+    graph: &'a Multibody,
+    path: &'a [LinkId],
+    velocities: ([CoordinateId; 3], [CoordinateId; 3]),
+    axes: &'a [Pose],
+}
+
+impl FreeTree<'_> {
+    fn multibody(&self) -> Multibody {
+        let mut made = self.graph.clone();
+        made.gravity = Vec3([Dd::ZERO; 3]);
+        self.set_frames(&mut made);
+        self.set_joint(&mut made);
+        self.set_bodies(&mut made);
+        made
+    }
+
+    fn base(&self) -> LinkId {
+        self.path[self.path.len() - 1]
+    }
+
+    /// Sets the frames of the links in their new axes.
+    fn set_frames(&self, made: &mut Multibody) {
+        for (i, frame) in made.frames.iter_mut().enumerate() {
+            let replaced = self.path.contains(&LinkId(i));
+            if let (false, Some(parent)) = (replaced, frame.parent) {
+                let origin = self.axes[parent.0].inverse().of(frame.origin);
+                frame.origin = tidy(origin.of(self.axes[i]));
+                frame.axis = (self.axes[i].rotation.transpose() * frame.axis).map(snap);
+            } else if replaced {
                 frame.parent = None;
                 frame.origin = Pose::IDENTITY;
                 frame.coordinate = None;
                 frame.degrees = Degrees::default();
                 frame.motion = Motion::None;
             }
-            if own {
-                frame.motion = floating().motion;
-                let velocities = self.linear.into_iter().chain(self.angular);
-                frame.degrees.velocities = velocities.collect();
-                frame.degrees.positions = (first..first + 7).map(PositionId).collect();
-            } else if let (false, Some(parent)) = (replaced, graph.frames[i].parent) {
-                let origin = self.axes[parent.0].inverse().of(frame.origin);
-                frame.origin = tidy(origin.of(self.axes[i]));
-                frame.axis = (self.axes[i].rotation.transpose() * frame.axis).map(snap);
-            }
+        }
+    }
+
+    /// Sets the free joint.
+    fn set_joint(&self, made: &mut Multibody) {
+        let (linear, angular) = self.velocities;
+        let (base, motion) = (self.base(), floating().motion);
+        let first = made.positions.len();
+        for k in 0..7 {
+            made.positions.push(PositionVariable {
+                name: format!("base_{k}"),
+                link: base,
+                unit: if k < 3 { "m" } else { "" },
+                coordinate: None,
+            });
+        }
+        let frame = &mut made.frames[base.0];
+        frame.motion = motion;
+        frame.degrees.velocities = linear.into_iter().chain(angular).collect();
+        frame.degrees.positions = (first..first + 7).map(PositionId).collect();
+        for j in linear.into_iter().chain(angular) {
+            let coordinate = &mut made.coordinates[j.0];
+            coordinate.link = base;
+            coordinate.motion = motion;
+            coordinate.linear = linear.contains(&j);
         }
     }
 
     /// Adds each link with inertia as a body without joint, in its old axes.
-    fn set_bodies(&mut self, graph: &Multibody) {
-        let mut body_of: Vec<Option<LinkId>> = vec![None; graph.frames.len()];
+    fn set_bodies(&self, made: &mut Multibody) {
+        let graph = self.graph;
         for (i, frame) in graph.frames.iter().enumerate() {
             let link = LinkId(i);
             let inertial = graph.inertial(link);
-            self.multibody.inertials[i] = massless(inertial);
-            let carries = graph.rotors.iter().filter_map(|r| r.carrier.as_ref());
-            let carries = carries.filter(|carrier| carrier.link == link).count() > 0;
-            if !has_inertia(&inertial) && !carries {
+            made.inertials[i] = massless(inertial);
+            let carriers = made.rotors.iter_mut().filter_map(|r| r.carrier.as_mut());
+            let mut carriers = carriers.filter(|carrier| carrier.link == link).peekable();
+            if !has_inertia(&inertial) && carriers.peek().is_none() {
                 continue;
             }
-            let wheel = spin_inertia(graph, link).filter(|_| link != self.base() && !carries);
-            let (parent, origin) = match (wheel, frame.parent) {
-                (Some(_), Some(p)) => (p, self.axes[p.0].inverse().of(frame.origin)),
-                _ => (link, self.axes[i].inverse()),
-            };
-            let body = LinkId(self.multibody.frames.len());
-            body_of[i] = Some(body);
-            self.multibody.frames.push(LinkFrame {
-                parent: Some(parent),
-                origin: tidy(origin),
+            let body = LinkId(made.frames.len());
+            carriers.for_each(|carrier| carrier.link = body);
+            made.frames.push(LinkFrame {
+                parent: Some(link),
+                origin: tidy(self.axes[i].inverse()),
                 motion: Motion::None,
                 coordinate: None,
                 degrees: Degrees::default(),
                 hidden: true,
                 ..frame.clone()
             });
-            self.multibody.inertials.push(inertial);
-            if let (Some(inertia), Some(coordinate)) = (wheel, frame.coordinate) {
-                self.multibody.rotors.push(Rotor {
-                    coordinate,
-                    inertia: Value::Fixed(inertia),
-                    ratio: Value::Fixed(Dd::ONE),
-                    carrier: Some(Gyrostat {
-                        link: body,
-                        axis: frame.axis,
-                    }),
-                });
-            }
-        }
-        let old = graph.rotors.len();
-        for carrier in self.multibody.rotors[..old].iter_mut() {
-            if let Some(carrier) = &mut carrier.carrier {
-                carrier.link = body_of[carrier.link.0].unwrap_or(carrier.link);
-            }
+            made.inertials.push(inertial);
         }
     }
 }
@@ -257,7 +271,7 @@ fn step(
 }
 
 /// Returns a pose without rounding errors of zeros and ones.
-pub(super) fn tidy(pose: Pose) -> Pose {
+pub fn tidy(pose: Pose) -> Pose {
     Pose {
         rotation: pose.rotation.map(snap),
         translation: pose.translation.map(snap),
@@ -273,38 +287,4 @@ fn massless(mut inertial: Inertial) -> Inertial {
     inertial.com = Vec3([ZERO; 3]);
     inertial.inertia.entries = [ZERO; 6];
     inertial
-}
-
-/// Returns the moment of inertia about the axis of its joint of a link that is a body of revolution about it and
-/// carries no other link.
-fn spin_inertia(graph: &Multibody, link: LinkId) -> Option<Dd> {
-    let frame = &graph.frames[link.0];
-    let inertial = graph.inertial(link);
-    let carries = graph.frames.iter().any(|other| other.parent == Some(link));
-    let alone = frame.coordinate.is_some() && frame.degrees.coupling.is_none();
-    if carries || !alone || frame.motion != Motion::Rotation || inertial.varies() {
-        return None;
-    }
-    let number = |value: Value| match value {
-        Value::Fixed(x) => x,
-        Value::Parameter(_) => Dd::ZERO,
-    };
-    let [xx, yy, zz, xy, xz, yz] = inertial.inertia.entries.map(number);
-    let own = Mat3([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
-    let axes = inertial.inertia.axes;
-    let tensor = axes * own * axes.transpose();
-    let (axis, com) = (frame.axis, inertial.com.map(number));
-    let spin = axis.dot(tensor * axis);
-    let across = (xx + yy + zz - spin) * Dd::from_f64(0.5);
-    let round = Mat3::from_fn(|i, j| {
-        let one = if i == j { across } else { Dd::ZERO };
-        one + (spin - across) * axis.0[i] * axis.0[j]
-    });
-    let differs = |x: Dd, size: Dd| x.to_f64().abs() > ROUNDING * size.to_f64().abs();
-    let off = (tensor - round).0;
-    let arm = com.cross(axis);
-    let radius = frame.origin.translation.dot(frame.origin.translation) + Dd::ONE;
-    let is_round = off.iter().flatten().all(|&x| !differs(x, xx + yy + zz));
-    let centred = arm.0.iter().all(|&x| !differs(x, radius));
-    (is_round && centred).then_some(spin)
 }

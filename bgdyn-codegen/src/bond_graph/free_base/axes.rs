@@ -5,7 +5,7 @@
 
 use bgdyn_runtime::Dd;
 
-use crate::bond_graph::{LinkFrame, Multibody};
+use crate::bond_graph::multibody::{LinkFrame, Multibody};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Motion, Pose};
 
@@ -97,12 +97,12 @@ fn triad(directions: &[Vec3<Dd>]) -> Option<Mat3<Dd>> {
 }
 
 /// Returns a rotation with 0, 1 and −1 for components that differ from them by rounding.
-pub(super) fn snapped(rotation: Mat3<Dd>) -> Mat3<Dd> {
+fn snapped(rotation: Mat3<Dd>) -> Mat3<Dd> {
     rotation.map(snap)
 }
 
 /// Returns 0, 1 or −1 for a component that differs from them by rounding.
-pub(super) fn snap(x: Dd) -> Dd {
+pub fn snap(x: Dd) -> Dd {
     let near = Dd::from_f64(x.to_f64().round());
     match (x - near).to_f64().abs() < ROUNDING {
         true => near,
