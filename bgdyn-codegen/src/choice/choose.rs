@@ -36,8 +36,8 @@ pub struct Choice<'a> {
     tree: Option<Box<Choice<'a>>>,
     /// The open tree with masses moved across the pins of planar loops.
     moved: Option<Box<BondGraph>>,
-    /// The open tree on a free base.
-    free_base: Option<Box<BondGraph>>,
+    /// The open tree on each free base.
+    free_bases: Vec<BondGraph>,
     /// Whether formulations may compute dependent positions of loops.
     closes_loops: bool,
     /// The choice without such formulations: derivatives are along all positions.
@@ -62,17 +62,19 @@ impl<'a> Choice<'a> {
 
     /// Does the same without formulations that compute dependent positions of loops: all functions read these.
     pub fn by_elimination(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
-        let free_base = graph.closed.as_deref().and_then(FreeBase::new);
+        let closed = graph.closed.as_deref();
+        let wheels = closed.filter(|closed| closed.closure.nonholonomic());
+        let bases = wheels.map(FreeBase::all).unwrap_or_default().into_iter();
         Choice {
             prepared: Prepared::new(graph),
             asked,
             bounds: OnceCell::new(),
             forward: OnceCell::new(),
             open: RefCell::default(),
-            tree: (graph.closed.as_deref())
+            tree: closed
                 .map(|closed| Box::new(Choice::new(&closed.tree, asked))),
             moved: None,
-            free_base: free_base.map(|base| Box::new(base.graph)),
+            free_bases: bases.map(|base| base.graph).collect(),
             closes_loops: false,
             eliminated: OnceCell::new(),
         }
@@ -208,10 +210,15 @@ impl<'a> Choice<'a> {
             }
         }
         for other in formulation.reads_of_free_base(method) {
-            if let (Some(graph), None) = (&self.free_base, self.prepared.function_on_free_base(other))
-                && let Some(function) = Choice::new(graph, self.asked).function(other)
-            {
-                self.prepared.set_function_on_free_base(other, function);
+            for (base, graph) in self.free_bases.iter().enumerate() {
+                let known = self.prepared.function_on_free_base(base, other);
+                let make = || Choice::new(graph, self.asked).function(other);
+                if known.is_none()
+                    && let Some(function) = make()
+                {
+                    let prepared = &self.prepared;
+                    prepared.set_function_on_free_base((base, other), function);
+                }
             }
         }
         create(formulation, &self.prepared, method)

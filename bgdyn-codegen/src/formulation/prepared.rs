@@ -48,8 +48,8 @@ pub struct Prepared<'a> {
     of_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
     /// The same with masses moved across the pins of planar loops.
     of_moved_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
-    /// Functions of the open tree on a free base.
-    on_free_base: RefCell<BTreeMap<Method, Rc<Function>>>,
+    /// Functions of the open tree on each free base.
+    on_free_base: RefCell<BTreeMap<(usize, Method), Rc<Function>>>,
     /// The mechanism in which the prescribed joints are free.
     released: OnceCell<Option<Box<Prepared<'a>>>>,
 }
@@ -107,15 +107,20 @@ impl<'a> Prepared<'a> {
         self.of_moved_tree.borrow_mut().insert(method, function);
     }
 
-    /// Returns the function of a method of the open tree on a free base; `None` without such, and unless
+    /// Returns the function of a method of the open tree on the free base with this index; `None` without such, and unless
     /// [`super::Formulation::reads_of_free_base`] names the method.
-    pub fn function_on_free_base(&self, method: Method) -> Option<Rc<Function>> {
-        self.on_free_base.borrow().get(&method).cloned()
+    pub fn function_on_free_base(&self, base: usize, method: Method) -> Option<Rc<Function>> {
+        self.on_free_base.borrow().get(&(base, method)).cloned()
     }
 
     /// Stores the function of a method of the open tree on a free base.
-    pub(crate) fn set_function_on_free_base(&self, method: Method, function: Rc<Function>) {
-        self.on_free_base.borrow_mut().insert(method, function);
+    pub(crate) fn set_function_on_free_base(
+        &self,
+        (base, method): (usize, Method),
+        function: Rc<Function>,
+    ) {
+        let mut known = self.on_free_base.borrow_mut();
+        known.insert((base, method), function);
     }
 
     /// Returns all functions of another method that derivatives may use, under the same condition.

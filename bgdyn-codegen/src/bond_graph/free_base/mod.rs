@@ -1,4 +1,4 @@
-//! The open tree on a free base: the first link that can move in every way.
+//! The open tree on a free base: a link that moves along three axes, with no inertia before it.
 //!
 //! The joints from the world to the base are replaced by one free joint. Its velocities are the twist of the base in
 //! its own axes: in these the inertia of the tree does not depend on where the base is, and gravity alone depends on
@@ -11,7 +11,7 @@ use axes::{Base, link_axes};
 use bgdyn_runtime::Dd;
 
 use super::build::connected;
-use super::{BondGraph, ClosedTree, LinkFrame, Multibody, PositionVariable};
+use super::{BondGraph, ClosedTree, Coordinate, LinkFrame, Multibody, PositionVariable};
 use crate::math::Vec3;
 use crate::mechanism::closure::{ChainStep, LoopChain};
 use crate::mechanism::joint::{Column, floating};
@@ -32,20 +32,30 @@ pub struct FreeBase {
     pub linear: [CoordinateId; 3],
     /// Those about them.
     pub angular: [CoordinateId; 3],
-    /// The rotations among the joints that the free one replaces; none if the base has a floating joint.
+    /// The rotations among the joints that the free one replaces, three at most; none if the base has a floating joint.
     pub turns: Vec<CoordinateId>,
     /// Pose of the new axes of each link in its old ones.
     pub axes: Vec<Pose>,
 }
 
 impl FreeBase {
-    /// Returns the tree on its base; `None` if no link can move in every way before one with inertia.
-    pub fn new(closed: &ClosedTree) -> Option<Self> {
+    /// Returns the tree on each link that can be the base; none if no link moves along three axes before one with
+    /// inertia.
+    pub fn all(closed: &ClosedTree) -> Vec<Self> {
         let graph = &closed.tree.multibody;
-        let path = path_to_base(graph)?;
+        let paths = paths_to_bases(graph).into_iter();
+        paths.filter_map(|path| Self::on(closed, path)).collect()
+    }
+
+    fn on(closed: &ClosedTree, path: Vec<LinkId>) -> Option<Self> {
+        let graph = &closed.tree.multibody;
         let base = *path.last()?;
         let merged = path.len() > 1;
-        let (linear, angular) = velocities(graph, &path)?;
+        let (linear, turns) = velocities(graph, &path)?;
+        let first = graph.coordinates.len();
+        let further = (first..).map(CoordinateId);
+        let angular: Vec<CoordinateId> = turns.iter().copied().chain(further).take(3).collect();
+        let angular = [angular[0], angular[1], angular[2]];
         let places: Vec<(LinkId, Vec3<Dd>)> = (closed.closure.loops.iter())
             .filter_map(|one| Some((one.chain.steps.first()?.link, one.chain.start.translation)))
             .collect();
@@ -57,10 +67,15 @@ impl FreeBase {
                 places: &places,
             },
         );
-        let multibody = FreeTree { graph, path: &path, velocities: (linear, angular), axes: &axes }.multibody();
+        let made = FreeTree {
+            graph,
+            path: &path,
+            velocities: (linear, angular),
+            axes: &axes,
+        };
         Some(FreeBase {
-            graph: connected(multibody),
-            turns: if merged { angular.to_vec() } else { Vec::new() },
+            graph: connected(made.multibody()),
+            turns: if merged { turns } else { Vec::new() },
             path,
             linear,
             angular,
@@ -166,6 +181,13 @@ impl FreeTree<'_> {
         frame.degrees.velocities = linear.into_iter().chain(angular).collect();
         frame.degrees.positions = (first..first + 7).map(PositionId).collect();
         for j in linear.into_iter().chain(angular) {
+            // One more if fewer than six velocities are replaced.
+            if j.0 == made.coordinates.len() {
+                made.coordinates.push(Coordinate {
+                    name: format!("base_turn_{}", j.0),
+                    ..made.coordinates[linear[0].0].clone()
+                });
+            }
             let coordinate = &mut made.coordinates[j.0];
             coordinate.link = base;
             coordinate.motion = motion;
@@ -201,43 +223,44 @@ impl FreeTree<'_> {
     }
 }
 
-/// Returns the links from the world to the first one that can move in every way.
-fn path_to_base(graph: &Multibody) -> Option<Vec<LinkId>> {
+/// Returns the links from the world to each one that moves along three axes, without inertia before it.
+fn paths_to_bases(graph: &Multibody) -> Vec<Vec<LinkId>> {
     let children = |parent: Option<LinkId>| {
         let all = graph.frames.iter().enumerate();
         let all = all.filter(move |(_, frame)| frame.parent == parent);
         all.map(|(i, _)| LinkId(i)).collect::<Vec<_>>()
     };
-    let (mut path, mut count) = (Vec::new(), 0);
+    let (mut paths, mut path) = (Vec::new(), Vec::new());
     let mut next = children(None);
-    while let [link] = next[..] {
+    while let ([link], None) = (&next[..], graph.base) {
+        let link = *link;
         let frame = &graph.frames[link.0];
         let degrees = &frame.degrees;
-        let own = &degrees.velocities;
-        if degrees.coupling.is_some() || !degrees.dependent.is_empty() || frame.motion.is_given() {
-            return None;
+        let rotor = |j: &CoordinateId| graph.rotors.iter().any(|rotor| rotor.coordinate == *j);
+        let own = degrees.coupling.is_none() && degrees.dependent.is_empty();
+        if !own || frame.motion.is_given() || degrees.velocities.iter().any(rotor) {
+            break;
         }
-        if (graph.rotors.iter()).any(|rotor| own.contains(&rotor.coordinate)) {
-            return None;
-        }
-        count += own.len();
         path.push(link);
-        if count >= 6 {
-            return (count == 6 && graph.base.is_none()).then_some(path);
+        match velocities(graph, &path) {
+            Some(_) => paths.push(path.clone()),
+            None if !paths.is_empty() => break,
+            None => {}
         }
         if has_inertia(&graph.inertial(link)) {
-            return None;
+            break;
         }
         next = children(Some(link));
     }
-    None
+    paths
 }
 
-/// Returns the translations and the rotations among the velocities of joints in series, three each.
+/// Returns three translations and at most three rotations, the velocities of joints in series; `None` if they have
+/// others.
 fn velocities(
     graph: &Multibody,
     path: &[LinkId],
-) -> Option<([CoordinateId; 3], [CoordinateId; 3])> {
+) -> Option<([CoordinateId; 3], Vec<CoordinateId>)> {
     let (mut linear, mut angular) = (Vec::new(), Vec::new());
     for (j, column) in path.iter().flat_map(|l| graph.frames[l.0].columns()) {
         let zero = |v: Vec3<Dd>| v.0.iter().all(|x| *x == Dd::ZERO);
@@ -247,7 +270,7 @@ fn velocities(
             _ => return None,
         }
     }
-    Some((linear.try_into().ok()?, angular.try_into().ok()?))
+    Some((linear.try_into().ok()?, angular)).filter(|(_, turns)| turns.len() <= 3)
 }
 
 fn column(angular: Vec3<Dd>, linear: Vec3<Dd>) -> Column<Dd> {

@@ -46,7 +46,8 @@ impl Formulation for BaseTwist {
     fn serves(&self, graph: &BondGraph) -> bool {
         let closed = graph.closed.as_deref().filter(|closed| closed.closure.nonholonomic());
         closed.is_some_and(|closed| {
-            FreeBase::new(closed).is_some_and(|tree| BaseRows::new(closed, &tree, &[]).is_some())
+            let bases = FreeBase::all(closed);
+            bases.iter().any(|base| BaseRows::new(closed, base, &[]).is_some())
         })
     }
 
@@ -71,16 +72,18 @@ impl Formulation for BaseTwist {
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let closed = prepared.graph.closed.as_deref()?;
-        let tree = FreeBase::new(closed)?;
-        let forms = row_axes(&closed.closure).into_iter();
-        let forms = forms.flat_map(|axes| {
-            [false, true].map(|other| BaseForm {
+        let bases = FreeBase::all(closed);
+        let ways = row_axes(&closed.closure);
+        let forms = (0..bases.len()).flat_map(|base| {
+            let both = ways.iter().flat_map(|axes| [(axes, false), (axes, true)]);
+            both.map(move |(axes, other)| BaseForm {
+                base,
                 by_vectors: other && !has_mass(method),
                 in_stages: other && has_mass(method),
                 axes: axes.clone(),
             })
         });
-        let made = forms.filter_map(|form| function(prepared, &tree, method, &form));
+        let made = forms.filter_map(|form| function(prepared, &bases[form.base], method, &form));
         // As for loops: see `Elimination`.
         let chosen =
             made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
@@ -90,6 +93,8 @@ impl Formulation for BaseTwist {
 
 /// A way to write a function.
 struct BaseForm {
+    /// The index of the base.
+    base: usize,
     /// Whether S u and Sᵀ f are computed without the matrix S.
     by_vectors: bool,
     /// Whether M is reduced in stages: by the rows that give the velocity of the base first.
@@ -128,7 +133,7 @@ fn function(
         let velocities = map.velocities(&x.v);
         let bias = rows.bias(&b, (&x.q, &velocities), rows_form);
         let gravity = rows.of_base(&b, &x.q, closed.tree.gravity).0;
-        let of_tree = |method: Method| prepared.function_on_free_base(method);
+        let of_tree = |method: Method| prepared.function_on_free_base(form.base, method);
         let motion = BaseMotion {
             b: &b,
             tree,
@@ -142,7 +147,8 @@ fn function(
         let outputs = motion.outputs(method, &x)?;
         outputs.into_iter().map(Expr::signed).collect()
     };
-    let name = "twist of the base; wheels eliminated".into();
+    let base = &closed.tree.frames[tree.base().0].name;
+    let name = format!("twist of {base}; wheels eliminated");
     let function = Function::flat(graph, method, name, b.into_graph(), outputs);
     Some((function, early))
 }
@@ -206,7 +212,7 @@ impl<'g> BaseMotion<'_, 'g> {
         if !self.in_stages {
             return Some(reduced(self.b, &mass, map).reduced);
         }
-        let (kept, mass) = without_translation(self.b, &mass, (self.map.rates(), self.tree))?;
+        let (kept, mass) = without_translation(&mass, (self.map.rates(), self.tree))?;
         let rows: Vec<Vec<Expr<'g>>> = kept.iter().map(|&j| map[j].clone()).collect();
         Some(reduced(self.b, &mass, &rows).reduced)
     }
@@ -233,7 +239,6 @@ impl<'g> BaseMotion<'_, 'g> {
 /// if rows give these: v = V w with one row for each. With the parts of M it is M_ww + M_wv V + Vᵀ (M_vw + M_vv V).
 /// `None` without such rows.
 fn without_translation<'g>(
-    b: &'g Builder,
     mass: &[Expr<'g>],
     (rates, tree): (&[Vec<Expr<'g>>], &FreeBase),
 ) -> Option<(Vec<usize>, Vec<Expr<'g>>)> {

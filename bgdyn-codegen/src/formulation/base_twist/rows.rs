@@ -38,7 +38,7 @@ impl BaseRows {
     ) -> Option<Self> {
         let own = &closed.closure;
         let graph = &closed.tree.multibody;
-        let nt = own.positions.len();
+        let nt = tree.graph.coordinates.len();
         let mut contacts = own.clone();
         contacts.along_planes = None;
         contacts.of_plane = false;
@@ -65,7 +65,9 @@ impl BaseRows {
             name: "turning",
             ..*all.rows.first()?
         };
-        all.rows.extend(tree.turns.iter().map(|_| turning));
+        if !tree.turns.is_empty() {
+            all.rows.extend([turning; 3]);
+        }
         let dependents = (0..all.positions.len()).map(CoordinateId);
         let dependents = dependents.filter(|j| !all.independents.contains(j));
         all.blocks = vec![ClosureBlock {
@@ -91,7 +93,11 @@ impl BaseRows {
         let place = self.replaced.place(&frames, TwistPoint::B, &b);
         let nt = self.all.positions.len() - self.turns.len();
         // The twist of the world relative to the base is −Σ a θ̇.
-        for (k, &about) in self.angular.iter().enumerate().filter(|_| nt < self.all.positions.len()) {
+        let about = match self.turns.is_empty() {
+            true => &[],
+            false => &self.angular[..],
+        };
+        for (k, about) in about.iter().enumerate() {
             let mut row = vec![b.zero(); self.all.positions.len()];
             row[about.0] = b.constant(Dd::ONE);
             for (j, column) in &place.columns {
