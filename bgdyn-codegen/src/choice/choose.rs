@@ -209,16 +209,13 @@ impl<'a> Choice<'a> {
                 self.prepared.set_moved_tree_function(other, function);
             }
         }
-        for other in formulation.reads_of_free_base(method) {
-            for (base, graph) in self.free_bases.iter().enumerate() {
-                let known = self.prepared.function_on_free_base(base, other);
-                let make = || Choice::new(graph, self.asked).function(other);
-                if known.is_none()
-                    && let Some(function) = make()
-                {
-                    let prepared = &self.prepared;
-                    prepared.set_function_on_free_base((base, other), function);
-                }
+        for (base, other) in formulation.reads_of_free_base(method) {
+            let known = self.prepared.function_on_free_base(base, other);
+            if let (Some(graph), None) = (self.free_bases.get(base), known)
+                && let Some(function) = Choice::new(graph, self.asked).function(other)
+            {
+                let prepared = &self.prepared;
+                prepared.set_function_on_free_base((base, other), function);
             }
         }
         create(formulation, &self.prepared, method)

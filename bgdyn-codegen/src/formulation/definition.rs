@@ -55,9 +55,9 @@ pub trait Formulation: Sync {
         Vec::new()
     }
 
-    /// Returns the methods of the open tree on a free base whose functions it uses:
+    /// Returns the methods of the open tree on a free base whose functions it uses, each with the index of the base:
     /// [`Prepared::function_on_free_base`] returns them when [`Formulation::function`] is called.
-    fn reads_of_free_base(&self, _: Method) -> Vec<Method> {
+    fn reads_of_free_base(&self, _: Method) -> Vec<(usize, Method)> {
         Vec::new()
     }
 

@@ -51,6 +51,10 @@ impl<'g> PoseNumbers<Expr<'g>> for RowNumbers<'g> {
         PoseNumbers::cos_sin(&self.b, angle)
     }
 
+    fn cos_sin_from(&self, angle: Expr<'g>, phase: Dd) -> (Expr<'g>, Expr<'g>) {
+        PoseNumbers::cos_sin_from(&self.b, angle, phase)
+    }
+
     fn twice_inverse(&self, squares: Expr<'g>) -> Expr<'g> {
         self.b.twice_inverse(squares)
     }

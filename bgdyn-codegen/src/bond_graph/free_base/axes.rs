@@ -91,9 +91,22 @@ fn triad(directions: &[Vec3<Dd>]) -> Option<Mat3<Dd>> {
     let across = directions.iter().map(|d| *d - z.scale(z.dot(*d)));
     let across = across.map(|d| (d.dot(d).to_f64(), d));
     let (_, x) = across.into_iter().find(|(size, _)| *size > 1e-12)?;
+    // Each of both becomes the coordinate axis that is nearest to it.
+    let nearest = |v: Vec3<Dd>, but: Option<usize>| {
+        let free = (0..3).filter(|k| Some(*k) != but);
+        let size = |k: usize| v.0[k].to_f64().abs();
+        free.max_by(|a, b| size(*a).total_cmp(&size(*b)))
+    };
     let x = unit(x);
-    let y = z.cross(x);
-    Some(snapped(Mat3([x.0, y.0, z.0]).transpose()))
+    let first = nearest(z, None)?;
+    let second = nearest(x, Some(first))?;
+    let ahead = |v: Vec3<Dd>, k: usize| if v.0[k].to_f64() < 0.0 { -v } else { v };
+    let (z, x) = (ahead(z, first), ahead(x, second));
+    let third = 3 - first - second;
+    let mut columns = [z; 3];
+    columns[second] = x;
+    columns[third] = columns[(third + 1) % 3].cross(columns[(third + 2) % 3]);
+    Some(snapped(Mat3(columns.map(|v| v.0)).transpose()))
 }
 
 /// Returns a rotation with 0, 1 and −1 for components that differ from them by rounding.

@@ -12,12 +12,15 @@ use bgdyn_runtime::Dd;
 
 use super::build::connected;
 use super::{BondGraph, ClosedTree, Coordinate, LinkFrame, Multibody, PositionVariable};
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3, angle_of};
 use crate::mechanism::closure::{ChainStep, LoopChain};
 use crate::mechanism::joint::{Column, floating};
 use crate::mechanism::{
     CoordinateId, Degrees, Inertial, LinkId, Motion, Pose, PositionId, Value,
 };
+
+/// Components of a unit vector deviate by less by rounding.
+const ROUNDING: f64 = 1e-24;
 
 const ZERO: Value = Value::Fixed(Dd::ZERO);
 
@@ -91,7 +94,13 @@ impl FreeBase {
     /// Returns the step from a link that the base carries to its parent, in the new axes.
     pub fn step(&self, link: LinkId) -> ChainStep {
         let frame = &self.graph.frames[link.0];
-        step(link, frame, None)
+        let mut step = step(link, frame, None);
+        let phase = turned_about(frame.origin.rotation, frame.axis);
+        if let (Some(phase), Motion::Rotation) = (phase, frame.motion) {
+            step.origin.rotation = Pose::IDENTITY.rotation;
+            step.phase = phase;
+        }
+        step
     }
 
     /// Returns the joints from the base to the world: their poses, and as velocities those of the base or of the
@@ -104,19 +113,30 @@ impl FreeBase {
             true => along.chain(about).collect(),
             false => Vec::new(),
         };
-        let fixed = LinkFrame {
-            origin: self.axes[self.base().0],
-            motion: Motion::None,
-            degrees: Degrees::default(),
-            ..graph.frames[self.base().0].clone()
-        };
-        let first = step(self.base(), &fixed, Some(own));
         let none = || of_base.then(Vec::new);
         let inward = self.path.iter().rev();
         let steps = inward.map(|&link| step(link, &graph.frames[link.0], none()));
+        let mut steps: Vec<ChainStep> = steps.collect();
+        let (new, base) = (self.axes[self.base().0], &graph.frames[self.base().0]);
+        match turned_about(new.rotation, base.axis) {
+            // About the joint's axis: a constant part of its angle.
+            Some(phase) if base.motion == Motion::Rotation && new.translation == zero => {
+                steps[0].phase = phase;
+                steps[0].columns = of_base.then_some(own);
+            }
+            _ => {
+                let fixed = LinkFrame {
+                    origin: new,
+                    motion: Motion::None,
+                    degrees: Degrees::default(),
+                    ..base.clone()
+                };
+                steps.insert(0, step(self.base(), &fixed, Some(own)));
+            }
+        }
         LoopChain {
             start: Pose::IDENTITY,
-            steps: std::iter::once(first).chain(steps).collect(),
+            steps,
             end: Pose::IDENTITY,
         }
     }
@@ -289,8 +309,24 @@ fn step(
         motion: frame.motion,
         axis: frame.axis,
         degrees: frame.degrees.clone(),
+        phase: Dd::ZERO,
         columns,
     }
+}
+
+/// Returns the angle of a rotation about an axis; `None` of one about another axis.
+fn turned_about(rotation: Mat3<Dd>, axis: Vec3<Dd>) -> Option<Dd> {
+    let off = rotation * axis - axis;
+    if off.dot(off).to_f64() > ROUNDING * ROUNDING {
+        return None;
+    }
+    let unit = |k: usize| Vec3(std::array::from_fn(|i| Dd::from_f64(f64::from(u8::from(i == k)))));
+    let size = |k: &usize| axis.0[*k].to_f64().abs();
+    let least = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)))?;
+    let across = axis.cross(unit(least));
+    let turned = rotation * across;
+    let (cos, sin) = (across.dot(turned), axis.dot(across.cross(turned)));
+    Some(angle_of((cos, sin)))
 }
 
 /// Returns a pose without rounding errors of zeros and ones.

@@ -27,8 +27,8 @@ use crate::method::Method;
 use crate::mechanism::closure::ContactAxes;
 use crate::passes::factor;
 
-/// The tree in the twist of its base, with dependent velocities eliminated.
-pub(super) struct BaseTwist;
+/// The tree in the twist of the base with this index, with dependent velocities eliminated.
+pub(super) struct BaseTwist(pub usize);
 
 impl Formulation for BaseTwist {
     fn name(&self) -> &'static str {
@@ -47,23 +47,17 @@ impl Formulation for BaseTwist {
         let closed = graph.closed.as_deref().filter(|closed| closed.closure.nonholonomic());
         closed.is_some_and(|closed| {
             let bases = FreeBase::all(closed);
-            bases.iter().any(|base| BaseRows::new(closed, base, &[]).is_some())
+            let base = bases.get(self.0);
+            base.is_some_and(|base| BaseRows::new(closed, base, &[]).is_some())
         })
     }
 
     fn knows(&self, method: Method) -> bool {
-        !self.reads_of_free_base(method).is_empty()
+        !reads(method).is_empty()
     }
 
-    fn reads_of_free_base(&self, method: Method) -> Vec<Method> {
-        match method {
-            Method::InverseDynamics | Method::Bias | Method::Gravity => {
-                vec![Method::InverseDynamics]
-            }
-            Method::ForwardDynamics => vec![Method::InverseDynamics, Method::MassMatrix],
-            Method::MassMatrix | Method::KineticEnergy => vec![method],
-            _ => vec![],
-        }
+    fn reads_of_free_base(&self, method: Method) -> Vec<(usize, Method)> {
+        reads(method).iter().map(|&method| (self.0, method)).collect()
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
@@ -73,17 +67,16 @@ impl Formulation for BaseTwist {
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let closed = prepared.graph.closed.as_deref()?;
         let bases = FreeBase::all(closed);
+        let base = bases.get(self.0)?;
         let ways = row_axes(&closed.closure);
-        let forms = (0..bases.len()).flat_map(|base| {
-            let both = ways.iter().flat_map(|axes| [(axes, false), (axes, true)]);
-            both.map(move |(axes, other)| BaseForm {
-                base,
-                by_vectors: other && !has_mass(method),
-                in_stages: other && has_mass(method),
-                axes: axes.clone(),
-            })
+        let both = ways.iter().flat_map(|axes| [(axes, false), (axes, true)]);
+        let forms = both.map(|(axes, other)| BaseForm {
+            base: self.0,
+            by_vectors: other && !has_mass(method),
+            in_stages: other && has_mass(method),
+            axes: axes.clone(),
         });
-        let made = forms.filter_map(|form| function(prepared, &bases[form.base], method, &form));
+        let made = forms.filter_map(|form| function(prepared, base, method, &form));
         // As for loops: see `Elimination`.
         let chosen =
             made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
@@ -101,6 +94,17 @@ struct BaseForm {
     in_stages: bool,
     /// The axes of the rows of each contact, if others than usual.
     axes: Vec<Option<ContactAxes>>,
+}
+
+/// Returns the methods of the tree that a method is composed of; none if it is not made here.
+fn reads(method: Method) -> &'static [Method] {
+    match method {
+        Method::InverseDynamics | Method::Bias | Method::Gravity => &[Method::InverseDynamics],
+        Method::ForwardDynamics => &[Method::InverseDynamics, Method::MassMatrix],
+        Method::MassMatrix => &[Method::MassMatrix],
+        Method::KineticEnergy => &[Method::KineticEnergy],
+        _ => &[],
+    }
 }
 
 fn has_mass(method: Method) -> bool {

@@ -32,6 +32,8 @@ pub struct ChainStep {
     pub axis: Vec3<Dd>,
     /// Its positions and velocities in the open tree.
     pub degrees: Degrees,
+    /// A constant angle that is added to that of its rotation, rad.
+    pub phase: Dd,
     /// The columns of other velocities in place of those of its joint, in link axes at the link's origin.
     pub columns: Option<Vec<(CoordinateId, Column<Dd>)>>,
 }
@@ -99,7 +101,8 @@ impl ChainStep {
         match self.motion {
             Motion::None => (fixed, origin),
             Motion::Rotation => {
-                let turned = rodrigues(self.axis, numbers.cos_sin(own[0]), constant);
+                let angle = numbers.cos_sin_from(own[0], self.phase);
+                let turned = rodrigues(self.axis, angle, constant);
                 (fixed * turned, origin)
             }
             Motion::Translation => {
