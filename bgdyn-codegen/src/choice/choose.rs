@@ -71,8 +71,7 @@ impl<'a> Choice<'a> {
             bounds: OnceCell::new(),
             forward: OnceCell::new(),
             open: RefCell::default(),
-            tree: closed
-                .map(|closed| Box::new(Choice::new(&closed.tree, asked))),
+            tree: closed.map(|closed| Box::new(Choice::new(&closed.tree, asked))),
             moved: None,
             free_bases: bases.map(|base| base.graph).collect(),
             closes_loops: false,

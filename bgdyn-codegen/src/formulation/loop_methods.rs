@@ -310,11 +310,13 @@ pub(super) fn reduced<'g>(
 ) -> ReducedMass<'g> {
     let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
     let entry = |i: usize, j: usize| mass[in_triangle(i.max(j), i.min(j))];
-    let moved = |i: usize, k: usize| (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k]);
+    let moved =
+        |i: usize, k: usize| (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k]);
     let moved: Vec<Vec<Expr<'g>>> = (0..all)
         .map(|i| (0..n).map(|k| moved(i, k)).collect())
         .collect();
-    let entry = |k: usize, l: usize| (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l]);
+    let entry =
+        |k: usize, l: usize| (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l]);
     let reduced = (0..n).map(|k| (0..=k).map(|l| entry(k, l)).collect());
     ReducedMass {
         reduced: reduced.collect(),

@@ -15,9 +15,7 @@ use super::{BondGraph, ClosedTree, Coordinate, LinkFrame, Multibody, PositionVar
 use crate::math::{Mat3, Vec3, angle_of};
 use crate::mechanism::closure::{ChainStep, LoopChain};
 use crate::mechanism::joint::{Column, floating};
-use crate::mechanism::{
-    CoordinateId, Degrees, Inertial, LinkId, Motion, Pose, PositionId, Value,
-};
+use crate::mechanism::{CoordinateId, Degrees, Inertial, LinkId, Motion, Pose, PositionId, Value};
 
 /// Components of a unit vector deviate by less by rounding.
 const ROUNDING: f64 = 1e-24;
@@ -320,7 +318,11 @@ fn turned_about(rotation: Mat3<Dd>, axis: Vec3<Dd>) -> Option<Dd> {
     if off.dot(off).to_f64() > ROUNDING * ROUNDING {
         return None;
     }
-    let unit = |k: usize| Vec3(std::array::from_fn(|i| Dd::from_f64(f64::from(u8::from(i == k)))));
+    let unit = |k: usize| {
+        Vec3(std::array::from_fn(|i| {
+            Dd::from_f64(f64::from(u8::from(i == k)))
+        }))
+    };
     let size = |k: &usize| axis.0[*k].to_f64().abs();
     let least = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)))?;
     let across = axis.cross(unit(least));

@@ -23,8 +23,8 @@ use super::{Formulation, Offer, Prepared, solve};
 use crate::bond_graph::{BondGraph, FreeBase, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Leaf, Signed, copy_into};
 use crate::function::{Function, in_triangle};
-use crate::method::Method;
 use crate::mechanism::closure::ContactAxes;
+use crate::method::Method;
 use crate::passes::factor;
 
 /// The tree in the twist of the base with this index, with dependent velocities eliminated.
@@ -44,7 +44,10 @@ impl Formulation for BaseTwist {
     }
 
     fn serves(&self, graph: &BondGraph) -> bool {
-        let closed = graph.closed.as_deref().filter(|closed| closed.closure.nonholonomic());
+        let closed = graph
+            .closed
+            .as_deref()
+            .filter(|closed| closed.closure.nonholonomic());
         closed.is_some_and(|closed| {
             let bases = FreeBase::all(closed);
             let base = bases.get(self.0);
@@ -57,7 +60,10 @@ impl Formulation for BaseTwist {
     }
 
     fn reads_of_free_base(&self, method: Method) -> Vec<(usize, Method)> {
-        reads(method).iter().map(|&method| (self.0, method)).collect()
+        reads(method)
+            .iter()
+            .map(|&method| (self.0, method))
+            .collect()
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
@@ -250,7 +256,9 @@ fn without_translation<'g>(
     let gives = |k: usize| {
         let only = |row: &&Vec<Expr<'g>>| {
             let one = row[k].as_constant() == Some(Dd::ONE);
-            one && linear.iter().all(|&other| other == k || row[other].is_zero())
+            one && linear
+                .iter()
+                .all(|&other| other == k || row[other].is_zero())
         };
         rates.iter().find(only)
     };

@@ -7,8 +7,8 @@ use crate::expr::{Builder, Expr};
 use crate::formulation::loop_rows::{LoopForm, LoopRows, loop_bias, loop_rows};
 use crate::math::Vec3;
 use crate::mechanism::closure::{
-    Closure, ClosureBlock, ContactAxes, ContactRow, ContactShape, DISC_ROWS, KinematicLoop, LoopChain, LoopRow, RowKind,
-    TwistPoint,
+    Closure, ClosureBlock, ContactAxes, ContactRow, ContactShape, DISC_ROWS, KinematicLoop,
+    LoopChain, LoopRow, RowKind, TwistPoint,
 };
 use crate::mechanism::{CoordinateId, Motion, Pose};
 
@@ -31,11 +31,7 @@ pub(super) struct BaseRows {
 impl BaseRows {
     /// Returns the rows; `None` if a contact is none of a link that the base carries with a plane at rest, or an
     /// independent velocity is that of a translation that the free joint replaces.
-    pub fn new(
-        closed: &ClosedTree,
-        tree: &FreeBase,
-        axes: &[Option<ContactAxes>],
-    ) -> Option<Self> {
+    pub fn new(closed: &ClosedTree, tree: &FreeBase, axes: &[Option<ContactAxes>]) -> Option<Self> {
         let own = &closed.closure;
         let graph = &closed.tree.multibody;
         let nt = tree.graph.coordinates.len();
@@ -59,7 +55,11 @@ impl BaseRows {
             None if replaced(j) => None,
             None => Some(*j),
         };
-        contacts.independents = own.independents.iter().map(independent).collect::<Option<_>>()?;
+        contacts.independents = own
+            .independents
+            .iter()
+            .map(independent)
+            .collect::<Option<_>>()?;
         let mut all = contacts.clone();
         let turning = LoopRow {
             name: "turning",
@@ -149,7 +149,11 @@ pub(super) fn row_axes(closure: &Closure) -> Vec<Vec<Option<ContactAxes>>> {
             rows.any(|r| r.closes == closes && r.kind == RowKind::Contact(row))
         };
         let whole = DISC_ROWS.iter().all(|(_, row)| has(*row));
-        match one.contact.as_ref().map(|contact| (contact.shape, contact.crown)) {
+        match one
+            .contact
+            .as_ref()
+            .map(|contact| (contact.shape, contact.crown))
+        {
             Some((ContactShape::Disc(_), crown)) if whole && crown == Dd::ZERO => {
                 let all = [ContactAxes::Link, ContactAxes::Wheel, ContactAxes::Plane];
                 all.map(Some).to_vec()
@@ -163,7 +167,9 @@ pub(super) fn row_axes(closure: &Closure) -> Vec<Vec<Option<ContactAxes>>> {
         let ways = ways(one);
         let longer = |with: &Vec<Option<ContactAxes>>| {
             let with = with.clone();
-            ways.clone().into_iter().map(move |way| with.iter().copied().chain([way]).collect())
+            ways.clone()
+                .into_iter()
+                .map(move |way| with.iter().copied().chain([way]).collect())
         };
         all = all.iter().flat_map(longer).collect();
         // Of many contacts all in the same way.
@@ -190,7 +196,9 @@ fn contact(closed: &ClosedTree, tree: &FreeBase, one: &KinematicLoop) -> Option<
     if let Some(at) = tree.path.iter().position(|link| *link == carrier) {
         for &link in &tree.path[at + 1..] {
             let frame = &graph.frames[link.0];
-            let own = frame.coordinate.filter(|_| frame.motion == Motion::Rotation)?;
+            let own = frame
+                .coordinate
+                .filter(|_| frame.motion == Motion::Rotation)?;
             let spins = contact.spin.len();
             contact.spin.retain(|(j, _)| *j != own);
             if contact.spin.len() == spins {
