@@ -17,6 +17,8 @@ pub(super) struct LoopForm {
     pub(super) of_plane: bool,
     /// Those of [`Closure::along_planes`].
     pub(super) along_planes: bool,
+    /// With rotations of two rows where they give constant pivots.
+    pub(super) rotates: bool,
     /// With checks of pivots: the index of the first loop's.
     pub(super) first_pivot: Option<usize>,
 }

@@ -134,6 +134,7 @@ fn function(
         let checked = method.shape().checked();
         let rows_form = LoopForm {
             by_vectors: form.by_vectors,
+            rotates: true,
             first_pivot: checked.then_some(graph.coordinates.len()),
             ..LoopForm::default()
         };
@@ -158,7 +159,9 @@ fn function(
         outputs.into_iter().map(Expr::signed).collect()
     };
     let base = &closed.tree.frames[tree.base().0].name;
-    let name = format!("twist of {base}; wheels eliminated");
+    let of_tree = prepared.function_on_free_base(form.base, *reads(method).first()?)?;
+    let of_tree = of_tree.formulation.clone();
+    let name = format!("{of_tree}; twist of {base}; wheels eliminated");
     let function = Function::flat(graph, method, name, b.into_graph(), outputs);
     Some((function, early))
 }

@@ -139,8 +139,8 @@ impl BaseRows {
     }
 }
 
-/// Returns the ways to write the rows of all contacts: for each one in the axes of its link, along its plane, or those
-/// of its wheel.
+/// Returns the ways to write the rows of all contacts: in the axes of its link, or those of its
+/// wheel.
 pub(super) fn row_axes(closure: &Closure) -> Vec<Vec<Option<ContactAxes>>> {
     let ways = |closes: usize| -> Vec<Option<ContactAxes>> {
         let one = &closure.loops[closes];
@@ -155,7 +155,7 @@ pub(super) fn row_axes(closure: &Closure) -> Vec<Vec<Option<ContactAxes>>> {
             .map(|contact| (contact.shape, contact.crown))
         {
             Some((ContactShape::Disc(_), crown)) if whole && crown == Dd::ZERO => {
-                let all = [ContactAxes::Link, ContactAxes::Wheel, ContactAxes::Plane];
+                let all = [ContactAxes::Link, ContactAxes::Wheel];
                 all.map(Some).to_vec()
             }
             Some((ContactShape::Disc(_), _)) => vec![None, Some(ContactAxes::Plane)],
