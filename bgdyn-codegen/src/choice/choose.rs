@@ -85,6 +85,14 @@ impl<'a> Choice<'a> {
         self.choose_once(method).1
     }
 
+    /// Returns the functions of the method that were compared, in the form of their formulations, but for those that
+    /// exceed an error bound by more than a digit.
+    pub fn compared(&self, method: Method) -> Vec<Function> {
+        let candidates = self.choose_once(method).0;
+        let all = candidates.accepted.iter().chain(&candidates.borderline);
+        all.map(|candidate| candidate.plain.clone()).collect()
+    }
+
     /// Returns the functions for forward dynamics that meet the error bounds, the cheapest first, in the
     /// form of their formulations.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {

@@ -145,7 +145,7 @@ fn function(
         let bias = rows.bias(&b, (&x.q, &velocities), rows_form);
         let gravity = rows.of_base(&b, &x.q, closed.tree.gravity).0;
         let of_tree = |method: Method| prepared.function_on_free_base(form.base, method);
-        let motion = BaseMotion {
+        let motion = TwistMotion {
             b: &b,
             tree,
             in_stages: form.in_stages,
@@ -167,7 +167,7 @@ fn function(
 }
 
 /// The motion of the tree, in the twist of its base.
-struct BaseMotion<'a, 'g> {
+struct TwistMotion<'a, 'g> {
     b: &'g Builder,
     tree: &'a FreeBase,
     in_stages: bool,
@@ -182,7 +182,7 @@ struct BaseMotion<'a, 'g> {
     gravity: [Expr<'g>; 3],
 }
 
-impl<'g> BaseMotion<'_, 'g> {
+impl<'g> TwistMotion<'_, 'g> {
     fn outputs(&self, method: Method, x: &Arguments<'g>) -> Option<Vec<Expr<'g>>> {
         let b = self.b;
         let still = vec![b.zero(); self.map.independents()];
