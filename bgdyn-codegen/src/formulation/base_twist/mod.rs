@@ -1,12 +1,12 @@
-//! Wheels on a base that can move in every way: equation (6) in the twist of the base, in its own axes.
+//! Wheels on a base that can move along three axes: equation (6) in the twist of the base, in its own axes.
 //!
-//! The open tree of a vehicle often begins with joints of links without mass: heading, height, lean, pitch. The velocities
-//! of its base, the first link with mass, are sums of their rates with coefficients that turn; its twist w in its own
-//! axes takes their place here ([`crate::bond_graph::FreeBase`]). The bodies then do not depend on the pose of the base but for the
-//! direction of gravity, the rows of wheels have constant pivots, and the axes of all links are along those of
-//! joints. The independent velocities u remain: ω = Σ a_j θ̇_j are further rows, with the rates θ̇_j of the
-//! replaced joints as further velocities ([`rows`]). q̇ = S u, q̈ = S u̇ + z and Sᵀ·(6) are as in [`super::loops`], with
-//! w and θ̇ in q̇; efforts act along u alone.
+//! The open tree of a vehicle often begins with joints of links without mass: heading, height, lean, pitch. The
+//! velocities of the bodies are sums of their rates with coefficients that turn. Here the twist w of one link, the base,
+//! takes their place ([`crate::bond_graph::FreeBase`]). Then the pose of the base enters by the direction of gravity
+//! alone, rows of wheels have constant pivots, and the axes of links are along those of joints. The independent
+//! velocities u remain: ω = Σ a_j θ̇_j are further rows, with the rates θ̇_j of the replaced joints as further velocities
+//! ([`rows`]). q̇ = S u, q̈ = S u̇ + z and Sᵀ·(6) are as in [`super::loops`], with w and θ̇ in q̇; efforts act along u
+//! alone.
 
 mod rows;
 

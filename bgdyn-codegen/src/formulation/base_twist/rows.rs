@@ -139,8 +139,7 @@ impl BaseRows {
     }
 }
 
-/// Returns the ways to write the rows of all contacts: in the axes of its link, or those of its
-/// wheel.
+/// Returns the ways to write the rows of all contacts: for each in the axes of its link, or in those of its wheel.
 pub(super) fn row_axes(closure: &Closure) -> Vec<Vec<Option<ContactAxes>>> {
     let ways = |closes: usize| -> Vec<Option<ContactAxes>> {
         let one = &closure.loops[closes];
