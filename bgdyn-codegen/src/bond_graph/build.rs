@@ -27,43 +27,50 @@ pub fn build(mechanism: &Mechanism) -> BondGraph {
 
 fn without_loops(mechanism: &Mechanism) -> BondGraph {
     let links = mechanism.links();
-    let mut graph = BondGraph {
-        multibody: Multibody {
-            coordinates: coordinates(mechanism),
-            positions: positions(mechanism),
-            frames: links.iter().map(frame).collect(),
-            inertials: links.iter().map(|link| link.inertial).collect(),
-            gravity: mechanism.gravity(),
-            base: mechanism.base().copied(),
-            rotors: Vec::new(),
-            velocity_products: true,
-            parameters: mechanism.parameters().to_vec(),
-            sites: sites(mechanism),
-        },
-        junctions: Vec::new(),
-        stores: Vec::new(),
-        sources: Vec::new(),
-        transformers: Vec::new(),
-        released: released(mechanism).map(Box::new),
-        closed: None,
-        parallel: (mechanism.parallel_loops().iter())
-            .map(|one| one.name.clone())
-            .collect(),
-    };
-    graph.junctions = (0..mechanism.nv())
-        .map(|j| Junction::Velocity(CoordinateId(j)))
+    let mut graph = connected(Multibody {
+        coordinates: coordinates(mechanism),
+        positions: positions(mechanism),
+        frames: links.iter().map(frame).collect(),
+        inertials: links.iter().map(|link| link.inertial).collect(),
+        gravity: mechanism.gravity(),
+        base: mechanism.base().copied(),
+        rotors: Vec::new(),
+        velocity_products: true,
+        parameters: mechanism.parameters().to_vec(),
+        sites: sites(mechanism),
+    });
+    graph.released = released(mechanism).map(Box::new);
+    graph.parallel = (mechanism.parallel_loops().iter())
+        .map(|one| one.name.clone())
         .collect();
-    for (i, link) in mechanism.links().iter().enumerate() {
-        add_link(&mut graph, LinkId(i), &link.inertial);
-    }
-    let patterns = patterns(&graph.frames);
-    for i in 0..graph.frames.len() {
-        add_transformers(&mut graph, &patterns, LinkId(i));
-    }
     // The transformers depend on the poses of all joints; formulations read those of prescribed joints from
     // the mechanism in which they are free.
     for prescribed in mechanism.prescribed() {
         graph.multibody.frames[prescribed.link.0].motion = joint::given().motion;
+    }
+    graph
+}
+
+/// Returns the graph of a tree: junctions, stores, sources and transformers.
+pub(super) fn connected(multibody: Multibody) -> BondGraph {
+    let velocities = 0..multibody.coordinates.len();
+    let mut graph = BondGraph {
+        junctions: (velocities.map(|j| Junction::Velocity(CoordinateId(j)))).collect(),
+        multibody,
+        stores: Vec::new(),
+        sources: Vec::new(),
+        transformers: Vec::new(),
+        released: None,
+        closed: None,
+        parallel: Vec::new(),
+    };
+    for i in 0..graph.frames.len() {
+        let inertial = graph.inertial(LinkId(i));
+        add_link(&mut graph, LinkId(i), &inertial);
+    }
+    let patterns = patterns(&graph.frames);
+    for i in 0..graph.frames.len() {
+        add_transformers(&mut graph, &patterns, LinkId(i));
     }
     graph
 }

@@ -8,6 +8,7 @@
 
 mod build;
 mod causality;
+mod free_base;
 mod joint_segments;
 mod massless;
 mod moved_masses;
@@ -28,6 +29,7 @@ use crate::mechanism::{CoordinateId, LinkId, Mechanism, Value};
 
 pub use build::build;
 pub use causality::Causality;
+pub use free_base::{FreeBase, snap, tidy};
 pub use joint_segments::{JointSegment, joint_segments};
 pub use moved_masses::with_moved_masses;
 pub use multibody::{

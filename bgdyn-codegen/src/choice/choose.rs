@@ -15,7 +15,7 @@ use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use super::keep_digits::{CheckedCandidate, check, sort};
-use crate::bond_graph::{BondGraph, with_moved_masses};
+use crate::bond_graph::{BondGraph, FreeBase, with_moved_masses};
 use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
 use crate::formulation::{
     Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared, create,
@@ -36,6 +36,8 @@ pub struct Choice<'a> {
     tree: Option<Box<Choice<'a>>>,
     /// The open tree with masses moved across the pins of planar loops.
     moved: Option<Box<BondGraph>>,
+    /// The open tree on each free base.
+    free_bases: Vec<BondGraph>,
     /// Whether formulations may compute dependent positions of loops.
     closes_loops: bool,
     /// The choice without such formulations: derivatives are along all positions.
@@ -60,15 +62,18 @@ impl<'a> Choice<'a> {
 
     /// Does the same without formulations that compute dependent positions of loops: all functions read these.
     pub fn by_elimination(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {
+        let closed = graph.closed.as_deref();
+        let wheels = closed.filter(|closed| closed.closure.nonholonomic());
+        let bases = wheels.map(FreeBase::all).unwrap_or_default().into_iter();
         Choice {
             prepared: Prepared::new(graph),
             asked,
             bounds: OnceCell::new(),
             forward: OnceCell::new(),
             open: RefCell::default(),
-            tree: (graph.closed.as_deref())
-                .map(|closed| Box::new(Choice::new(&closed.tree, asked))),
+            tree: closed.map(|closed| Box::new(Choice::new(&closed.tree, asked))),
             moved: None,
+            free_bases: bases.map(|base| base.graph).collect(),
             closes_loops: false,
             eliminated: OnceCell::new(),
         }
@@ -78,6 +83,14 @@ impl<'a> Choice<'a> {
     /// dynamics, among those that meet the error bounds.
     pub fn function(&self, method: Method) -> Option<Rc<Function>> {
         self.choose_once(method).1
+    }
+
+    /// Returns the functions of the method that were compared, in the form of their formulations, but for those that
+    /// exceed an error bound by more than a digit.
+    pub fn compared(&self, method: Method) -> Vec<Function> {
+        let candidates = self.choose_once(method).0;
+        let all = candidates.accepted.iter().chain(&candidates.borderline);
+        all.map(|candidate| candidate.plain.clone()).collect()
     }
 
     /// Returns the functions for forward dynamics that meet the error bounds, the cheapest first, in the
@@ -201,6 +214,15 @@ impl<'a> Choice<'a> {
                 && let Some(function) = Choice::new(moved, self.asked).function(other)
             {
                 self.prepared.set_moved_tree_function(other, function);
+            }
+        }
+        for (base, other) in formulation.reads_of_free_base(method) {
+            let known = self.prepared.function_on_free_base(base, other);
+            if let (Some(graph), None) = (self.free_bases.get(base), known)
+                && let Some(function) = Choice::new(graph, self.asked).function(other)
+            {
+                let prepared = &self.prepared;
+                prepared.set_function_on_free_base((base, other), function);
             }
         }
         create(formulation, &self.prepared, method)

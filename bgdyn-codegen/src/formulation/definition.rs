@@ -55,6 +55,12 @@ pub trait Formulation: Sync {
         Vec::new()
     }
 
+    /// Returns the methods of the open tree on a free base whose functions it uses, each with the index of the base:
+    /// [`Prepared::function_on_free_base`] returns them when [`Formulation::function`] is called.
+    fn reads_of_free_base(&self, _: Method) -> Vec<(usize, Method)> {
+        Vec::new()
+    }
+
     /// Returns whether it computes dependent positions of loops from the independent ones, instead of reading them.
     fn closes_loops(&self) -> bool {
         false

@@ -17,6 +17,10 @@ impl<'g> PoseNumbers<Expr<'g>> for &'g Builder {
         Builder::cos_sin(self, &[angle], Dd::ZERO)
     }
 
+    fn cos_sin_from(&self, angle: Expr<'g>, phase: Dd) -> (Expr<'g>, Expr<'g>) {
+        Builder::cos_sin(self, &[angle], phase)
+    }
+
     fn twice_inverse(&self, squares: Expr<'g>) -> Expr<'g> {
         Builder::constant(self, Dd::from_f64(2.0)) / squares
     }

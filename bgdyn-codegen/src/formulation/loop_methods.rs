@@ -164,11 +164,11 @@ pub(super) fn compose<'g>(
 }
 
 /// The mass matrix of the independent velocities.
-struct ReducedMass<'g> {
+pub(super) struct ReducedMass<'g> {
     /// M S, row by row.
     moved: Vec<Vec<Expr<'g>>>,
     /// The lower triangle of Sᵀ M S.
-    reduced: Vec<Vec<Expr<'g>>>,
+    pub(super) reduced: Vec<Vec<Expr<'g>>>,
 }
 
 /// The joints on which the efforts `tau` act.
@@ -233,22 +233,8 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
 
     /// Returns M S and Sᵀ M S.
     fn mass_matrix(&self, b: &'g Builder) -> Option<ReducedMass<'g>> {
-        let map = &self.motion.map.map;
-        let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
         let mass = self.read(Method::MassMatrix, None)?;
-        let entry = |i: usize, j: usize| mass[in_triangle(i.max(j), i.min(j))];
-        let moved =
-            |i: usize, k: usize| (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k]);
-        let moved: Vec<Vec<Expr<'g>>> = (0..all)
-            .map(|i| (0..n).map(|k| moved(i, k)).collect())
-            .collect();
-        let entry =
-            |k: usize, l: usize| (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l]);
-        let reduced = (0..n).map(|k| (0..=k).map(|l| entry(k, l)).collect());
-        Some(ReducedMass {
-            reduced: reduced.collect(),
-            moved,
-        })
+        Some(reduced(b, &mass, &self.motion.map.map))
     }
 
     /// Returns the motion under the efforts `x.tau` on these joints.
@@ -316,8 +302,30 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
     }
 }
 
+/// Returns M S and Sᵀ M S, from the lower triangle of M, row by row, and S.
+pub(super) fn reduced<'g>(
+    b: &'g Builder,
+    mass: &[Expr<'g>],
+    map: &[Vec<Expr<'g>>],
+) -> ReducedMass<'g> {
+    let (all, n) = (map.len(), map.first().map_or(0, Vec::len));
+    let entry = |i: usize, j: usize| mass[in_triangle(i.max(j), i.min(j))];
+    let moved =
+        |i: usize, k: usize| (0..all).fold(b.zero(), |sum, j| sum + entry(i, j) * map[j][k]);
+    let moved: Vec<Vec<Expr<'g>>> = (0..all)
+        .map(|i| (0..n).map(|k| moved(i, k)).collect())
+        .collect();
+    let entry =
+        |k: usize, l: usize| (0..all).fold(b.zero(), |sum, i| sum + map[i][k] * moved[i][l]);
+    let reduced = (0..n).map(|k| (0..=k).map(|l| entry(k, l)).collect());
+    ReducedMass {
+        reduced: reduced.collect(),
+        moved,
+    }
+}
+
 /// Returns x − y.
-fn minus<'g>(x: &[Expr<'g>], y: &[Expr<'g>]) -> Vec<Expr<'g>> {
+pub(super) fn minus<'g>(x: &[Expr<'g>], y: &[Expr<'g>]) -> Vec<Expr<'g>> {
     x.iter().zip(y).map(|(&x, &y)| x - y).collect()
 }
 
@@ -334,6 +342,6 @@ fn product<'g>(a: &[Expr<'g>], map: &[Vec<Expr<'g>>], n: usize, b: &'g Builder) 
 }
 
 /// Returns the entries row by row.
-fn entries<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
+pub(super) fn entries<'g>(matrix: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
     matrix.iter().flatten().copied().collect()
 }

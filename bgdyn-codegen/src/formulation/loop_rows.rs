@@ -17,6 +17,8 @@ pub(super) struct LoopForm {
     pub(super) of_plane: bool,
     /// Those of [`Closure::along_planes`].
     pub(super) along_planes: bool,
+    /// With rotations of two rows where they give constant pivots.
+    pub(super) rotates: bool,
     /// With checks of pivots: the index of the first loop's.
     pub(super) first_pivot: Option<usize>,
 }
@@ -49,6 +51,10 @@ impl<'g> PoseNumbers<Expr<'g>> for RowNumbers<'g> {
 
     fn cos_sin(&self, angle: Expr<'g>) -> (Expr<'g>, Expr<'g>) {
         PoseNumbers::cos_sin(&self.b, angle)
+    }
+
+    fn cos_sin_from(&self, angle: Expr<'g>, phase: Dd) -> (Expr<'g>, Expr<'g>) {
+        PoseNumbers::cos_sin_from(&self.b, angle, phase)
     }
 
     fn twice_inverse(&self, squares: Expr<'g>) -> Expr<'g> {

@@ -7,6 +7,7 @@
 
 mod actuators;
 mod arguments;
+mod base_twist;
 mod closed_loops;
 mod closing_loads;
 mod definition;
@@ -56,8 +57,11 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
 /// make offers for any selected formulation, because those functions belong to it.
-pub(crate) static DERIVED: [&dyn Formulation; 4] = [
+pub(crate) static DERIVED: [&dyn Formulation; 7] = [
     &loops::Elimination,
+    &base_twist::BaseTwist(0),
+    &base_twist::BaseTwist(1),
+    &base_twist::BaseTwist(2),
     &closed_loops::ClosedLoops,
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,

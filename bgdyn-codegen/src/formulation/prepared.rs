@@ -48,6 +48,8 @@ pub struct Prepared<'a> {
     of_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
     /// The same with masses moved across the pins of planar loops.
     of_moved_tree: RefCell<BTreeMap<Method, Rc<Function>>>,
+    /// Functions of the open tree on each free base.
+    on_free_base: RefCell<BTreeMap<(usize, Method), Rc<Function>>>,
     /// The mechanism in which the prescribed joints are free.
     released: OnceCell<Option<Box<Prepared<'a>>>>,
 }
@@ -62,6 +64,7 @@ impl<'a> Prepared<'a> {
             chosen: RefCell::default(),
             of_tree: RefCell::default(),
             of_moved_tree: RefCell::default(),
+            on_free_base: RefCell::default(),
             released: OnceCell::new(),
         }
     }
@@ -102,6 +105,22 @@ impl<'a> Prepared<'a> {
     /// Stores the function of a method of the open tree with moved masses.
     pub(crate) fn set_moved_tree_function(&self, method: Method, function: Rc<Function>) {
         self.of_moved_tree.borrow_mut().insert(method, function);
+    }
+
+    /// Returns the function of a method of the open tree on the free base with this index; `None` without such, and unless
+    /// [`super::Formulation::reads_of_free_base`] names the method.
+    pub fn function_on_free_base(&self, base: usize, method: Method) -> Option<Rc<Function>> {
+        self.on_free_base.borrow().get(&(base, method)).cloned()
+    }
+
+    /// Stores the function of a method of the open tree on a free base.
+    pub(crate) fn set_function_on_free_base(
+        &self,
+        (base, method): (usize, Method),
+        function: Rc<Function>,
+    ) {
+        let mut known = self.on_free_base.borrow_mut();
+        known.insert((base, method), function);
     }
 
     /// Returns all functions of another method that derivatives may use, under the same condition.

@@ -50,6 +50,7 @@ impl RowChoice {
             by_vectors: false,
             of_plane: false,
             along_planes: self.along_planes,
+            rotates: false,
             first_pivot: first,
         };
         let other = closure.along_planes.as_deref();
@@ -119,7 +120,8 @@ impl<'a, 'g> VelocityMap<'a, 'g> {
             let matrix = block.rows.iter().map(row).collect();
             let pivot = |&r: &usize| first.map(|first| first + closure.rows[r].closes);
             let checks: Option<Vec<usize>> = block.rows.iter().map(pivot).collect();
-            EliminatedMatrix::new(b, matrix, &closure.samples, checks.as_deref())
+            let matrix = (matrix, form.rotates);
+            EliminatedMatrix::with_rotations(b, matrix, &closure.samples, checks.as_deref())
         };
         let eliminations = blocks.iter().map(elimination).collect();
         let mut map = VelocityMap {

@@ -23,4 +23,21 @@ impl Pose {
         ]),
         translation: Vec3([Dd::ZERO; 3]),
     };
+
+    /// Returns the pose of `inner`, given in these axes, in the axes in which this pose is given.
+    pub fn of(self, inner: Pose) -> Pose {
+        Pose {
+            rotation: self.rotation * inner.rotation,
+            translation: self.translation + self.rotation * inner.translation,
+        }
+    }
+
+    /// Returns the pose of the outer frame in the inner one.
+    pub fn inverse(self) -> Pose {
+        let rotation = self.rotation.transpose();
+        Pose {
+            rotation,
+            translation: -(rotation * self.translation),
+        }
+    }
 }

@@ -22,6 +22,7 @@ mod counts;
 mod derivatives;
 mod faults;
 mod files;
+mod free_bases;
 mod multipliers;
 mod planar_references;
 mod random_mechanisms;

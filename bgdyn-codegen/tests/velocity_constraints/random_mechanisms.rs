@@ -181,6 +181,23 @@ impl Text {
         });
     }
 
+    /// Carries the first body by links without mass, `base_0` and so on, with these joints.
+    pub fn on_chain(mut self, joints: &[&str]) -> Self {
+        let mut chain = String::new();
+        for (k, joint) in joints.iter().enumerate() {
+            let parent = match k {
+                0 => String::new(),
+                _ => format!("    parent: link_{}\n", k - 1),
+            };
+            chain +=
+                &format!("  - name: link_{k}\n{parent}    joint: {{ name: base_{k}, {joint} }}\n");
+        }
+        let last = format!("    parent: link_{}\n", joints.len() - 1);
+        let body = "  - name: body_0\n";
+        self.links = chain + &self.links.replacen(body, &format!("{body}{last}"), 1);
+        self
+    }
+
     pub fn open(&self) -> String {
         format!(
             "{}links:\n{}frames:\n{}",

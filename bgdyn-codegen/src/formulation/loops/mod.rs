@@ -109,6 +109,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             by_vectors,
             of_plane: in_axes_of_a,
             along_planes: false,
+            rotates: false,
             first_pivot: None,
         })
     };

@@ -101,7 +101,7 @@ impl<'a, 'g> Bodies<'a, 'g> {
         for (i, frame) in graph.frames.iter().enumerate() {
             let (parent, pose) = match frame.parent {
                 None => (None, frame.origin),
-                Some(LinkId(p)) => (homes[p].0, after(homes[p].1, frame.origin)),
+                Some(LinkId(p)) => (homes[p].0, homes[p].1.of(frame.origin)),
             };
             let mut home = (parent, pose);
             if is_joint(frame) {
@@ -167,13 +167,5 @@ fn body<'g>(
         given: frame.motion.is_given(),
         inertia: Inertia::zero(b),
         rotors: Vec::new(),
-    }
-}
-
-/// Returns the pose of `inner`, given in the axes of `outer`, in the axes in which `outer` is given.
-fn after(outer: Pose, inner: Pose) -> Pose {
-    Pose {
-        rotation: outer.rotation * inner.rotation,
-        translation: outer.translation + outer.rotation * inner.translation,
     }
 }

@@ -32,6 +32,10 @@ pub struct ChainStep {
     pub axis: Vec3<Dd>,
     /// Its positions and velocities in the open tree.
     pub degrees: Degrees,
+    /// A constant angle that is added to that of its rotation, rad.
+    pub phase: Dd,
+    /// The columns of other velocities in place of those of its joint, in link axes at the link's origin.
+    pub columns: Option<Vec<(CoordinateId, Column<Dd>)>>,
 }
 
 /// The joints of a loop in series, and its places on the first and the last link.
@@ -97,7 +101,8 @@ impl ChainStep {
         match self.motion {
             Motion::None => (fixed, origin),
             Motion::Rotation => {
-                let turned = rodrigues(self.axis, numbers.cos_sin(own[0]), constant);
+                let angle = numbers.cos_sin_from(own[0], self.phase);
+                let turned = rodrigues(self.axis, angle, constant);
                 (fixed * turned, origin)
             }
             Motion::Translation => {
@@ -316,7 +321,8 @@ impl ChainStep {
         numbers: &impl PoseNumbers<E>,
     ) -> Vec<(CoordinateId, Column<E>)> {
         let link = rotations[usize::from(self.outward)];
-        let all = self.degrees.columns(self.motion, self.axis).into_iter();
+        let own = || self.degrees.columns(self.motion, self.axis);
+        let all = self.columns.clone().unwrap_or_else(own).into_iter();
         all.map(|(j, column)| {
             let turned = |v: Vec3<Dd>| {
                 let v = if self.outward { v } else { -v };

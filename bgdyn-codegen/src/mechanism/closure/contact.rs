@@ -116,6 +116,7 @@ impl PlaneContact {
         let all = kept(ContactRow::Height);
         let lateral = kept(ContactRow::Lateral);
         match self.shape {
+            _ if self.solved.is_some() => self.solved.unwrap_or(ContactAxes::Plane),
             ContactShape::Edge(_) => ContactAxes::Wheel,
             ContactShape::Disc(_) if self.crown != Dd::ZERO => {
                 match all && lateral && kept(ContactRow::Longitudinal) {

@@ -114,4 +114,6 @@ pub struct PlaneContact {
     pub rows: Vec<(&'static str, ContactRow)>,
     /// The direction e from the contact to the centre, if it is constant in the axes of place a.
     pub upward: Option<Vec3<Dd>>,
+    /// The axes in which its rows are solved, if not those of [`PlaneContact::solved_in`].
+    pub solved: Option<ContactAxes>,
 }

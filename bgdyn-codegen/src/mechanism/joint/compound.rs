@@ -96,6 +96,16 @@ pub trait PoseNumbers<E> {
     fn constant(&self, x: Dd) -> E;
     /// Returns cosine and sine.
     fn cos_sin(&self, angle: E) -> (E, E);
+    /// Returns cosine and sine of the sum of an angle and a constant.
+    fn cos_sin_from(&self, angle: E, phase: Dd) -> (E, E)
+    where
+        E: Ring,
+    {
+        match phase == Dd::ZERO {
+            true => self.cos_sin(angle),
+            false => self.cos_sin(angle + self.constant(phase)),
+        }
+    }
     /// Returns 2 / (x² + y² + z² + w²).
     fn twice_inverse(&self, squares: E) -> E;
 }

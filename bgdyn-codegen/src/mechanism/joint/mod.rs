@@ -30,6 +30,11 @@ pub(crate) fn given() -> &'static JointType {
     &given::GIVEN
 }
 
+/// Returns the floating joint.
+pub(crate) fn floating() -> &'static JointType {
+    &floating::FLOATING
+}
+
 /// Returns the prismatic joint.
 pub(crate) fn prismatic() -> &'static JointType {
     &prismatic::PRISMATIC

@@ -44,6 +44,7 @@ pub(super) fn read(
         spin: Vec::new(),
         rows,
         upward: None,
+        solved: None,
         place: pose,
     };
     let (kind, contact) = match &entry.kind {

@@ -1,5 +1,7 @@
 //! The tree of links that loops refer to, and the joints between two of its links.
 
+use bgdyn_runtime::Dd;
+
 use crate::fault::{Faults, Location, wording};
 use crate::mechanism::closure::ChainStep;
 use crate::mechanism::{Frame, Link, LinkId, Mechanism};
@@ -94,5 +96,7 @@ pub(super) fn step(tree: Tree<'_>, link: LinkId, outward: bool) -> ChainStep {
         motion: joint.kind.motion,
         axis: joint.axis,
         degrees: joint.degrees.clone(),
+        phase: Dd::ZERO,
+        columns: None,
     }
 }
