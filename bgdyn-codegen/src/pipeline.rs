@@ -19,9 +19,9 @@ use crate::{backend, emit};
 /// A mechanism or a scene, with the functions that the options select.
 pub enum Generated {
     /// A mechanism.
-    Mechanism(Model),
+    Mechanism(Box<Model>),
     /// A scene: its equations and functions.
-    Scene(SceneEquations, Vec<Function>),
+    Scene(Box<SceneEquations>, Vec<Function>),
 }
 
 /// Generates the functions of a file, and compares them with equation (6); returns the warnings beside them.
@@ -42,7 +42,7 @@ pub fn generate_functions(
         if options.verify {
             Refusal::unless_equal(check_scene(&equations, &functions))?;
         }
-        return Ok((Generated::Scene(equations, functions), warnings));
+        return Ok((Generated::Scene(Box::new(equations), functions), warnings));
     }
     let (mechanism, findings) = read(text, Some(stem));
     let Some(mechanism) = mechanism else {
@@ -50,7 +50,7 @@ pub fn generate_functions(
     };
     let model = model(mechanism, options).map_err(Refusal::Options)?;
     verify(&model, options)?;
-    Ok((Generated::Mechanism(model), findings))
+    Ok((Generated::Mechanism(Box::new(model)), findings))
 }
 
 /// Compares the model's functions with equation (6), unless the options leave that out.
