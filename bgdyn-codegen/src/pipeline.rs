@@ -4,6 +4,9 @@
 
 use proc_macro2::TokenStream;
 
+#[cfg(feature = "source")]
+use crate::backend;
+use crate::emit;
 use crate::fault::Faults;
 use crate::format::is_scene;
 use crate::function::Function;
@@ -14,7 +17,6 @@ use crate::refusal::Refusal;
 use crate::selection::{model, scene_functions};
 use crate::system::SceneEquations;
 use crate::verify::{check_functions, check_scene};
-use crate::{backend, emit};
 
 /// A mechanism or a scene, with the functions that the options select.
 pub enum Generated {

@@ -18,6 +18,7 @@ mod node;
 mod pattern;
 mod prescribed;
 mod released;
+mod transformers;
 
 use std::ops::Deref;
 
