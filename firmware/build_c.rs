@@ -55,11 +55,17 @@ fn write(arm: &str, folder: &Path) {
     };
     let model = selection::model(mechanism.expect("a sound spec"), &options);
     let backend = backend_named("c").expect("a backend");
-    let given = [("float", "float".to_string()), ("prefix", format!("c_{arm}"))];
+    let given = [
+        ("float", "float".to_string()),
+        ("prefix", format!("c_{arm}")),
+    ];
     let given = given.map(|(name, value)| (name.to_string(), value));
     let given = GivenOptions::new(format!("{arm}.yaml"), "c", backend.options(), given);
     let model = model.expect("methods that exist");
-    let files = backend.files(&BackendInput::Mechanism(&model), &given.expect("its options"));
+    let files = backend.files(
+        &BackendInput::Mechanism(&model),
+        &given.expect("its options"),
+    );
     for file in files.expect("an arm that C can have") {
         fs::write(folder.join(file.name), file.text).expect("OUT_DIR can be written");
     }
@@ -67,6 +73,7 @@ fn write(arm: &str, folder: &Path) {
 
 fn run(command: &mut Command) {
     let status = command.status();
-    let status = status.unwrap_or_else(|error| panic!("{command:?}: {error}: install gcc-arm-none-eabi"));
+    let status =
+        status.unwrap_or_else(|error| panic!("{command:?}: {error}: install gcc-arm-none-eabi"));
     assert!(status.success(), "{command:?}");
 }

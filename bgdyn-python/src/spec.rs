@@ -218,7 +218,9 @@ impl Spec {
             methods: Some(vec![self.name_of(method)]),
             ..self.options.clone()
         };
-        let made = pipeline::generate_module(&self.text, &self.name, &output, &options, |path| Err(path.into()));
+        let made = pipeline::generate_module(&self.text, &self.name, &output, &options, |path| {
+            Err(path.into())
+        });
         let (tokens, _) = made.map_err(|refusal| format!("{refusal:?}"))?;
         Ok(bgdyn_codegen::emit::source_text(tokens))
     }
