@@ -8,7 +8,7 @@ use bgdyn_runtime::closure::polygon;
 use super::style::{Real, Style};
 
 /// Names of the helpers without the prefix, each after those that it calls.
-const HELPERS: [&str; 52] = [
+const HELPERS: [&str; 54] = [
     "mul_add",
     "smaller",
     "larger",
@@ -22,6 +22,8 @@ const HELPERS: [&str; 52] = [
     "sin_cos_far",
     "sin_cos",
     "sin_cos_sum",
+    "sin_cos_lanes",
+    "sin_cos_pair",
     "sin_cos_all",
     "sines",
     "sine_ratio",
@@ -104,9 +106,11 @@ fn template(name: &str, style: &Style) -> &'static str {
         ("sin_cos", _) => include_str!("helpers/sin_cos.h"),
         ("sin_cos_sum", _) if style.libm => include_str!("helpers/sin_cos_sum_of_library.h"),
         ("sin_cos_sum", _) => include_str!("helpers/sin_cos_sum.h"),
+        ("sin_cos_lanes", _) => include_str!("helpers/sin_cos_lanes_double.h"),
+        ("sin_cos_pair", _) => include_str!("helpers/sin_cos_pair_double.h"),
         // On processors with registers for four of them, and everywhere else.
         ("sin_cos_all", Real::Double) => concat!(
-            include_str!("helpers/sin_cos_lanes_double.h"),
+            include_str!("helpers/sin_cos_all_in_lanes.h"),
             include_str!("helpers/sin_cos_all.h"),
             "#endif\n"
         ),
@@ -228,6 +232,7 @@ pub(super) fn filled(template: &str, style: &Style) -> String {
     });
     let text = text.replace('@', &style.prefix);
     let text = text.replace("INLINED", &style.constant("INLINE"));
+    let text = text.replace("HAS_LANES", &style.constant("HAS_LANES"));
     let text = text.replace("NO_LANES", &style.constant("NO_LANES"));
     let quoted = |(index, part): (usize, &str)| match (index % 2 == 1, part.parse::<f64>()) {
         (false, _) => part.to_string(),

@@ -2,7 +2,8 @@
 //!
 //! Several angles are computed together, by a loop over arrays of an even length, of which compilers make wide
 //! registers: four and more angles of any kind, or else those that are no sums. A sum has two words that were just
-//! computed; in a short array they would be stored in halves, and the wide load would wait for both.
+//! computed; in a short array they would be stored in halves, and the wide load would wait for both. A single angle and a
+//! sum are computed together where registers are filled otherwise.
 
 use super::block::BlockText;
 use crate::expr::{Node, NodeId, Signed};
@@ -23,6 +24,16 @@ impl BlockText<'_> {
         };
         if !together.is_empty() {
             self.sines_together(&together, number, lines);
+        }
+        if let [first, second] = alone[..]
+            && self.is_sum(first) != self.is_sum(second)
+            && self.style.has_lanes()
+        {
+            let (single, sum) = match self.is_sum(first) {
+                true => (second, first),
+                false => (first, second),
+            };
+            return self.sines_of_pair(single, sum, number, lines);
         }
         for pair in alone {
             *number += 1;
@@ -76,6 +87,33 @@ impl BlockText<'_> {
             format!("{real} cosines{first}[{length}];"),
             format!("{function}({count}, angles{first}, {tails}, sines{first}, cosines{first});"),
         ]);
+        self.elements(angles, first, lines);
+    }
+
+    /// Computes sines and cosines of a single angle and of a sum.
+    fn sines_of_pair(
+        &self,
+        single: &AnglePair,
+        sum: &AnglePair,
+        number: &mut usize,
+        lines: &mut Vec<String>,
+    ) {
+        *number += 1;
+        let (real, first) = (self.style.real(), *number);
+        let function = self.style.global("sin_cos_pair");
+        let angle = self.value(Signed::plus(single.angle));
+        let words = self.sum(sum.angle, first, lines).join(", ");
+        lines.extend([
+            format!("{real} sines{first}[2];"),
+            format!("{real} cosines{first}[2];"),
+            format!("{function}({angle}, {words}, sines{first}, cosines{first});"),
+        ]);
+        self.elements(&[single, sum], first, lines);
+    }
+
+    /// Gives elements of the arrays of this number their names.
+    fn elements(&self, angles: &[&AnglePair], first: usize, lines: &mut Vec<String>) {
+        let real = self.style.real();
         for (k, pair) in angles.iter().enumerate() {
             for (node, array) in [(pair.sine, "sines"), (pair.cosine, "cosines")] {
                 let name = node.and_then(|id| self.listing.name(id));

@@ -47,6 +47,11 @@ impl Style {
         })
     }
 
+    /// Returns whether sines may be computed in wide registers, where the processor has them.
+    pub(super) fn has_lanes(&self) -> bool {
+        matches!(self.real, Real::Double) && !self.libm
+    }
+
     /// Returns the name of the type of all numbers.
     pub(super) fn real(&self) -> &'static str {
         match self.real {
