@@ -2,14 +2,16 @@
 //!
 //! A function's unrolled list of instructions ([`bgdyn_codegen::tape::Unrolled`]) becomes one block of SSA values
 //! (`translation.rs`), with the runtime's kernel of sines written into it (`pairs.rs`), and Cranelift makes code of it for
-//! the processor that runs (`host.rs`). A call has the bits of [`Function::evaluate`], as that of the
+//! the processor that runs (`host.rs`). A call has the bits of [`evaluate`](bgdyn_codegen::function::Function::evaluate), as that of the
 //! [tape](bgdyn_codegen::tape) has.
 //!
 //! The code has no branch for what is rare. An angle beyond the limit of the kernel, a refused pivot, or a result that is
 //! not finite sets the word that it returns, and the tape computes that state once more: it knows what happened.
 //!
-//! Where machine code cannot be had, [`Jit::new`] or [`Jit::compile`] give the reason, and [`Engine::prepare`] leaves the
-//! function to the tape; [`Callable::engine`] tells which of them computes.
+//! Where machine code cannot be had, [`Jit::new`] or [`Jit::compile`] give the reason, and
+//! [`prepare`](bgdyn_codegen::engine::Engine::prepare) leaves the function to the tape;
+//! [`engine`](bgdyn_codegen::engine::Callable::engine) tells which of them computes. [`OftenCalled`] makes code of those
+//! functions only that are called often.
 //!
 //! ```
 //! use bgdyn_codegen::engine::{CallArguments, Engine};
