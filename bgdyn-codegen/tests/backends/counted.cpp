@@ -40,6 +40,11 @@ static void NAME(sin_cos_sum)(Counted angle, Counted, Counted *sine, Counted *co
 {
     NAME(sin_cos)(angle, sine, cosine);
 }
+static void NAME(sin_cos_pair)(Counted single, Counted sum, Counted, Counted sines[2], Counted cosines[2])
+{
+    NAME(sin_cos)(single, &sines[0], &cosines[0]);
+    NAME(sin_cos)(sum, &sines[1], &cosines[1]);
+}
 static void NAME(sin_cos_all)(int count, const Counted *angles, const Counted *, Counted *sines, Counted *cosines)
 {
     for (int k = 0; k < count; ++k) {

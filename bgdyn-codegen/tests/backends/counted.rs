@@ -14,10 +14,11 @@ use crate::c_program::{answers, write};
 use crate::same_bits::{files, model};
 
 /// Functions of the file that the program replaces.
-const REPLACED: [&str; 5] = [
+const REPLACED: [&str; 6] = [
     "add_angle",
     "sin_cos",
     "sin_cos_sum",
+    "sin_cos_pair",
     "sin_cos_all",
     "checked_pivot",
 ];

@@ -84,8 +84,8 @@ static void @_radians_of_turn(const uint64_t turn[5], double *radians, double *r
     double a = upper;
     double tail = 0.0;
     @_add_angle(&a, &tail, lower);
-    a *= unit;
-    tail *= unit;
+    a = a * unit;
+    tail = tail * unit;
     /* times 2 pi in two words, with Dekker's product */
     const double tau = 6.283185307179586;
     const double tau_tail = 2.4492935982947064e-16;
