@@ -186,7 +186,7 @@ def main():
         if not any(r["columns"] for r in results):
             sys.exit("nothing was compared")
         text = page.text(results, ROUNDS, bool(PREFIX), DIR)
-        (target / "peers.svg").write_text(plot.svg(results))
+        plot.write(results, DIR / "bin/plots", target / "peers.svg")
     if free_results:
         text = free.put(text, free.section(free_results, ROUNDS, bool(PREFIX), DIR))
     (DIR / "results.json").write_text(json.dumps(results + free_results, indent=1))

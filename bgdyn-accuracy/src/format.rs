@@ -16,6 +16,7 @@ pub(crate) fn short(x: f64) -> String {
 }
 
 /// Prints a time given in ns, in a suitable unit.
+#[cfg(feature = "plot")]
 pub(crate) fn time(ns: f64) -> String {
     let (value, unit) = match ns {
         _ if ns < 1e3 => (ns, "ns"),
@@ -26,6 +27,7 @@ pub(crate) fn time(ns: f64) -> String {
 }
 
 /// Prints a step in a suitable unit.
+#[cfg(feature = "plot")]
 pub(crate) fn step(h: f64) -> String {
     let (value, unit) = match h {
         _ if h < 0.9e-3 => (h * 1e6, "µs"),
@@ -36,13 +38,14 @@ pub(crate) fn step(h: f64) -> String {
 }
 
 /// Escapes text for HTML and SVG.
+#[cfg(feature = "plot")]
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "plot"))]
 mod tests {
     use super::*;
 

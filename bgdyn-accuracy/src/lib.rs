@@ -17,7 +17,8 @@
 //! - [`study()`] runs each of them, measures the time and returns rows: `accuracy.csv`.
 //! - The cost of single effects is measured by one call of `derivative` and by the number of steps
 //!   ([`Cost`]): differences of the times of whole runs would not show it.
-//! - [`verdicts`], [`front`], [`figures`] and [`page`] only read rows.
+//! - [`verdicts`], [`front`], [`figures`] and [`page`] only read rows. The last two are in the feature `plot`, as
+//!   is [`plot`], which draws all plots with axes.
 //!
 //! # The error
 //! A scene has one measured output: the first site among its outputs, else the first coordinate among
@@ -32,20 +33,22 @@ mod configuration;
 mod cost;
 pub mod dark;
 mod dyn_plant;
+#[cfg(feature = "plot")]
 mod figures;
-pub mod fine;
 mod format;
 #[cfg(feature = "generate")]
 pub mod generate;
 mod integrate;
 mod order_check;
+#[cfg(feature = "plot")]
 mod page;
 mod pareto;
+#[cfg(feature = "plot")]
+pub mod plot;
 mod priced;
 mod row;
 mod step_sequence;
 mod study;
-pub mod svg;
 mod table;
 mod test_case;
 
@@ -54,9 +57,11 @@ pub use bgdyn_sim;
 pub use clock::Spread;
 pub use configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
+#[cfg(feature = "plot")]
 pub use figures::{Figure, figures};
 pub use integrate::{Integrate, Measured};
 pub use order_check::{Finding, Verdict, verdicts};
+#[cfg(feature = "plot")]
 pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
 pub use priced::{Call, Priced};

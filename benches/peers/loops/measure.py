@@ -130,7 +130,7 @@ def main():
     (DIR / "loops.json").write_text(json.dumps(rows, indent=1, ensure_ascii=False))
     docs = ROOT / "docs" if "--docs" in sys.argv else DIR
     (docs / "peers_loops.md").write_text(page.text(rows, ROOT, QUICK, TIMES))
-    (docs / "peers_loops.svg").write_text(plot.svg(rows))
+    plot.write(rows, DIR / "bin/plots", docs / "peers_loops.svg")
     print(f"{docs / 'peers_loops.md'}, {docs / 'peers_loops.svg'}", file=sys.stderr)
 
 

@@ -20,6 +20,6 @@ if [ ! -e "$venv/installed" ]; then
 fi
 # The generator runs while compiling, so it need not be fast itself.
 RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$root/Cargo.toml" --target-dir "$PEERS_DIR/rust" \
-  --config 'profile.release.package.bgdyn-codegen.opt-level=1' -p peers_loops
-cp "$PEERS_DIR/rust/release/loops" "$PEERS_DIR/bin/"
+  --config 'profile.release.package.bgdyn-codegen.opt-level=1' -p peers_loops -p peers_plots
+cp "$PEERS_DIR"/rust/release/{loops,plots} "$PEERS_DIR/bin/"
 "$venv/bin/python" "$here/measure.py" "$@"

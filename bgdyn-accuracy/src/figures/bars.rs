@@ -2,8 +2,14 @@
 //!
 //! Dots are used if the length of a bar would have no meaning.
 
+use plotters::prelude::{Color, Rectangle};
+use plotters::style::text_anchor::HPos;
+
 use crate::format::short;
-use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
+use crate::plot::{
+    ALARM, Area, Axis, BLUE, Chart, Drawn, FAINT, GRID, INK, Marker, ORANGE, Panel, RGBColor,
+    Stroke, at, bold, curve, draw, mark, px, text, with_tooltip, write,
+};
 
 /// A line.
 pub(super) struct Line {
@@ -90,152 +96,186 @@ pub(super) struct Bars {
     pub compared: bool,
 }
 
-const WIDTH: f64 = 1000.0;
+const WIDTH: u32 = 1000;
 const MARGIN: f64 = 24.0;
-const TOP: f64 = 104.0;
-const PITCH: f64 = 30.0;
-const THICK: f64 = 15.0;
-/// Widths for labels, and for the numbers behind bars and dots.
+const TOP: u32 = 98;
+const ROW: u32 = 30;
+/// Widths for labels, for the numbers behind bars and dots, and between columns.
 const LABELS: f64 = 190.0;
 const NUMBERS: f64 = 62.0;
-/// Space between two columns.
 const GAP: f64 = 26.0;
-const BAR: &str = "#0072b2";
-const DOT: &str = "#d55e00";
 /// Colour of the ranges of measured numbers: visible on bars and next to them.
-const WHISKER: &str = "#e69f00";
+const WHISKER: RGBColor = RGBColor(230, 159, 0);
 /// Number of letters that fit beside a column.
 const LETTERS: usize = 24;
 
 impl Bars {
     pub fn draw(&self) -> String {
         let logarithmic = self.columns.iter().any(|c| c.scale == Scale::Log);
-        let bottom = TOP + PITCH * self.lines.len() as f64;
-        let mut d = Drawing::new(WIDTH, bottom + if logarithmic { 30.0 } else { 14.0 });
-        d.text((MARGIN, 32.0), 17, INK, Anchor::Start, &self.title);
-        for (i, line) in self.lines.iter().enumerate() {
-            let y = TOP + PITCH * i as f64;
-            d.line((MARGIN, y - 6.0), (WIDTH - MARGIN, y - 6.0), GRID, "");
-            let at = (MARGIN + LABELS - 16.0, y + 13.0);
-            match self.compared && i == 0 {
-                true => d.bold(at, 13, INK, Anchor::End, &line.label),
-                false => d.text(at, 13, INK, Anchor::End, &line.label),
+        let below = if logarithmic { 30 } else { 14 };
+        let height = TOP + ROW * self.lines.len() as u32 + below;
+        let svg = draw((WIDTH, height), |area| {
+            write(
+                area,
+                (MARGIN, 27.0),
+                &self.title,
+                &text(17, INK, HPos::Left),
+            )?;
+            self.labels(area)?;
+            for k in 0..self.columns.len() {
+                self.column(area, k, below)?;
             }
-        }
-        let count = self.columns.len() as f64;
-        let width = (WIDTH - 2.0 * MARGIN - LABELS + GAP) / count - GAP;
-        for (k, column) in self.columns.iter().enumerate() {
-            let from = MARGIN + LABELS + (width + GAP) * k as f64;
-            let [what, unit] = &column.title;
-            d.text((from, TOP - 34.0), 14, INK, Anchor::Start, what);
-            d.text((from, TOP - 16.0), 12, FAINT, Anchor::Start, unit);
-            let ends = (from, from + width - NUMBERS);
-            match column.scale {
-                Scale::Linear => self.bars(&mut d, k, ends),
-                Scale::Log => self.dots(&mut d, k, ends),
-            }
-        }
-        self.failures(&mut d, width);
-        d.finish()
+            self.failures(area)
+        });
+        // The reasons of failures are shortened in the drawing.
+        let reasons = self.lines.iter().filter_map(|line| line.failed.as_ref());
+        reasons.fold(svg, |svg, why| {
+            let (shown, whole) = self.failure(why);
+            with_tooltip(&svg, &shown, &whole)
+        })
     }
 
-    /// Returns the numbers of a column, with the heights of their lines.
+    /// Returns the distance between columns, and their width.
+    fn columns(&self) -> (f64, f64) {
+        let all = f64::from(WIDTH) - 2.0 * MARGIN - LABELS + GAP;
+        let distance = all / self.columns.len() as f64;
+        (distance, distance - GAP)
+    }
+
+    fn labels(&self, area: &Area<'_>) -> Drawn {
+        for (i, line) in self.lines.iter().enumerate() {
+            let top = f64::from(TOP + ROW * i as u32);
+            let ends = [at(MARGIN, top), at(f64::from(WIDTH) - MARGIN, top)];
+            curve(area, ends, Stroke::new(GRID, 1.0))?;
+            let style = match self.compared && i == 0 {
+                true => bold(13, INK, HPos::Right),
+                false => text(13, INK, HPos::Right),
+            };
+            let place = (MARGIN + LABELS - 16.0, top + 15.0);
+            write(area, place, &line.label, &style)?;
+        }
+        Ok(())
+    }
+
+    fn column(&self, area: &Area<'_>, k: usize, below: u32) -> Drawn {
+        let (distance, width) = self.columns();
+        let left = MARGIN + LABELS + distance * k as f64;
+        let [what, unit] = &self.columns[k].title;
+        let above = f64::from(TOP);
+        write(area, (left, above - 33.0), what, &text(14, INK, HPos::Left))?;
+        write(
+            area,
+            (left, above - 14.0),
+            unit,
+            &text(11, FAINT, HPos::Left),
+        )?;
+        let rows = Axis::rows(self.lines.len());
+        let right = f64::from(WIDTH) - (left + width - NUMBERS);
+        let panel = |x: Axis, below: u32| {
+            let sides = [left as u32, right as u32, TOP, below];
+            Panel::new("", x, rows.clone()).sides(sides).draw(area)
+        };
+        let numbers = self.lines.iter().map(|line| line.values[k]);
+        match self.columns[k].scale {
+            Scale::Linear => {
+                let most = numbers.flatten().map(end).fold(f64::MIN_POSITIVE, f64::max);
+                self.bars(area, k, &panel(Axis::linear(0.0, most, 1).bare(), below)?)
+            }
+            Scale::Log => {
+                let values = numbers.flatten().map(|x| x.value);
+                self.dots(area, k, &panel(Axis::decades(values, 4), below)?)
+            }
+        }
+    }
+
+    /// Returns the numbers of a column, with the middles of their rows.
     fn numbers(&self, k: usize) -> impl Iterator<Item = (f64, Number)> {
         let lines = self.lines.iter().enumerate();
-        lines.filter_map(move |(i, line)| Some((TOP + PITCH * i as f64, line.values[k]?)))
+        lines.filter_map(move |(i, line)| Some((i as f64 + 0.5, line.values[k]?)))
     }
 
-    fn bars(&self, d: &mut Drawing, k: usize, (from, to): (f64, f64)) {
-        let end = |x: Number| x.range.map_or(x.value, |[_, high]| high.max(x.value));
-        let most = self.numbers(k).map(|(_, x)| end(x)).fold(0.0, f64::max);
-        let place = |x: f64| from + (to - from) * x.max(0.0) / most.max(f64::MIN_POSITIVE);
+    fn bars(&self, area: &Area<'_>, k: usize, chart: &Chart<'_>) -> Drawn {
+        let inside = chart.plotting_area();
         for (y, x) in self.numbers(k) {
-            let length = (place(x.value) - from).max(1.0);
-            d.rectangle((from, y), (length, THICK), BAR);
+            let bar = [(0.0, y - 0.25), (x.value, y + 0.25)];
+            inside.draw(&Rectangle::new(bar, BLUE.filled()))?;
             if let Some([low, high]) = x.range {
-                let (low, high, y) = (place(low), place(high), y + THICK / 2.0);
-                d.line((low, y), (high, y), WHISKER, "");
+                let whisker = Stroke::new(WHISKER, 1.0);
+                curve(inside, [(low, y), (high, y)], whisker)?;
                 for x in [low, high] {
-                    d.line((x, y - 4.0), (x, y + 4.0), WHISKER, "");
+                    curve(inside, [(x, y - 0.13), (x, y + 0.13)], whisker)?;
                 }
             }
         }
-        let bottom = TOP + PITCH * self.lines.len() as f64 - 6.0;
         let first = self.lines.first().and_then(|line| line.values[k]);
         let first = first.filter(|_| self.compared);
         if let Some(x) = first {
-            let at = place(x.value);
-            d.line((at, TOP + PITCH - 6.0), (at, bottom), INK, "4 3");
+            let ends = [(x.value, 1.0), (x.value, self.lines.len() as f64)];
+            curve(inside, ends, Stroke::new(INK, 1.0).dashed(4.0, 3.0))?;
         }
         for (y, x) in self.numbers(k) {
             // Text is not placed on the dashed line.
-            let beyond = first.map_or(0.0, |x| place(x.value));
-            let own = place(end(x));
-            let crossed = own < beyond && own + NUMBERS > beyond;
-            let at = (if crossed { beyond } else { own } + 6.0, y + 12.5);
-            let same = y > TOP && first.is_some_and(|first| first.overlaps(x));
-            let text = format!("{}{}", if same { "≈ " } else { "" }, number(x.value));
-            d.text(at, 13, INK, Anchor::Start, &text);
+            let place = |x: f64| chart.backend_coord(&(x, y));
+            let (own, height) = place(end(x));
+            let (beyond, _) = first.map_or((0, 0), |x| place(x.value));
+            let crossed = own < beyond && own + px(NUMBERS as u32) as i32 > beyond;
+            let from = if crossed { beyond } else { own } + px(6) as i32;
+            let same = y > 1.0 && first.is_some_and(|first| first.overlaps(x));
+            let words = format!("{}{}", if same { "≈ " } else { "" }, number(x.value));
+            area.draw_text(&words, &text(13, INK, HPos::Left), (from, height))?;
         }
-        d.line((from, TOP - 6.0), (from, bottom), FAINT, "");
+        Ok(())
     }
 
-    fn dots(&self, d: &mut Drawing, k: usize, (from, to): (f64, f64)) {
-        let values = self.numbers(k).map(|(_, x)| x.value);
-        let logs = values.filter(|x| *x > 0.0 && x.is_finite()).map(f64::log10);
-        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
-        let (low, high) = match low <= high {
-            true => (
-                low.floor() as i32,
-                (high.ceil() as i32).max(low.floor() as i32 + 1),
-            ),
-            false => (-1, 0),
-        };
-        let span = f64::from(high - low);
-        let place = |log: f64| from + (to - from) * (log - f64::from(low)) / span;
-        let bottom = TOP + PITCH * self.lines.len() as f64 - 6.0;
-        let every = (high - low + 3) / 4;
-        for power in (low..=high).filter(|p| (p - low) % every == 0) {
-            let at = place(f64::from(power));
-            d.line((at, TOP - 6.0), (at, bottom), GRID, "");
-            let text = match power {
-                -2..=3 => format!("{}", 10_f64.powi(power)),
-                _ => format!("1e{power}"),
-            };
-            d.text((at, bottom + 16.0), 11, FAINT, Anchor::Middle, &text);
-        }
-        d.line((from, bottom), (to, bottom), FAINT, "");
+    fn dots(&self, area: &Area<'_>, k: usize, chart: &Chart<'_>) -> Drawn {
+        let least = chart.x_range().start;
         for (y, x) in self.numbers(k).map(|(y, x)| (y, x.value)) {
-            if x > 0.0 && x.is_finite() {
-                let at = place(x.log10());
-                d.marker((at, y + 8.0), Marker::Circle, DOT);
-                d.text((at + 10.0, y + 12.5), 13, INK, Anchor::Start, &short(x));
-            } else {
-                d.text((from, y + 12.5), 13, FAINT, Anchor::Start, &short(x));
+            let drawn = x > 0.0 && x.is_finite();
+            let place = (if drawn { x } else { least }, y);
+            if drawn {
+                mark(chart.plotting_area(), place, Marker::Disc, ORANGE)?;
             }
+            let (left, height) = chart.backend_coord(&place);
+            let (colour, beside) = if drawn { (INK, px(10)) } else { (FAINT, 0) };
+            let style = text(13, colour, HPos::Left);
+            area.draw_text(&short(x), &style, (left + beside as i32, height))?;
         }
+        Ok(())
     }
 
-    /// Draws the reasons in the last column, shortened if there is no space; the tooltip shows the whole
-    /// text.
-    fn failures(&self, d: &mut Drawing, width: f64) {
-        let from = WIDTH - MARGIN - width;
-        let letters = (LETTERS as f64 * (width / 170.0).max(1.0)) as usize;
+    /// Writes the reasons in the last column.
+    fn failures(&self, area: &Area<'_>) -> Drawn {
+        let left = f64::from(WIDTH) - MARGIN - self.columns().1 + 8.0;
         for (i, line) in self.lines.iter().enumerate() {
             let Some(why) = &line.failed else { continue };
-            let whole = format!("failed: {why}");
-            let shown = match whole.chars().count() > letters {
-                true => whole.chars().take(letters - 1).chain(['…']).collect(),
-                false => whole.clone(),
-            };
-            let at = (from, TOP + PITCH * i as f64 + 12.5);
-            d.group(&whole);
-            d.text(at, 12, ALARM, Anchor::Start, &shown);
-            d.end_group();
+            let place = (left, f64::from(TOP + ROW * i as u32) + 15.0);
+            write(
+                area,
+                place,
+                &self.failure(why).0,
+                &text(11, ALARM, HPos::Left),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Returns a reason, shortened if there is no space, and the whole text.
+    fn failure(&self, why: &str) -> (String, String) {
+        let letters = (LETTERS as f64 * (self.columns().1 / 170.0).max(1.0)) as usize;
+        let whole = format!("failed: {why}");
+        match whole.chars().count() > letters {
+            true => (
+                whole.chars().take(letters - 1).chain(['…']).collect(),
+                whole,
+            ),
+            false => (whole.clone(), whole),
         }
     }
+}
+
+/// Returns the right end of a bar with its range.
+fn end(x: Number) -> f64 {
+    x.range.map_or(x.value, |[_, high]| high.max(x.value))
 }
 
 /// Prints a number; integers below a million with all digits.

@@ -1,8 +1,14 @@
 //! Draws the diagram of error against time, both on logarithmic axes.
 
+use plotters::prelude::{Color, Rectangle};
+use plotters::style::text_anchor::HPos;
+
 use crate::configuration::StepControl;
+use crate::plot::{
+    ALARM, Area, Axis, Chart, Drawn, FAINT, INK, Marker, Panel, RGBColor, Sign, Stroke, at, curve,
+    draw, mark, sign, text, write,
+};
 use crate::row::Row;
-use crate::svg::{ALARM, Anchor, Drawing, FAINT, GRID, INK, Marker};
 
 /// A curve.
 pub(super) struct Series<'a> {
@@ -11,9 +17,8 @@ pub(super) struct Series<'a> {
     pub note: String,
     /// Whether that line is a warning.
     pub alarming: bool,
-    pub colour: &'static str,
+    pub stroke: Stroke,
     pub marker: Marker,
-    pub dashes: &'static str,
     /// The rows, from the coarsest to the finest.
     pub rows: Vec<&'a Row>,
 }
@@ -30,173 +35,119 @@ pub(super) struct Diagram<'a> {
     pub series: Vec<Series<'a>>,
 }
 
-const WIDTH: f64 = 1000.0;
+const WIDTH: u32 = 1000;
+/// Height of the axes with their labels.
+const HEIGHT: u32 = 568;
+/// Left edge of the frame, and the margin above it.
 const LEFT: f64 = 92.0;
-const RIGHT: f64 = 690.0;
 const TOP: f64 = 84.0;
-const BOTTOM: f64 = 520.0;
-/// Height of the strip for failures, above the plot.
-const STRIP: f64 = 66.0;
+/// Height of the strip for failures, above the frame.
+const STRIP: f64 = 65.0;
 const LEGEND: f64 = 722.0;
 const ENTRY: f64 = 37.0;
-
-/// A logarithmic axis over whole decades.
-struct Axis {
-    low: i32,
-    high: i32,
-    from: f64,
-    to: f64,
-}
-
-impl Axis {
-    fn new(values: impl Iterator<Item = f64>, from: f64, to: f64) -> Self {
-        let logs = values.filter(|x| *x > 0.0 && x.is_finite()).map(f64::log10);
-        let (low, high) = logs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-            (l.min(x), h.max(x))
-        });
-        let (low, high) = if low <= high {
-            (low, high)
-        } else {
-            (-1.0, 0.0)
-        };
-        let (low, high) = ((low - 0.05).floor() as i32, (high + 0.05).ceil() as i32);
-        Axis {
-            low,
-            high: high.max(low + 1),
-            from,
-            to,
-        }
-    }
-
-    fn at(&self, value: f64) -> f64 {
-        let low = f64::from(self.low);
-        let part = (value.log10().max(low) - low) / f64::from(self.high - self.low);
-        self.from + part.min(1.0) * (self.to - self.from)
-    }
-
-    /// Returns the decades with a label, at most as many as fit.
-    fn decades(&self, most: i32) -> impl Iterator<Item = i32> {
-        let every = ((self.high - self.low + most - 1) / most).max(1);
-        (self.low..=self.high).filter(move |k| k % every == 0)
-    }
-}
-
-/// Prints 10^k.
-fn decade(k: i32) -> String {
-    match k {
-        -2..=4 => crate::format::number(10_f64.powi(k)),
-        _ => format!("1e{k}"),
-    }
-}
+/// Colour of this strip.
+const FAILED: RGBColor = RGBColor(253, 240, 234);
 
 impl Diagram<'_> {
     pub fn draw(&self) -> String {
-        let legend = TOP + ENTRY * self.series.len() as f64 + 10.0;
-        let mut d = Drawing::new(WIDTH, (BOTTOM + 66.0).max(legend));
-        d.text((24.0, 32.0), 17, INK, Anchor::Start, &self.title);
-        let (x, y) = self.axes();
-        self.frame(&mut d, &x, &y);
-        for series in &self.series {
-            curve(&mut d, series, &x, &y, self.floor);
-        }
-        self.legend(&mut d);
-        d.finish()
+        let legend = (TOP + ENTRY * self.series.len() as f64) as u32 + 10;
+        draw((WIDTH, HEIGHT.max(legend)), |area| {
+            write(area, (24.0, 27.0), &self.title, &text(17, INK, HPos::Left))?;
+            let chart = self.axes(area)?;
+            for series in &self.series {
+                self.curve(area, &chart, series)?;
+            }
+            self.legend(area)
+        })
     }
 
-    /// Returns the axes, with ranges that include all points.
-    fn axes(&self) -> (Axis, Axis) {
-        let rows = || {
-            self.series
-                .iter()
-                .flat_map(|s| &s.rows)
-                .filter(|r| r.holds())
-        };
-        let times = rows().filter_map(|r| r.ns);
-        let failures = self.series.iter().flat_map(failures);
-        let x = Axis::new(times.chain(failures), LEFT, RIGHT);
-        let least = 0.3 * self.floor;
-        let errors = rows().filter_map(|r| r.error).map(|e| e.max(least));
-        let y = Axis::new(errors.chain([self.size]), BOTTOM, TOP);
-        (x, y)
-    }
-
-    fn frame(&self, d: &mut Drawing, x: &Axis, y: &Axis) {
-        for k in x.decades(9) {
-            let at = x.at(10_f64.powi(k));
-            d.line((at, TOP), (at, BOTTOM), GRID, "");
-            d.text((at, BOTTOM + 20.0), 13, INK, Anchor::Middle, &decade(k));
-        }
-        for k in y.decades(10) {
-            let at = y.at(10_f64.powi(k));
-            d.line((LEFT, at), (RIGHT, at), GRID, "");
-            d.text((LEFT - 8.0, at + 4.0), 13, INK, Anchor::End, &decade(k));
-        }
-        d.line((LEFT, BOTTOM), (RIGHT, BOTTOM), INK, "");
-        d.line((LEFT, TOP), (LEFT, BOTTOM), INK, "");
-        d.text(
-            (0.5 * (LEFT + RIGHT), BOTTOM + 46.0),
-            14,
-            INK,
-            Anchor::Middle,
-            &self.x,
-        );
-        d.upright((24.0, 0.5 * (TOP + BOTTOM)), 14, &self.y);
+    /// Draws the axes, with ranges that include all points, and the lines of reference.
+    fn axes<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
+        let rows = || self.series.iter().flat_map(|s| &s.rows);
+        let times = rows().filter(|r| r.holds()).filter_map(|r| r.ns);
+        let failures: Vec<f64> = self.series.iter().flat_map(failures).collect();
+        let x = Axis::decades(times.chain(failures.iter().copied()), 9);
+        let errors = rows().filter(|r| r.holds()).filter_map(|r| r.error);
+        let errors = errors.map(|error| self.shown(error));
+        let y = Axis::decades(errors.chain([self.size]), 10);
+        let sides = [LEFT as u32, WIDTH - 690, TOP as u32, 48];
+        let panel = Panel::new("", x.label(&self.x), y.label(&self.y)).sides(sides);
+        let chart = panel.draw(&area.split_vertically(10 * HEIGHT).0)?;
+        let ([left, right], low) = (ends(&chart), chart.y_range().start);
         for (value, what) in [
             (self.size, "as large as the motion"),
             (self.floor, "rounding of f64"),
         ] {
-            let at = y.at(value);
-            if at < BOTTOM - 2.0 {
-                d.line((LEFT, at), (RIGHT, at), FAINT, "6 4");
-                d.text((RIGHT - 4.0, at - 5.0), 12, FAINT, Anchor::End, what);
+            if value > 1.05 * low {
+                let line = Stroke::new(FAINT, 1.0).dashed(6.0, 4.0);
+                let (_, y) = chart.backend_coord(&(1.0, value));
+                curve(area, [(left, y), (right, y)], line)?;
+                let (dx, dy) = at(4.0, 9.0);
+                let style = text(11, FAINT, HPos::Right);
+                area.draw_text(what, &style, (right - dx, y - dy))?;
             }
         }
-        if self.series.iter().flat_map(failures).next().is_some() {
-            d.rectangle((LEFT, STRIP - 12.0), (RIGHT - LEFT, 22.0), "#fdf0ea");
-            d.text((LEFT - 8.0, STRIP + 3.0), 13, ALARM, Anchor::End, "failed");
+        if !failures.is_empty() {
+            let (_, top) = at(0.0, STRIP - 11.0);
+            let (_, bottom) = at(0.0, STRIP + 11.0);
+            let strip = [(left, top), (right, bottom)];
+            area.draw(&Rectangle::new(strip, FAILED.filled()))?;
+            let style = text(13, ALARM, HPos::Right);
+            write(area, (LEFT - 8.0, STRIP), "failed", &style)?;
         }
+        Ok(chart)
     }
 
-    fn legend(&self, d: &mut Drawing) {
+    /// Returns an error as it is drawn: far below rounding they are all the same.
+    fn shown(&self, error: f64) -> f64 {
+        error.max(0.3 * self.floor)
+    }
+
+    /// Draws a curve with its points, and its failures above.
+    fn curve(&self, area: &Area<'_>, chart: &Chart<'_>, series: &Series<'_>) -> Drawn {
+        let held = series.rows.iter().filter(|r| r.holds());
+        let point = |r: &&Row| Some((r.ns?, self.shown(r.error?)));
+        let points: Vec<(f64, f64)> = held.filter_map(point).collect();
+        let inside = chart.plotting_area();
+        curve(inside, points.iter().copied(), series.stroke)?;
+        for point in points {
+            mark(inside, point, series.marker, series.stroke.colour)?;
+        }
+        for time in failures(series) {
+            let (x, _) = chart.backend_coord(&(time, 1.0));
+            let (_, y) = at(0.0, STRIP);
+            mark(area, (x, y), Marker::Cross, series.stroke.colour)?;
+        }
+        Ok(())
+    }
+
+    fn legend(&self, area: &Area<'_>) -> Drawn {
         for (i, series) in self.series.iter().enumerate() {
             let y = TOP + 6.0 + ENTRY * i as f64;
             let none = !series.rows.iter().any(|r| r.holds());
-            let (from, to) = ((LEGEND, y), (LEGEND + 34.0, y));
-            if none {
-                d.marker((LEGEND + 17.0, y), Marker::Cross, series.colour);
-            } else {
-                d.curve(&[from, to], series.colour, series.dashes);
-                d.marker((LEGEND + 17.0, y), series.marker, series.colour);
-            }
-            d.text(
-                (LEGEND + 44.0, y + 4.0),
-                14,
-                INK,
-                Anchor::Start,
-                &series.label,
-            );
+            let what = match none {
+                true => Sign::Points(Marker::Cross, series.stroke.colour),
+                false => Sign::Curve(series.stroke, series.marker),
+            };
+            sign(area, (LEGEND, y), what)?;
+            let label = (LEGEND + 44.0, y - 1.0);
+            write(area, label, &series.label, &text(14, INK, HPos::Left))?;
             let (note, colour) = match none {
                 true => ("no run follows the motion", ALARM),
                 false if series.alarming => (series.note.as_str(), ALARM),
                 false => (series.note.as_str(), FAINT),
             };
-            d.text((LEGEND + 44.0, y + 19.0), 11, colour, Anchor::Start, note);
+            let style = text(11, colour, HPos::Left);
+            write(area, (LEGEND + 44.0, y + 15.0), note, &style)?;
         }
+        Ok(())
     }
 }
 
-/// Draws a curve with its points, and its failures above.
-fn curve(d: &mut Drawing, series: &Series<'_>, x: &Axis, y: &Axis, floor: f64) {
-    let held = series.rows.iter().filter(|r| r.holds());
-    let point = |r: &&Row| Some((x.at(r.ns?), y.at(r.error?.max(0.3 * floor))));
-    let points: Vec<(f64, f64)> = held.filter_map(point).collect();
-    d.curve(&points, series.colour, series.dashes);
-    for &point in &points {
-        d.marker(point, series.marker, series.colour);
-    }
-    for time in failures(series) {
-        d.marker((x.at(time), STRIP - 1.0), Marker::Cross, series.colour);
-    }
+/// Returns the left and right end of a chart's frame, in the drawing's units.
+fn ends(chart: &Chart<'_>) -> [i32; 2] {
+    let (x, _) = chart.plotting_area().get_pixel_range();
+    [x.start, x.end]
 }
 
 /// Returns the times at which failed runs are drawn: that of the nearest successful run, multiplied by the

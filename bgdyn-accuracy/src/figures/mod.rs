@@ -8,9 +8,9 @@ mod figure;
 use crate::format::{short, step, time};
 use crate::order_check::{Verdict, verdicts};
 use crate::pareto::targets;
+use crate::plot::{BLUE, GREEN, Marker, ORANGE, PINK, RGBColor, SKY, Stroke};
 use crate::row::Row;
 use crate::study::Study;
-use crate::svg::Marker;
 use bars::{Bars, Column, Line};
 use diagram::{Diagram, Series};
 use effects::{added, left_out};
@@ -18,21 +18,24 @@ pub use figure::Figure;
 use figure::about;
 pub(crate) use figure::way;
 
+/// Orange of the palette of Okabe and Ito.
+const AMBER: RGBColor = RGBColor(230, 159, 0);
+
 /// Returns the colour and marker of an integrator. The palette of Okabe and Ito is distinguishable for
 /// colour-blind readers; circles are explicit integrators, squares implicit ones, triangles integrators of
 /// the canonical form.
-fn look(method: &str) -> (&'static str, Marker) {
+fn look(method: &str) -> (RGBColor, Marker) {
     let plain = method.strip_prefix("canonical_");
     let (colour, marker) = match plain.unwrap_or(method) {
-        "semi_implicit_euler" => ("#999999", Marker::Circle),
-        "rk4" => ("#0072b2", Marker::Circle),
-        "midpoint" => ("#56b4e9", Marker::Square),
-        "gauss2" => ("#e69f00", Marker::Square),
-        "gauss3" => ("#d55e00", Marker::Square),
-        "gauss4" => ("#7f3b08", Marker::Square),
-        "rodas4" => ("#009e73", Marker::Square),
-        "dopri5" => ("#cc79a7", Marker::Circle),
-        _ => ("#000000", Marker::Circle),
+        "semi_implicit_euler" => (RGBColor(153, 153, 153), Marker::Disc),
+        "rk4" => (BLUE, Marker::Disc),
+        "midpoint" => (SKY, Marker::Square),
+        "gauss2" => (AMBER, Marker::Square),
+        "gauss3" => (ORANGE, Marker::Square),
+        "gauss4" => (RGBColor(127, 59, 8), Marker::Square),
+        "rodas4" => (GREEN, Marker::Square),
+        "dopri5" => (PINK, Marker::Disc),
+        _ => (RGBColor(0, 0, 0), Marker::Disc),
     };
     match plain {
         Some(_) => (colour, Marker::Triangle),
@@ -81,8 +84,7 @@ fn series<'a>(
     study: &'a Study,
     verdict: &Verdict,
     label: String,
-    (colour, marker): (&'static str, Marker),
-    dashes: &'static str,
+    (stroke, marker): (Stroke, Marker),
 ) -> Series<'a> {
     let of = |r: &&Row| {
         r.effects == "all"
@@ -103,9 +105,8 @@ fn series<'a>(
         label,
         note: verdict.words(),
         alarming: verdict.is_failure(),
-        colour,
+        stroke,
         marker,
-        dashes,
         rows,
     }
 }
@@ -133,7 +134,11 @@ fn methods(study: &Study) -> Option<Figure> {
     let shown = found
         .iter()
         .filter(|v| v.scalar == "f64" && v.formulation == "cheapest");
-    let all = shown.map(|v| series(study, v, v.method.clone(), look(&v.method), ""));
+    let curve = |v: &Verdict| {
+        let (colour, marker) = look(&v.method);
+        series(study, v, v.method.clone(), (colour.into(), marker))
+    };
+    let all = shown.map(curve);
     Some(Figure {
         name: format!("{}_methods.svg", study.facts.scene),
         caption: "Error against time by method: down and to the left is better. Crosses on top are runs that fail or leave the motion.".into(),
@@ -158,13 +163,14 @@ fn scalars(study: &Study) -> Option<Figure> {
     let all: Vec<Series<'_>> = shown
         .map(|v| {
             let label = format!("{}, {}", v.method, v.scalar);
-            let dashes = if v.scalar == "f32" { "5 3" } else { "" };
-            let dashes = if v.formulation == "canonical" {
-                "2 3"
-            } else {
-                dashes
+            let (colour, marker) = look(&v.method);
+            let solid = Stroke::from(colour);
+            let stroke = match (v.formulation.as_str(), v.scalar.as_str()) {
+                ("canonical", _) => solid.dashed(2.0, 3.0),
+                (_, "f32") => solid.dashed(5.0, 3.0),
+                _ => solid,
             };
-            series(study, v, label, look(&v.method), dashes)
+            series(study, v, label, (stroke, marker))
         })
         .collect();
     let least = |scalar: &str| {

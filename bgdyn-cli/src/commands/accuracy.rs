@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_accuracy::generate::variants;
-use bgdyn_accuracy::{
-    Effort, Machine, Study, costs_csv, figures, page, rows_csv, study, targets, verdicts,
-};
+use bgdyn_accuracy::{Effort, Study, costs_csv, rows_csv, study, targets, verdicts};
+#[cfg(feature = "plot")]
+use bgdyn_accuracy::{Machine, figures, page};
 use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::system::SceneEquations;
@@ -136,13 +136,15 @@ fn write(study: &Study, out: &Path) -> Result<()> {
     let scene = study.facts.scene.as_str();
     let costs = study.costs.iter().map(|cost| (scene, cost));
     put("costs.csv", &costs_csv(costs))?;
-    for figure in figures(study) {
-        put(&figure.name, &figure.svg)?;
+    #[cfg(feature = "plot")]
+    {
+        for figure in figures(study) {
+            put(&figure.name, &figure.svg)?;
+        }
+        let page = page(std::slice::from_ref(study), &Machine::here());
+        put("report.html", &page)?;
     }
-    put(
-        "report.html",
-        &page(std::slice::from_ref(study), &Machine::here()),
-    )
+    Ok(())
 }
 
 /// Lists the cheapest variants, and the files with the rest.
@@ -158,5 +160,9 @@ fn summary(study: &Study, out: &Path) -> String {
             choice.target, facts.unit, facts.output, row.method, row.step_control, row.scalar
         );
     }
-    text + &format!("written: {}\n", out.join("report.html").display())
+    let main = match cfg!(feature = "plot") {
+        true => "report.html",
+        false => "accuracy.csv",
+    };
+    text + &format!("written: {}\n", out.join(main).display())
 }

@@ -20,7 +20,7 @@ use crate::simulate::progress::Progress;
 use crate::simulate::report;
 use crate::simulate::{
     Column, Evaluated, POINTS, Record, Way, batch_values, columns, drift_warning, early_end,
-    estimate, plot, prepared, record_from, too_many_steps,
+    estimate, prepared, record_from, too_many_steps,
 };
 use crate::spec_file::SpecFile;
 use crate::usage::Usage;
@@ -230,15 +230,17 @@ impl Simulate {
         let shown = |path: &Path| format!("{} cannot be written", path.display());
         std::fs::create_dir_all(out)
             .with_context(|| format!("the folder {} cannot be made", out.display()))?;
-        let [table, picture] = ["csv", "svg"].map(|kind| out.join(format!("{name}.{kind}")));
+        let table = out.join(format!("{name}.csv"));
         std::fs::write(&table, report::csv(columns, run)).with_context(|| shown(&table))?;
-        plot::draw(&picture, name, columns, run).with_context(|| shown(&picture))?;
-        let rows = run.rows.len();
-        Ok(format!(
-            "written: {} ({rows} rows), {}",
-            table.display(),
-            picture.display()
-        ))
+        let written = format!("written: {} ({} rows)", table.display(), run.rows.len());
+        #[cfg(feature = "plot")]
+        let written = {
+            let picture = out.join(format!("{name}.svg"));
+            let svg = crate::simulate::plot::plot(name, columns, run);
+            std::fs::write(&picture, svg).with_context(|| shown(&picture))?;
+            format!("{written}, {}", picture.display())
+        };
+        Ok(written)
     }
 }
 

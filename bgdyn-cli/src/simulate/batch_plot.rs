@@ -1,42 +1,40 @@
 //! Plots a batch: the final value of each output against each varied quantity.
 
-use std::path::Path;
+use bgdyn_accuracy::plot::plotters::prelude::Polygon;
+use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
+use bgdyn_accuracy::plot::{
+    Area, Axis, BLUE, Drawn, INK, Marker, ORANGE, Panel, RGBColor, Stroke, curve, draw, mark, px,
+    shade, text, write,
+};
 
-use bgdyn_accuracy::svg::{Anchor, Drawing, INK, Marker};
-
-use super::axis::{Axis, LARGEST};
 use super::batch::RunSummary;
 use super::batch_values::BatchValues;
-use super::difference::range;
-use super::panel::{BLUE, ORANGE, Panel};
 use super::run_table::Column;
 
-const PANEL: (f64, f64) = (400.0, 230.0);
-const HEADER: f64 = 60.0;
+const PANEL: (u32, u32) = (400, 230);
+const HEADER: u32 = 60;
 /// Largest number of panels in a row of a page.
 const ACROSS: usize = 4;
 const DOWN: usize = 12;
 /// Largest number of points that are drawn as distinguishable discs.
 const FEW: usize = 400;
 /// Colour of the range of an output's values.
-const BAND: &str = "#e8e8e8";
+const BAND: RGBColor = RGBColor(209, 209, 209);
 
-/// Draws a batch to a file.
-///
-/// # Errors
-/// If the file cannot be written.
-pub(crate) fn draw(
-    path: &Path,
+/// Returns the drawing of a batch, as SVG.
+pub(crate) fn plot(
     title: &str,
     columns: &[Column],
     (varied, summaries): (&BatchValues, &[RunSummary]),
-) -> std::io::Result<()> {
+) -> String {
     let across = varied.quantities.len().min(ACROSS);
     let down = columns.len().min(DOWN);
     // A single panel needs space for the title beside it.
-    let width = if across == 1 { 1.5 * PANEL.0 } else { PANEL.0 };
-    let mut d = Drawing::new(width * across as f64, HEADER + PANEL.1 * down as f64);
-    d.text((16.0, 25.0), 18, INK, Anchor::Start, title);
+    let width = if across == 1 {
+        600
+    } else {
+        PANEL.0 * across as u32
+    };
     let failed = summaries.iter().filter(|run| run.failure.is_some()).count();
     let mut caption = format!("{} runs; blue: outputs at the end", summaries.len());
     if varied.quantities.len() == 1 {
@@ -45,29 +43,25 @@ pub(crate) fn draw(
     if failed > 0 {
         caption += &format!("; orange: {failed} failed, at the lower edge");
     }
-    d.text((16.0, 48.0), 12, INK, Anchor::Start, &caption);
-    for i in 0..across * down {
-        let (row, column) = (i / across, i % across);
-        let at = (width * column as f64, HEADER + PANEL.1 * row as f64);
-        draw_panel(
-            &mut d,
-            (at, width),
-            (&columns[row], row),
-            (varied, column),
-            summaries,
-        );
-    }
-    std::fs::write(path, d.finish())
+    draw((width, HEADER + PANEL.1 * down as u32), |area| {
+        write(area, (16.0, 20.0), title, &text(18, INK, HPos::Left))?;
+        write(area, (16.0, 44.0), &caption, &text(13, INK, HPos::Left))?;
+        let (_, rest) = area.split_vertically(px(HEADER));
+        for (i, part) in rest.split_evenly((down, across)).iter().enumerate() {
+            let (row, column) = (i / across, i % across);
+            draw_panel(part, (&columns[row], row), (varied, column), summaries)?;
+        }
+        Ok(())
+    })
 }
 
 /// Draws one output against one quantity.
 fn draw_panel(
-    d: &mut Drawing,
-    (at, width): ((f64, f64), f64),
+    area: &Area<'_>,
     (output, row): (&Column, usize),
     (varied, column): (&BatchValues, usize),
     summaries: &[RunSummary],
-) {
+) -> Drawn {
     let quantity = &varied.quantities[column];
     let single = varied.quantities.len() == 1;
     let all = || varied.runs.iter().map(|run| run[column]).zip(summaries);
@@ -75,44 +69,40 @@ fn draw_panel(
     let mut points: Vec<(f64, [f64; 3])> = all()
         .filter(|(_, run)| sound(run))
         .map(|(x, run)| (x, run.outputs[row]))
-        .filter(|(_, y)| y.iter().all(|y| y.abs() < LARGEST))
+        .filter(|(_, y)| y.iter().all(|y| y.is_finite()))
         .collect();
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shown = if single { 0..3 } else { 0..1 };
-    let values = points
-        .iter()
-        .flat_map(|(_, y)| y[shown.clone()].iter().copied());
-    let y = Axis::new(range(values));
-    let x = Axis::new(range(all().map(|(x, _)| x)));
-    let panel = Panel {
-        at,
-        size: (width, PANEL.1),
-        title: y.title(&output.name),
-        below: match x.label(quantity.unit).as_str() {
-            "" => x.title(&quantity.name),
-            unit => format!("{} / {unit}", x.title(&quantity.name)),
-        },
-        beside: y.label(output.unit),
-        x: &x,
-        y: &y,
+    let values = points.iter().flat_map(|(_, y)| y[shown.clone()].to_vec());
+    let y = Axis::around(values, 5);
+    let x = Axis::around(all().map(|(x, _)| x), 8);
+    let below = match x.unit(quantity.unit).as_str() {
+        "" => x.quantity(&quantity.name),
+        unit => format!("{} / {unit}", x.quantity(&quantity.name)),
     };
+    let (name, unit) = (y.quantity(&output.name), y.unit(output.unit));
+    let panel = Panel::new(&name, x.label(below), y.label(unit));
+    let chart = panel.draw(area)?;
+    let inside = chart.plotting_area();
     let of = |k: usize| points.iter().map(move |(q, v)| (*q, v[k]));
     if single {
-        let outline = of(1).chain(of(2).collect::<Vec<_>>().into_iter().rev());
-        let outline: Vec<_> = outline.map(|p| panel.place(p)).collect();
-        d.area(&outline, BAND);
+        let above: Vec<(f64, f64)> = of(2).collect();
+        let outline: Vec<_> = of(1).chain(above.into_iter().rev()).collect();
+        inside.draw(&Polygon::new(outline, shade(BAND)))?;
+        curve(inside, of(0), Stroke::new(BLUE, 1.0))?;
     }
-    panel.draw(d);
-    let ends: Vec<_> = of(0).map(|p| panel.place(p)).collect();
-    if single {
-        d.stroke(&ends, BLUE, 1.0);
+    let few = points.len() <= FEW;
+    for end in of(0) {
+        mark(
+            inside,
+            end,
+            if few { Marker::Disc } else { Marker::Dot },
+            BLUE,
+        )?;
     }
-    let size = if points.len() <= FEW { 3.0 } else { 1.5 };
-    for point in ends {
-        d.disc(point, size, BLUE);
-    }
+    let foot = chart.y_range().start;
     for (q, _) in all().filter(|(_, run)| !sound(run)) {
-        let (x, _) = panel.place((q, 0.0));
-        d.marker((x, panel.floor()), Marker::Cross, ORANGE);
+        mark(inside, (q, foot), Marker::Cross, ORANGE)?;
     }
+    Ok(())
 }

@@ -1,16 +1,16 @@
 //! Simulation of scenes without a compiler, and its reports.
 
-mod axis;
 pub(crate) mod batch;
+#[cfg(feature = "plot")]
 pub(crate) mod batch_plot;
 pub(crate) mod batch_values;
 mod difference;
 mod doubts;
 pub(crate) mod page;
-mod panel;
 mod plant;
 mod plant_calls;
 mod plant_positions;
+#[cfg(feature = "plot")]
 pub(crate) mod plot;
 pub(crate) mod progress;
 pub(crate) mod report;

@@ -2,10 +2,14 @@
 //! and its influence. The page is written with `BGDYN_WRITE=1`; otherwise the test checks that it is up to
 //! date.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use bgdyn_accuracy::dark::with_dark_mode;
+use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
+use bgdyn_accuracy::plot::{
+    Area, Axis, Drawn, FAINT, INK, ORANGE, Panel, Sign, Stroke, at, curve, draw, legend, px, text,
+    write,
+};
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::expr::Inputs;
@@ -20,6 +24,9 @@ use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 /// Steps of a run, and their length, s.
 const STEPS: usize = 4000;
 const STEP: f64 = 5e-4;
+
+const WITH: Stroke = Stroke::new(ORANGE, 2.0);
+const WITHOUT: Stroke = Stroke::new(FAINT, 1.0).dashed(5.0, 4.0);
 
 fn docs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs")
@@ -124,84 +131,55 @@ fn hold_or_slip(contacts: &Function, at: &mut Inputs<f64>) {
     }
 }
 
-/// A bond graph in a line, and the motion with the effect and without.
+/// Draws a bond graph in a line, and the motion with the effect and without.
 fn figure(effect: &dyn Effect, paths: [&[[f64; 2]]; 2]) -> String {
-    let mut svg = String::from(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"860\" height=\"250\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"860\" height=\"250\" fill=\"white\"/>\n",
-    );
-    graph(&mut svg, effect);
-    for (k, what) in ["turn, rad", "slide, m"].into_iter().enumerate() {
-        let left = 250.0 + 310.0 * k as f64;
-        let all = || {
-            paths
-                .iter()
-                .flat_map(|p| p.iter().map(|x| x[k]))
-                .filter(|x| x.is_finite())
-        };
-        let (low, high) = all().fold((f64::MAX, f64::MIN), |(l, h), x| (l.min(x), h.max(x)));
-        let high = if high - low < 1e-9 { low + 1.0 } else { high };
-        let y = |x: f64| 205.0 - 165.0 * (x - low) / (high - low);
-        writeln!(svg, "<rect x=\"{left}\" y=\"40\" width=\"240\" height=\"165\" fill=\"none\" stroke=\"#999\"/>").unwrap();
-        writeln!(svg, "<text x=\"{left}\" y=\"30\">{what}</text>").unwrap();
-        for (at, value) in [(40.0 + 8.0, high), (205.0, low)] {
-            writeln!(
-                svg,
-                "<text x=\"{}\" y=\"{at}\" text-anchor=\"end\" font-size=\"11\">{value:.2}</text>",
-                left - 5.0
-            )
-            .unwrap();
+    draw((860, 265), |area| {
+        let (left, rest) = area.split_horizontally(px(200));
+        graph(&left, effect)?;
+        let (panels, below) = rest.split_vertically(px(235));
+        for (k, part) in panels.split_evenly((1, 2)).iter().enumerate() {
+            let (name, unit) = [("turn", "rad"), ("slide", "m")][k];
+            let points = |path: &[[f64; 2]]| {
+                let every = path.iter().enumerate().step_by(16);
+                let points = every.map(|(i, x)| (i as f64 * STEP, x[k]));
+                points.filter(|p| p.1.is_finite()).collect::<Vec<_>>()
+            };
+            let paths = paths.map(points);
+            let y = Axis::around(paths.iter().flatten().map(|p| p.1), 5);
+            let x = Axis::linear(0.0, STEPS as f64 * STEP, 4).label("time, s");
+            let title = format!("{}, {}", y.quantity(name), y.unit(unit));
+            let panel = Panel::new(&title, x, y).sides([56, 18, 32, 46]);
+            let chart = panel.draw(part)?;
+            for (points, stroke) in paths.into_iter().zip([WITH, WITHOUT]) {
+                curve(chart.plotting_area(), points, stroke)?;
+            }
         }
-        for (at, text) in [(left, "0"), (left + 240.0, "2 s")] {
-            writeln!(
-                svg,
-                "<text x=\"{at}\" y=\"220\" text-anchor=\"middle\" font-size=\"11\">{text}</text>"
-            )
-            .unwrap();
-        }
-        for (path, style) in paths.iter().zip([
-            "stroke=\"#c0392b\" stroke-width=\"2\"",
-            "stroke=\"#555\" stroke-dasharray=\"5 4\"",
-        ]) {
-            let every = path.iter().enumerate().step_by(16);
-            let points: Vec<String> = every
-                .filter(|(_, x)| x[k].is_finite())
-                .map(|(i, x)| {
-                    format!(
-                        "{:.1},{:.1}",
-                        left + 240.0 * i as f64 / STEPS as f64,
-                        y(x[k])
-                    )
-                })
-                .collect();
-            writeln!(
-                svg,
-                "<polyline fill=\"none\" {style} points=\"{}\"/>",
-                points.join(" ")
-            )
-            .unwrap();
-        }
-    }
-    svg += "<line x1=\"330\" y1=\"238\" x2=\"360\" y2=\"238\" stroke=\"#c0392b\" stroke-width=\"2\"/><text x=\"366\" y=\"242\">with the effect</text>\n<line x1=\"490\" y1=\"238\" x2=\"520\" y2=\"238\" stroke=\"#555\" stroke-dasharray=\"5 4\"/><text x=\"526\" y=\"242\">without</text>\n</svg>\n";
-    with_dark_mode(&svg)
+        let entries = [
+            (Sign::Line(WITH), "with the effect"),
+            (Sign::Line(WITHOUT), "without"),
+        ];
+        legend(&below, (56.0, 14.0), &entries)
+    })
 }
 
-/// The element on its junction: a bond with its half arrow.
-fn graph(svg: &mut String, effect: &dyn Effect) {
+/// Draws the element on its junction: a bond with its half arrow.
+fn graph(area: &Area<'_>, effect: &dyn Effect) -> Drawn {
     let junction = match effect.family() {
         "hydraulics" => "0  p",
         "gravity" | "inertia" => "1  ṙ, ω",
         _ => "1  q̇",
     };
-    let (name, symbol) = (effect.keyword(), effect.symbol());
-    write!(
-        svg,
-        "<text x=\"20\" y=\"130\" font-size=\"18\">{junction}</text>\n\
-         <line x1=\"75\" y1=\"124\" x2=\"140\" y2=\"124\" stroke=\"black\" stroke-width=\"1.5\"/>\n\
-         <line x1=\"140\" y1=\"124\" x2=\"131\" y2=\"116\" stroke=\"black\" stroke-width=\"1.5\"/>\n\
-         <text x=\"148\" y=\"130\" font-size=\"18\">{symbol}</text>\n\
-         <text x=\"20\" y=\"160\" fill=\"#555\">{name}</text>\n"
+    let symbol = text(18, INK, HPos::Left);
+    write(area, (20.0, 124.0), junction, &symbol)?;
+    write(area, (148.0, 124.0), effect.symbol(), &symbol)?;
+    let bond = [at(75.0, 124.0), at(140.0, 124.0), at(131.0, 116.0)];
+    curve(area, bond, Stroke::new(INK, 1.5))?;
+    write(
+        area,
+        (20.0, 156.0),
+        effect.keyword(),
+        &text(13, FAINT, HPos::Left),
     )
-    .unwrap();
 }
 
 /// Describes the values of a key.

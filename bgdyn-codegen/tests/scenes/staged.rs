@@ -3,10 +3,10 @@
 //! written with `BGDYN_WRITE=1`; otherwise the test checks that its numbers are up to date.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::path::Path;
 
-use bgdyn_accuracy::dark::with_dark_mode;
+use bgdyn_accuracy::plot::{self, Axis, FAINT, ORANGE, Sign, Stroke, curve, draw, legend, px};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
@@ -45,9 +45,13 @@ const STUDIES: [Study; 2] = [
     },
 ];
 
+const LUMPED: Stroke = Stroke::new(FAINT, 1.0).dashed(5.0, 4.0);
+const DISTRIBUTED: Stroke = Stroke::new(ORANGE, 2.0);
+
 /// A panel of the drawing: a curve of each stage.
 struct Panel {
-    title: String,
+    joint: String,
+    unit: &'static str,
     stages: [Vec<f64>; 2],
 }
 
@@ -161,65 +165,31 @@ fn names(system: &SceneEquations) -> Vec<String> {
     coordinates.map(|c| c.name.clone()).collect()
 }
 
-/// A number with three digits.
-fn figures(value: f64) -> String {
-    let decimals = (2.0 - value.abs().max(1e-12).log10().floor()).clamp(0.0, 5.0) as usize;
-    format!("{value:.decimals$}")
-}
-
+/// Draws a panel for each joint, over the time to `end`.
 fn figure(panels: &[Panel], end: f64) -> String {
-    let (width, height) = (250.0, 130.0);
     let rows = panels.len().div_ceil(3);
-    let (wide, high) = (
-        3.0 * (width + 75.0) + 10.0,
-        rows as f64 * (height + 62.0) + 40.0,
-    );
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}\" height=\"{high}\" font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"{wide}\" height=\"{high}\" fill=\"white\"/>\n"
-    );
-    for (k, panel) in panels.iter().enumerate() {
-        let left = 62.0 + (k % 3) as f64 * (width + 75.0);
-        let top = 30.0 + (k / 3) as f64 * (height + 62.0);
-        let all = || panel.stages.iter().flatten();
-        let low = all().fold(f64::MAX, |m, &x| m.min(x));
-        let most = all().fold(f64::MIN, |m, &x| m.max(x));
-        let span = (most - low).max(1e-9);
-        writeln!(svg, "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"none\" stroke=\"#999\"/>\n<text x=\"{left}\" y=\"{}\">{}</text>", top - 8.0, panel.title).unwrap();
-        for (y, value) in [(top + 10.0, most), (top + height, low)] {
-            let at = left - 5.0;
-            writeln!(
-                svg,
-                "<text x=\"{at}\" y=\"{y}\" text-anchor=\"end\" font-size=\"11\">{}</text>",
-                figures(value)
-            )
-            .unwrap();
+    draw((990, 200 * rows as u32 + 40), |area| {
+        let (all, below) = area.split_vertically(px(200 * rows as u32));
+        for (panel, part) in panels.iter().zip(all.split_evenly((rows, 3))) {
+            let y = Axis::around(panel.stages.iter().flatten().copied(), 5);
+            let x = Axis::linear(0.0, end, 5).label("time, s");
+            let title = format!("{}, {}", y.quantity(&panel.joint), y.unit(panel.unit));
+            let chart = plot::Panel::new(&title, x, y)
+                .sides([56, 18, 32, 46])
+                .draw(&part)?;
+            for (stage, stroke) in panel.stages.iter().zip([LUMPED, DISTRIBUTED]) {
+                let last = (stage.len() - 1) as f64;
+                let points = stage.iter().enumerate();
+                let points = points.map(|(i, x)| (end * i as f64 / last, *x));
+                curve(chart.plotting_area(), points, stroke)?;
+            }
         }
-        for (x, text) in [(left, "0".to_owned()), (left + width, format!("{end} s"))] {
-            let y = top + height + 15.0;
-            writeln!(
-                svg,
-                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\" font-size=\"11\">{text}</text>"
-            )
-            .unwrap();
-        }
-        let styles = [
-            "stroke=\"#555\" stroke-dasharray=\"5 4\"",
-            "stroke=\"#c0392b\" stroke-width=\"2\"",
+        let entries = [
+            (Sign::Line(LUMPED), "point masses"),
+            (Sign::Line(DISTRIBUTED), "distributed masses"),
         ];
-        for (curve, style) in panel.stages.iter().zip(styles) {
-            let n = curve.len() - 1;
-            let points = curve.iter().enumerate().map(|(i, x)| {
-                let (x, y) = (i as f64 / n as f64, (x - low) / span);
-                format!("{:.1},{:.1}", left + width * x, top + height * (1.0 - y))
-            });
-            let points: Vec<String> = points.collect();
-            let points = points.join(" ");
-            writeln!(svg, "<polyline fill=\"none\" {style} points=\"{points}\"/>").unwrap();
-        }
-    }
-    let y = high - 18.0;
-    write!(svg, "<line x1=\"62\" y1=\"{y}\" x2=\"92\" y2=\"{y}\" stroke=\"#555\" stroke-dasharray=\"5 4\"/><text x=\"98\" y=\"{0}\">point masses</text>\n<line x1=\"222\" y1=\"{y}\" x2=\"252\" y2=\"{y}\" stroke=\"#c0392b\" stroke-width=\"2\"/><text x=\"258\" y=\"{0}\">distributed masses</text>\n</svg>\n", y + 4.0).unwrap();
-    with_dark_mode(&svg)
+        legend(&below, (56.0, 18.0), &entries)
+    })
 }
 
 /// Operations of a function, and its sines.
@@ -272,7 +242,8 @@ fn section(study: &Study, write: bool) -> String {
         )
         .unwrap();
         panels.push(Panel {
-            title: format!("{name}, {unit}"),
+            joint: name,
+            unit,
             stages,
         });
     }
@@ -287,7 +258,8 @@ fn section(study: &Study, write: bool) -> String {
         let (unit, _) = unit(&moving[1], j);
         writeln!(text, "| {name} | {:.3} {unit} |", apart(&stages)).unwrap();
         panels.push(Panel {
-            title: format!("{name}, {unit}"),
+            joint: name,
+            unit,
             stages,
         });
     }

@@ -4,42 +4,21 @@ mod panel;
 
 use std::path::{Path, PathBuf};
 
-use bgdyn_accuracy::dark::with_dark_mode;
-use bgdyn_accuracy::fine::{FINE, shown_at};
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
+use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
+use bgdyn_accuracy::plot::{Area, Drawn, INK, RGBColor, Sign, legend, px, text, write};
 
 use super::cycle::Gripper;
 use super::report::tool_error;
 use super::simulate::{PERIOD, Sample};
 use super::{Cell, Joints};
-use panel::{Line, Panel};
+use panel::{BASELINE, COMPUTED, LIMIT, Line, Panel, WANTED};
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-
-// The palette of Okabe and Ito, which is distinguishable for colour-blind readers.
-const BLUE: RGBColor = RGBColor(0, 114, 178);
-const VERMILION: RGBColor = RGBColor(213, 94, 0);
-const GREY: RGBColor = RGBColor(190, 190, 190);
-const CARRIED: RGBColor = RGBColor(255, 243, 205);
-const INK: RGBColor = RGBColor(40, 40, 40);
+const CARRIED: RGBColor = RGBColor(255, 231, 155);
 
 const WIDTH: u32 = 1500;
-const HEADER: u32 = 110;
+const HEADER: u32 = 100;
 const ROW: u32 = 185;
 const TOOL_ROW: u32 = 400;
-const FONT: &str = "sans-serif";
-
-/// Converts whole pixels to the drawing's units.
-const fn px(pixels: u32) -> u32 {
-    FINE * pixels
-}
-
-/// Converts a position in whole pixels to the drawing's units.
-const fn at(x: i32, y: i32) -> (i32, i32) {
-    (FINE as i32 * x, FINE as i32 * y)
-}
 
 /// The samples of both laws.
 struct Runs<'a, const N: usize> {
@@ -58,16 +37,11 @@ pub fn draw<G, C, E, L, const N: usize>(
         .map_err(|e| format!("the folder {} cannot be made: {e}", out.display()))?;
     let path = out.join(format!("{}.svg", cell.name));
     let runs = Runs { computed, baseline };
-    let mut svg = String::new();
     let size = (WIDTH, HEADER + rows::<N>() + TOOL_ROW);
-    draw_all(cell, &runs, &mut svg, size)
-        .map_err(|e| format!("{} cannot be drawn: {e}", path.display()))?;
-    std::fs::write(&path, with_dark_mode(&shown_at(&svg, size)))
-        .map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
+    let svg = bgdyn_accuracy::plot::draw(size, |area| draw_all(cell, &runs, area));
+    std::fs::write(&path, svg).map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
     Ok(path)
 }
-
-type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Height of the joints' rows.
 const fn rows<const N: usize>() -> u32 {
@@ -77,49 +51,28 @@ const fn rows<const N: usize>() -> u32 {
 fn draw_all<G, C, E, L, const N: usize>(
     cell: &Cell<G, C, E, L, N>,
     runs: &Runs<'_, N>,
-    svg: &mut String,
-    (width, height): (u32, u32),
+    area: &Area<'_>,
 ) -> Drawn {
-    let root = SVGBackend::with_string(svg, (px(width), px(height))).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (header, rest) = root.split_vertically(px(HEADER));
+    write(area, (30.0, 32.0), cell.title, &text(22, INK, HPos::Left))?;
+    let entries = [
+        (Sign::Line(WANTED), "wanted"),
+        (
+            Sign::Line(COMPUTED),
+            "computed torque with the generated model",
+        ),
+        (Sign::Line(BASELINE), "PD + gravity, same gains"),
+        (Sign::Shade(CARRIED), "part of 2 kg carried"),
+        (Sign::Line(LIMIT), "limit of the drive"),
+    ];
+    legend(area, (30.0, 74.0), &entries)?;
+    let (_, rest) = area.split_vertically(px(HEADER));
     let (joints, tool) = rest.split_vertically(px(rows::<N>()));
-    draw_header(cell, &header)?;
     for (i, row) in joints.split_evenly((N, 1)).iter().enumerate() {
         draw_joint(cell, runs, i, row)?;
     }
     let tool = tool.split_evenly((1, 3));
     draw_plan(cell, runs, &tool[0])?;
-    draw_tool(cell, runs, &tool[1], &tool[2])?;
-    root.present()?;
-    Ok(())
-}
-
-/// Title and legend.
-fn draw_header<G, C, E, L, const N: usize>(cell: &Cell<G, C, E, L, N>, area: &Area<'_>) -> Drawn {
-    let text = |size: u32| (FONT, px(size)).into_font().color(&INK);
-    area.draw_text(cell.title, &text(27), at(30, 18))?;
-    let y = 76;
-    let entries: [(i32, &str, RGBColor, u32); 3] = [
-        (30, "wanted", GREY, 6),
-        (150, "computed torque with the generated model", BLUE, 2),
-        (520, "PD + gravity, same gains", VERMILION, 2),
-    ];
-    let middle = text(17).pos(Pos::new(HPos::Left, VPos::Center));
-    for (x, name, color, width) in entries {
-        let line = vec![at(x, y), at(x + 36, y)];
-        area.draw(&PathElement::new(line, color.stroke_width(px(width))))?;
-        area.draw_text(name, &middle, at(x + 44, y))?;
-    }
-    let swatch = [at(760, y - 10), at(796, y + 10)];
-    area.draw(&Rectangle::new(swatch, CARRIED.filled()))?;
-    area.draw_text("part of 2 kg carried", &middle, at(804, y))?;
-    for x in [990, 1002, 1014] {
-        let dash = vec![at(x, y), at(x + 7, y)];
-        area.draw(&PathElement::new(dash, INK.stroke_width(px(1))))?;
-    }
-    area.draw_text("limit of the drive", &middle, at(1030, y))?;
-    Ok(())
+    draw_tool(cell, runs, &tool[1], &tool[2])
 }
 
 /// One joint: position, error, effort.
@@ -183,7 +136,7 @@ fn draw_plan<G, C, E, L, const N: usize>(
 ) -> Drawn {
     let tool = |q: &Joints<N>| (cell.machine.tool)(q);
     // x is forward: up in the picture; y is to the left.
-    let seen = |q: &Joints<N>| (-tool(q).y, tool(q).x);
+    let seen = |q: &Joints<N>| (tool(q).y, tool(q).x);
     let mark = |gripper, name: &'static str| {
         let call = (cell.cycle.time_of(gripper).unwrap_or(0.0) / PERIOD).round() as usize;
         (seen(&runs.computed[call].wanted.q), name)
@@ -192,9 +145,9 @@ fn draw_plan<G, C, E, L, const N: usize>(
         samples.iter().step_by(4).map(place).collect::<Vec<_>>()
     };
     let lines = [
-        Line::wanted(way(runs.computed, &|s| seen(&s.wanted.q))),
-        Line::baseline(way(runs.baseline, &|s| seen(&s.q))),
-        Line::computed(way(runs.computed, &|s| seen(&s.q))),
+        Line::new(WANTED, way(runs.computed, &|s| seen(&s.wanted.q))),
+        Line::new(BASELINE, way(runs.baseline, &|s| seen(&s.q))),
+        Line::new(COMPUTED, way(runs.computed, &|s| seen(&s.q))),
     ];
     let marks = [
         ((0.0, 0.0), "base"),
@@ -231,8 +184,8 @@ fn draw_tool<G, C, E, L, const N: usize>(
 /// A quantity of both runs over time.
 fn two_lines<const N: usize>(runs: &Runs<'_, N>, value: impl Fn(&Sample<N>) -> f64) -> Vec<Line> {
     vec![
-        Line::baseline(over_time(runs.baseline, &value)),
-        Line::computed(over_time(runs.computed, &value)),
+        Line::new(BASELINE, over_time(runs.baseline, &value)),
+        Line::new(COMPUTED, over_time(runs.computed, &value)),
     ]
 }
 
@@ -242,7 +195,7 @@ fn three_lines<const N: usize>(
     wanted: impl Fn(&Sample<N>) -> f64,
     value: impl Fn(&Sample<N>) -> f64,
 ) -> Vec<Line> {
-    let mut lines = vec![Line::wanted(over_time(runs.computed, &wanted))];
+    let mut lines = vec![Line::new(WANTED, over_time(runs.computed, &wanted))];
     lines.extend(two_lines(runs, value));
     lines
 }

@@ -12,7 +12,7 @@ use crate::output::print;
 use crate::simulate::batch_values::{self, BatchValues, Given};
 use crate::simulate::progress::Progress;
 use crate::simulate::report::{number, quantity, short};
-use crate::simulate::{Column, Evaluated, Way, batch, batch_plot};
+use crate::simulate::{Column, Evaluated, Way, batch};
 use crate::spec_file::read_text;
 use crate::usage::Usage;
 
@@ -106,18 +106,19 @@ impl Many {
         let out = of.out;
         std::fs::create_dir_all(out)
             .with_context(|| format!("the folder {} cannot be made", out.display()))?;
-        let [table, picture] =
-            ["csv", "svg"].map(|kind| out.join(format!("{}_batch.{kind}", of.name)));
+        let table = out.join(format!("{}_batch.csv", of.name));
         let shown = |path: &Path| format!("{} cannot be written", path.display());
         std::fs::write(&table, batch::csv(of.columns, varied, &summaries))
             .with_context(|| shown(&table))?;
-        batch_plot::draw(&picture, of.name, of.columns, (varied, &summaries))
-            .with_context(|| shown(&picture))?;
-        print(&format!(
-            "written: {} ({total} runs), {}\n",
-            table.display(),
-            picture.display()
-        ))?;
+        let written = format!("written: {} ({total} runs)", table.display());
+        #[cfg(feature = "plot")]
+        let written = {
+            let picture = out.join(format!("{}_batch.svg", of.name));
+            let svg = crate::simulate::batch_plot::plot(of.name, of.columns, (varied, &summaries));
+            std::fs::write(&picture, svg).with_context(|| shown(&picture))?;
+            format!("{written}, {}", picture.display())
+        };
+        print(&(written + "\n"))?;
         let drift = summaries.iter().filter(|run| run.failure.is_none());
         let drift = drift.map(|run| run.drift).fold(0.0, f64::max);
         print(&format!(

@@ -1,6 +1,6 @@
 //! Draws the legend below a drawing.
 
-use bgdyn_accuracy::svg::{Anchor, Drawing, GRID, INK};
+use super::drawing::{Anchor, Drawing, GRID, INK};
 
 use super::super::chart::{Chart, Component, Port};
 use super::super::layout::{MARGIN, text_width};
@@ -134,12 +134,7 @@ fn entry_height(entry: &LegendEntry) -> f64 {
 /// Draws the entries below `top`.
 pub(super) fn draw(d: &mut Drawing, entries: &[LegendEntry], top: f64) {
     let mut y = top + 28.0;
-    d.line(
-        (MARGIN, top + 8.0),
-        (d.width() - MARGIN, top + 8.0),
-        GRID,
-        "",
-    );
+    d.line((MARGIN, top + 8.0), (d.width() - MARGIN, top + 8.0), GRID);
     for entry in entries {
         sign(d, entry.sign, (MARGIN, y - 4.5));
         let x = match entry.sign {

@@ -1,16 +1,16 @@
 //! Prints a drawing as SVG.
 
+mod drawing;
 mod legend;
 mod style;
 mod symbols;
-
-use bgdyn_accuracy::svg::{ALARM, Anchor, Drawing, FAINT, INK};
 
 use super::chart::{Chart, ChartLink, Component, Flow, Port, Transformer, lines};
 use super::layout::{
     BOND, Band, DROP, Layout, MARGIN, PITCH, SYMBOL, VECTOR, VelocityColumn, layout, text_width,
     vector_width, words_width,
 };
+use drawing::{ALARM, Anchor, Drawing, FAINT, INK};
 use style::{LINE, SUM, SUM_BAR, VELOCITY, VELOCITY_BAR};
 use symbols::{Bond, Point, bar, bond, clearing, junction};
 

@@ -1,6 +1,6 @@
 //! Draws SVG symbols of junctions and bonds.
 
-use bgdyn_accuracy::svg::{Anchor, Drawing, INK};
+use super::drawing::{Anchor, Drawing, INK};
 
 /// x to the right, y down.
 pub(super) type Point = (f64, f64);

@@ -1,142 +1,52 @@
 //! Draws the error of the energy over the number of steps.
 
-use std::error::Error;
-use std::path::Path;
+use std::ops::Range;
 
-use bgdyn_accuracy::dark::with_dark_mode;
-use bgdyn_accuracy::fine::{FINE, shown_at};
+use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
+use bgdyn_accuracy::plot::{
+    self, Area, Axis, BLUE, Drawn, GREEN, INK, ORANGE, PINK, RGBColor, curve, name_ends, px, text,
+    write,
+};
 use hard_cases::{Curve, Panel};
-use plotters::coord::Shift;
-use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+const COLOURS: [RGBColor; 4] = [ORANGE, BLUE, GREEN, PINK];
+/// Width for the names of the curves.
+const NAMES: u32 = 190;
 
-// The palette of Okabe and Ito, which is distinguishable for colour-blind readers.
-const COLORS: [RGBColor; 4] = [
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-];
-const INK: RGBColor = RGBColor(40, 40, 40);
-const FONT: &str = "sans-serif";
-const SIZE: (u32, u32) = (1400, 540);
-const HEADER: u32 = 64;
-/// Width for the names of the curves, and space between two of them.
-const NAMES: u32 = 176;
-const LINE: i32 = 17;
-
-/// Converts whole pixels to the drawing's units.
-const fn px(pixels: u32) -> u32 {
-    FINE * pixels
+/// Returns the drawing of both panels, as SVG.
+pub fn draw(curves: &[Curve]) -> String {
+    plot::draw((1400, 540), |area| {
+        let title = "Energy of a double pendulum, step by step";
+        let about = "largest |ΔE| since the point before, in units of 29.43 J, half of what it takes to stand the pendulum up";
+        write(area, (16.0, 20.0), title, &text(18, INK, HPos::Left))?;
+        write(area, (16.0, 44.0), about, &text(13, INK, HPos::Left))?;
+        let (_, rest) = area.split_vertically(px(60));
+        let parts = rest.split_evenly((1, 2));
+        let regular = "from (0.5 rad, 0): regular; in momenta";
+        panel(&parts[0], regular, of(curves, Panel::Regular), 1e-18..1e-8)?;
+        let chaotic = "from (120°, 30°): chaotic; in velocities and in momenta";
+        panel(&parts[1], chaotic, of(curves, Panel::Chaotic), 1e-10..1.0)
+    })
 }
 
-/// Converts a position in whole pixels to the drawing's units.
-const fn at(x: i32, y: i32) -> (i32, i32) {
-    (FINE as i32 * x, FINE as i32 * y)
-}
-
-/// Draws both panels.
-pub fn draw(path: &Path, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
-    let mut svg = String::new();
-    draw_all(&mut svg, curves)?;
-    std::fs::write(path, with_dark_mode(&shown_at(&svg, SIZE)))?;
-    Ok(())
-}
-
-fn draw_all(svg: &mut String, curves: &[Curve]) -> Result<(), Box<dyn Error>> {
-    let root = SVGBackend::with_string(svg, (px(SIZE.0), px(SIZE.1))).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (header, rest) = root.split_vertically(px(HEADER));
-    let text = |size: u32| (FONT, px(size)).into_font().color(&INK);
-    header.draw_text(
-        "Energy of a double pendulum, step by step",
-        &text(22),
-        at(16, 8),
-    )?;
-    let about = "largest |ΔE| since the point before, in units of 29.43 J, half of what it takes to stand the pendulum up";
-    header.draw_text(about, &text(14), at(16, 38))?;
-    let panels = rest.split_evenly((1, 2));
-    panel(
-        &panels[0],
-        Panel::Regular,
-        "from (0.5 rad, 0): regular; in momenta",
-        curves,
-        -18.0..-8.0,
-    )?;
-    panel(
-        &panels[1],
-        Panel::Chaotic,
-        "from (120°, 30°): chaotic; in velocities and in momenta",
-        curves,
-        -10.0..0.0,
-    )?;
-    root.present()?;
-    Ok(())
+fn of(curves: &[Curve], panel: Panel) -> Vec<&Curve> {
+    curves.iter().filter(|c| c.panel == panel).collect()
 }
 
 /// Draws one motion by several integrators, on logarithmic axes.
-fn panel(
-    area: &Area<'_>,
-    of: Panel,
-    title: &str,
-    curves: &[Curve],
-    powers: std::ops::Range<f64>,
-) -> Result<(), Box<dyn Error>> {
-    let own: Vec<&Curve> = curves.iter().filter(|c| c.panel == of).collect();
-    let ends = own.iter().filter_map(|c| c.points.last());
-    let end = ends.fold(1.0_f64, |end, p| end.max(p.0.log10()));
-    let mut chart = ChartBuilder::on(area)
-        .caption(title, (FONT, px(16)).into_font().color(&INK))
-        .margin(px(10))
-        .margin_right(px(NAMES))
-        .x_label_area_size(px(44))
-        .y_label_area_size(px(60))
-        .build_cartesian_2d(0.0..end, powers.clone())?;
-    chart
-        .configure_mesh()
-        .x_desc("steps")
-        .x_label_formatter(&|x| power(*x))
-        .y_label_formatter(&|y| power(*y))
-        .x_labels(end as usize + 1)
-        .y_labels((powers.end - powers.start) as usize / 2 + 1)
-        .label_style((FONT, px(13)).into_font().color(&INK))
-        .axis_desc_style((FONT, px(14)).into_font().color(&INK))
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(BLACK.mix(0.12).stroke_width(px(1)))
-        .axis_style(INK.mix(0.6).stroke_width(px(1)))
-        .set_all_tick_mark_size(px(5))
-        .draw()?;
+fn panel(area: &Area<'_>, title: &str, curves: Vec<&Curve>, errors: Range<f64>) -> Drawn {
+    let ends = curves.iter().filter_map(|c| c.points.last());
+    let end = ends.fold(10.0_f64, |end, p| end.max(p.0));
+    let x = Axis::log(1.0, end, 9).label("steps");
+    let y = Axis::log(errors.start, errors.end, 6);
+    let panel = plot::Panel::new(title, x, y).sides([60, NAMES, 32, 46]);
+    let chart = panel.draw(area)?;
     let mut names = vec![];
-    for (curve, color) in own.iter().zip(COLORS) {
-        let points = curve.points.iter().map(|p| (p.0.log10(), p.1.log10()));
-        let points: Vec<(f64, f64)> = points.filter(|p| p.1 > powers.start).collect();
-        if let Some(last) = points.last() {
-            names.push((chart.backend_coord(last), curve.name, color));
-        }
-        chart.draw_series(LineSeries::new(points, color.stroke_width(px(2))))?;
+    for (of, colour) in curves.iter().zip(COLOURS) {
+        let points = of.points.iter().filter(|p| p.1 > errors.start);
+        let points: Vec<(f64, f64)> = points.copied().collect();
+        names.extend(points.last().map(|end| (*end, of.name.to_owned(), colour)));
+        curve(chart.plotting_area(), points, colour.into())?;
     }
-    // Beside the ends of the curves, each on a line of its own.
-    names.sort_by_key(|((_, y), ..)| *y);
-    let (left, top) = area.get_base_pixel();
-    let mut free = i32::MIN;
-    for ((x, y), name, color) in names {
-        let y = y.max(free);
-        free = y + at(0, LINE).1;
-        let style = (FONT, px(13)).into_font().color(&color);
-        let style = style.pos(Pos::new(HPos::Left, VPos::Center));
-        area.draw_text(name, &style, (x - left + at(8, 0).0, y - top))?;
-    }
-    Ok(())
-}
-
-/// Prints ten to an integer power.
-fn power(exponent: f64) -> String {
-    let raised = |c: char| match c.to_digit(10) {
-        Some(digit) => ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize],
-        None => '⁻',
-    };
-    let digits = format!("{}", exponent.round() as i32);
-    format!("10{}", digits.chars().map(raised).collect::<String>())
+    name_ends(area, &chart, names)
 }

@@ -144,7 +144,7 @@ fn write(
         files.push(path);
     }
     let path = options.out.join("energy.svg");
-    energy::draw(&path, curves).map_err(|e| refuse(&path, &e))?;
+    fs::write(&path, energy::draw(curves)).map_err(|e| refuse(&path, &e))?;
     files.push(path);
     Ok(files)
 }

@@ -1,0 +1,85 @@
+//! Plots with axes as SVG, for light and dark pages: the crate `plotters` with one look for all of them.
+//!
+//! [`draw`] makes a drawing. [`Panel`] draws axes in an area of it and returns their chart. [`curve`],
+//! [`mark`] and the elements of `plotters` take data coordinates in the chart's
+//! [`plotting_area`](ChartContext::plotting_area), and [`at`] positions in pixels in other areas.
+//!
+//! ```
+//! use bgdyn_accuracy::plot::{Axis, BLUE, Panel, Stroke, curve, draw};
+//!
+//! let points = [(0.0, 1.0), (1.0, 1e-3), (2.0, 1e-6)];
+//! let svg = draw((400, 250), |area| {
+//!     let x = Axis::linear(0.0, 2.0, 5).label("time, s");
+//!     let y = Axis::decades(points.map(|p| p.1), 8).label("error, m");
+//!     let chart = Panel::new("A run", x, y).draw(area)?;
+//!     curve(chart.plotting_area(), points, BLUE.into())
+//! });
+//! assert!(svg.contains("10⁻⁶"));
+//! ```
+
+mod axis;
+mod fine;
+mod legend;
+mod panel;
+mod style;
+
+use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::{
+    Cartesian2d, ChartContext, DrawingArea, IntoDrawingArea, SVGBackend, WHITE,
+};
+
+use crate::dark::with_dark_mode;
+use fine::{FINE, shown_at};
+
+pub use axis::Axis;
+pub use legend::{Sign, legend, name_ends, sign};
+pub use panel::Panel;
+pub use plotters;
+pub use plotters::style::RGBColor;
+pub use style::{
+    ALARM, BLUE, FAINT, GREEN, GRID, INK, Marker, ORANGE, PINK, SKY, Stroke, bold, curve, mark,
+    shade, text, write,
+};
+
+/// A part of a drawing. Units are those of [`px`].
+pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// The axes of a panel.
+pub type Chart<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>;
+
+/// What drawing returns.
+pub type Drawn<T = ()> = Result<T, DrawingAreaErrorKind<std::io::Error>>;
+
+/// Returns the SVG text of a drawing with this width and height in pixels, on a white ground; dark pages
+/// get its dark counterpart.
+pub fn draw(size: (u32, u32), body: impl FnOnce(&Area<'_>) -> Drawn) -> String {
+    let mut svg = String::new();
+    let whole = |svg| -> Drawn {
+        let root = SVGBackend::with_string(svg, (px(size.0), px(size.1))).into_drawing_area();
+        root.fill(&WHITE)?;
+        body(&root)?;
+        root.present()
+    };
+    // Only files have errors, and fonts that the SVG text would contain.
+    whole(&mut svg).expect("a drawing that is kept as text");
+    with_dark_mode(&shown_at(&svg, size))
+}
+
+/// Converts whole pixels to the drawing's units.
+pub const fn px(pixels: u32) -> u32 {
+    FINE * pixels
+}
+
+/// Converts a position in pixels, x to the right and y down, to the drawing's units.
+pub fn at(x: f64, y: f64) -> (i32, i32) {
+    let fine = |x: f64| (f64::from(FINE) * x).round() as i32;
+    (fine(x), fine(y))
+}
+
+/// Gives a text in the drawing a tooltip: the first one that reads `shown` and has none.
+pub fn with_tooltip(svg: &str, shown: &str, tooltip: &str) -> String {
+    let [shown, tooltip] = [shown, tooltip].map(crate::format::escaped);
+    let titled = format!(">\n<title>{tooltip}</title>{shown}\n</text>");
+    svg.replacen(&format!(">\n{shown}\n</text>"), &titled, 1)
+}
