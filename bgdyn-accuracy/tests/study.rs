@@ -142,7 +142,26 @@ fn a_run_that_fails_is_a_row_with_its_reason() {
     assert_eq!((first.error, first.ns), (None, None));
     assert!(rows_csv([first]).ends_with(&format!("failed: {why}\n")));
     let drawn = figures(&study);
-    assert!(drawn[0].svg.contains(">failed<"), "{}", drawn[0].svg);
+    assert!(has_text(&drawn[0].svg, "failed"), "{}", drawn[0].svg);
+}
+
+/// Returns whether one of a drawing's texts is this one.
+fn has_text(svg: &str, words: &str) -> bool {
+    svg.contains(&format!(">\n{words}\n</text>"))
+}
+
+/// The reason of a failure is cut short in the drawing; the whole is the tooltip.
+#[test]
+fn a_long_reason_is_a_tooltip() {
+    let mut study = priced();
+    let why = "no rate of <shoulder>: the mass matrix is singular at 0 s".to_owned();
+    let last = study.rows.last_mut().expect("a row");
+    (last.error, last.status) = (None, Status::Failed(why));
+    let figures = figures(&study);
+    let figure = figures.iter().find(|f| f.name.ends_with("_effects.svg"));
+    let svg = &figure.expect("a figure of effects").svg;
+    let whole = "<title>failed: no rate of &lt;shoulder&gt;: the mass matrix is singular at 0 s</title>failed: ";
+    assert_eq!(svg.matches(whole).count(), 1, "{svg}");
 }
 
 #[test]
@@ -205,10 +224,7 @@ fn the_figure_of_effects_shows_calls_and_steps() {
     let svg = &figure.expect("a figure of effects").svg;
     // A time that does not differ measurably is marked.
     for number in ["42", "30", "37", "12.5", "≈ 12.8", "11", "300", "40", "0.5"] {
-        assert!(
-            svg.contains(&format!(">{number}</text>")),
-            "{number}: {svg}"
-        );
+        assert!(has_text(svg, number), "{number}: {svg}");
     }
     for words in [
         "all effects",
@@ -217,15 +233,15 @@ fn the_figure_of_effects_shows_calls_and_steps() {
         "operations",
         "steps",
     ] {
-        assert!(svg.contains(&format!(">{words}</text>")), "{words}");
+        assert!(has_text(svg, words), "{words}");
     }
     // A range for each time: a line and its two ends.
-    let is_range = |line: &&str| line.starts_with("<line") && line.contains("#e69f00");
+    let is_range = |line: &&str| line.starts_with("<polyline") && line.contains("#E69F00");
     assert_eq!(svg.lines().filter(is_range).count(), 9);
-    assert!(!svg.contains(">-") && !svg.contains(">−"), "{svg}");
+    assert!(!svg.contains(">\n-") && !svg.contains(">\n−"), "{svg}");
     // A bar for each cost, a dot for the change that is not 0.
-    assert_eq!(svg.matches("fill=\"#0072b2\"/>").count(), 8);
-    assert_eq!(svg.matches("fill=\"#d55e00\"/>").count(), 1);
+    assert_eq!(svg.matches("fill=\"#0072B2\" stroke=\"none\"").count(), 8);
+    assert_eq!(svg.matches("fill=\"#D55E00\" stroke=\"none\"").count(), 1);
     let mut unpriced = study.clone();
     unpriced.costs.clear();
     let without = bgdyn_accuracy::figures(&unpriced);

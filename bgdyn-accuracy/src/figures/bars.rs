@@ -58,7 +58,7 @@ impl Number {
 pub(super) struct Column {
     /// Its quantity, and its reference or unit.
     pub title: [String; 2],
-    pub scale: Scale,
+    pub shape: Shape,
 }
 
 impl Column {
@@ -66,7 +66,7 @@ impl Column {
     pub fn bars(what: String, unit: String) -> Self {
         Column {
             title: [what, unit],
-            scale: Scale::Linear,
+            shape: Shape::Bars,
         }
     }
 
@@ -74,17 +74,17 @@ impl Column {
     pub fn dots(what: String, unit: &str) -> Self {
         Column {
             title: [what, format!("{unit}, logarithmic")],
-            scale: Scale::Log,
+            shape: Shape::Dots,
         }
     }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scale {
+pub(super) enum Shape {
     /// Bars from zero.
-    Linear,
-    /// Dots.
-    Log,
+    Bars,
+    /// Dots on a logarithmic axis.
+    Dots,
 }
 
 /// A figure of such lines.
@@ -111,7 +111,7 @@ const LETTERS: usize = 24;
 
 impl Bars {
     pub fn draw(&self) -> String {
-        let logarithmic = self.columns.iter().any(|c| c.scale == Scale::Log);
+        let logarithmic = self.columns.iter().any(|c| c.shape == Shape::Dots);
         let below = if logarithmic { 30 } else { 14 };
         let height = TOP + ROW * self.lines.len() as u32 + below;
         let svg = draw((WIDTH, height), |area| {
@@ -176,12 +176,12 @@ impl Bars {
             Panel::new("", x, rows.clone()).sides(sides).draw(area)
         };
         let numbers = self.lines.iter().map(|line| line.values[k]);
-        match self.columns[k].scale {
-            Scale::Linear => {
+        match self.columns[k].shape {
+            Shape::Bars => {
                 let most = numbers.flatten().map(end).fold(f64::MIN_POSITIVE, f64::max);
                 self.bars(area, k, &panel(Axis::linear(0.0, most, 1).bare(), below)?)
             }
-            Scale::Log => {
+            Shape::Dots => {
                 let values = numbers.flatten().map(|x| x.value);
                 self.dots(area, k, &panel(Axis::decades(values, 4), below)?)
             }

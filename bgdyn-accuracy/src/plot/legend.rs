@@ -1,9 +1,11 @@
 //! Legends, and names beside the ends of curves.
 
-use plotters::prelude::Rectangle;
+use plotters::prelude::{Color, Rectangle};
 use plotters::style::text_anchor::HPos;
 
-use super::{Area, Chart, Drawn, INK, Marker, RGBColor, Stroke, at, curve, mark, text, write};
+use super::{
+    Area, Chart, Drawn, INK, Marker, RGBColor, Stroke, at, curve, mark, place_in, text, write,
+};
 
 /// What stands for a series of a plot in its legend.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +36,7 @@ pub fn sign(area: &Area<'_>, (x, y): (f64, f64), sign: Sign) -> Drawn {
         }
         Sign::Shade(colour) => {
             let corners = [at(x, y - 8.0), at(x + WIDTH, y + 8.0)];
-            area.draw(&Rectangle::new(corners, super::shade(colour)))
+            area.draw(&Rectangle::new(corners, colour.filled()))
         }
     }
 }
@@ -66,20 +68,15 @@ pub fn name_ends(
     chart: &Chart<'_>,
     ends: impl IntoIterator<Item = ((f64, f64), String, RGBColor)>,
 ) -> Drawn {
-    let place = |(end, name, colour)| (chart.backend_coord(&end), name, colour);
+    let place = |(end, name, colour)| (place_in(area, chart, end), name, colour);
     let mut names: Vec<_> = ends.into_iter().map(place).collect();
     names.sort_by_key(|((_, y), ..)| *y);
-    let (left, top) = area.get_base_pixel();
     let (gap, line) = at(GAP, LINE);
     let mut free = i32::MIN;
     for ((x, y), name, colour) in names {
         let y = y.max(free);
         free = y + line;
-        area.draw_text(
-            &name,
-            &text(13, colour, HPos::Left),
-            (x - left + gap, y - top),
-        )?;
+        area.draw_text(&name, &text(13, colour, HPos::Left), (x + gap, y))?;
     }
     Ok(())
 }

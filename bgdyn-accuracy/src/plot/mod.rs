@@ -34,12 +34,12 @@ use fine::{FINE, shown_at};
 
 pub use axis::Axis;
 pub use legend::{Sign, legend, name_ends, sign};
-pub use panel::Panel;
+pub use panel::{Panel, place_in};
 pub use plotters;
 pub use plotters::style::RGBColor;
 pub use style::{
     ALARM, BLUE, FAINT, GREEN, GRID, INK, Marker, ORANGE, PINK, SKY, Stroke, bold, curve, mark,
-    shade, text, write,
+    text, write,
 };
 
 /// A part of a drawing. Units are those of [`px`].

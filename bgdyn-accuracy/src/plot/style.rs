@@ -4,7 +4,7 @@ use plotters::coord::CoordTranslate;
 use plotters::element::DashedPathElement;
 use plotters::prelude::{
     Circle, Color, Cross, DrawingArea, EmptyElement, FontDesc, FontFamily, FontStyle, PathElement,
-    RGBColor, Rectangle, SVGBackend, ShapeStyle, TextStyle, TriangleMarker,
+    RGBColor, Rectangle, SVGBackend, TextStyle, TriangleMarker,
 };
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -30,11 +30,6 @@ pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 pub const PINK: RGBColor = RGBColor(204, 121, 167);
 /// Sky blue of this palette.
 pub const SKY: RGBColor = RGBColor(86, 180, 233);
-
-/// Returns the style of a shaded part of a plot, through which grid lines remain visible.
-pub fn shade(colour: RGBColor) -> ShapeStyle {
-    colour.mix(0.5).filled()
-}
 
 /// Returns the style of a text of this size in pixels; its point is at half its height, and at its left
 /// end, middle or right end.

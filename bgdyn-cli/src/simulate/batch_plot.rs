@@ -1,10 +1,10 @@
 //! Plots a batch: the final value of each output against each varied quantity.
 
-use bgdyn_accuracy::plot::plotters::prelude::Polygon;
+use bgdyn_accuracy::plot::plotters::prelude::{Color, Polygon};
 use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
     Area, Axis, BLUE, Drawn, INK, Marker, ORANGE, Panel, RGBColor, Stroke, curve, draw, mark, px,
-    shade, text, write,
+    text, write,
 };
 
 use super::batch::RunSummary;
@@ -74,7 +74,7 @@ fn draw_panel(
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
     let shown = if single { 0..3 } else { 0..1 };
     let values = points.iter().flat_map(|(_, y)| y[shown.clone()].to_vec());
-    let y = Axis::around(values, 5);
+    let y = Axis::around(values, 7);
     let x = Axis::around(all().map(|(x, _)| x), 8);
     let below = match x.unit(quantity.unit).as_str() {
         "" => x.quantity(&quantity.name),
@@ -88,7 +88,7 @@ fn draw_panel(
     if single {
         let above: Vec<(f64, f64)> = of(2).collect();
         let outline: Vec<_> = of(1).chain(above.into_iter().rev()).collect();
-        inside.draw(&Polygon::new(outline, shade(BAND)))?;
+        inside.draw(&Polygon::new(outline, BAND.mix(0.5)))?;
         curve(inside, of(0), Stroke::new(BLUE, 1.0))?;
     }
     let few = points.len() <= FEW;

@@ -2,7 +2,8 @@
 
 use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
-    Area, Axis, BLUE, Drawn, INK, ORANGE, Panel, RGBColor, Stroke, at, curve, draw, px, text, write,
+    Area, Axis, BLUE, Drawn, INK, ORANGE, Panel, RGBColor, Stroke, curve, draw, place_in, px, text,
+    write,
 };
 
 use super::run_table::{Column, Record};
@@ -48,7 +49,7 @@ fn panel(
 ) -> Drawn {
     let points = record.rows.iter().map(|row| (row.t, row.values[i]));
     let points: Vec<(f64, f64)> = points.filter(|p| p.1.is_finite()).collect();
-    let y = Axis::around(points.iter().map(|p| p.1), 5);
+    let y = Axis::around(points.iter().map(|p| p.1), 7);
     let end = if record.t > 0.0 { record.t } else { 1.0 };
     let x = Axis::linear(0.0, end, 8);
     let time = last.then(|| format!("t / {}", x.unit("s")));
@@ -64,12 +65,9 @@ fn panel(
     }
     curve(inside, points, BLUE.into())?;
     for event in events() {
-        let (x, foot) = chart.backend_coord(&(event.t, y.start));
-        curve(
-            area,
-            [(x, foot), (x, foot - at(0.0, 5.0).1)],
-            Stroke::new(ORANGE, 2.0),
-        )?;
+        let (x, foot) = place_in(area, &chart, (event.t, y.start));
+        let mark = [(x, foot), (x, foot - px(5) as i32)];
+        curve(area, mark, Stroke::new(ORANGE, 2.0))?;
     }
     Ok(())
 }

@@ -61,7 +61,7 @@ fn every_drawing_of_the_docs_is_for_dark_pages_too() {
     }
 }
 
-/// Curves of plots have tenths of pixels: no point is rounded to a whole pixel.
+/// Curves of plots have tenths of pixels, the units of their drawings: points are not rounded to whole pixels.
 #[test]
 fn plots_have_tenths_of_pixels() {
     let out: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "pictures"].iter().collect();
@@ -80,12 +80,18 @@ fn plots_have_tenths_of_pixels() {
     for name in ["stick_slip.svg", "stick_slip_batch.svg"] {
         let svg = fs::read_to_string(out.join(name)).expect("a plot");
         holds(name, &svg);
-        let curves = svg.split("<polyline points=\"").skip(1);
+        let size = |key: &str| -> f64 {
+            let (_, rest) = svg.split_once(key).expect(key);
+            let number = rest.split([' ', '"']).next();
+            number.and_then(|n| n.parse().ok()).expect(key)
+        };
+        assert_eq!(size("viewBox=\"0 0 "), 10.0 * size("width=\""), "{name}");
+        let curves = svg.split(" points=\"").skip(1);
         let longest = curves
             .map(|rest| rest.split('"').next().unwrap_or(""))
             .max_by_key(|c| c.len());
         let places = longest.expect("a curve").split([' ', ',']);
-        let between = places.filter(|n| !n.ends_with(".0")).count();
+        let between = places.filter(|n| !n.ends_with('0')).count();
         assert!(between > 4, "{name}: all places are whole pixels");
     }
 }

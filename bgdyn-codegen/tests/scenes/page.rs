@@ -145,7 +145,7 @@ fn figure(effect: &dyn Effect, paths: [&[[f64; 2]]; 2]) -> String {
                 points.filter(|p| p.1.is_finite()).collect::<Vec<_>>()
             };
             let paths = paths.map(points);
-            let y = Axis::around(paths.iter().flatten().map(|p| p.1), 5);
+            let y = Axis::around(paths.iter().flatten().map(|p| p.1), 7);
             let x = Axis::linear(0.0, STEPS as f64 * STEP, 4).label("time, s");
             let title = format!("{}, {}", y.quantity(name), y.unit(unit));
             let panel = Panel::new(&title, x, y).sides([56, 18, 32, 46]);
@@ -171,8 +171,8 @@ fn graph(area: &Area<'_>, effect: &dyn Effect) -> Drawn {
     };
     let symbol = text(18, INK, HPos::Left);
     write(area, (20.0, 124.0), junction, &symbol)?;
-    write(area, (148.0, 124.0), effect.symbol(), &symbol)?;
-    let bond = [at(75.0, 124.0), at(140.0, 124.0), at(131.0, 116.0)];
+    write(area, (158.0, 124.0), effect.symbol(), &symbol)?;
+    let bond = [at(92.0, 124.0), at(150.0, 124.0), at(141.0, 116.0)];
     curve(area, bond, Stroke::new(INK, 1.5))?;
     write(
         area,

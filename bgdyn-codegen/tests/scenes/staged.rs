@@ -171,8 +171,8 @@ fn figure(panels: &[Panel], end: f64) -> String {
     draw((990, 200 * rows as u32 + 40), |area| {
         let (all, below) = area.split_vertically(px(200 * rows as u32));
         for (panel, part) in panels.iter().zip(all.split_evenly((rows, 3))) {
-            let y = Axis::around(panel.stages.iter().flatten().copied(), 5);
-            let x = Axis::linear(0.0, end, 5).label("time, s");
+            let y = Axis::around(panel.stages.iter().flatten().copied(), 7);
+            let x = Axis::linear(0.0, end, 7).label("time, s");
             let title = format!("{}, {}", y.quantity(&panel.joint), y.unit(panel.unit));
             let chart = plot::Panel::new(&title, x, y)
                 .sides([56, 18, 32, 46])

@@ -13,7 +13,7 @@ use super::simulate::{PERIOD, Sample};
 use super::{Cell, Joints};
 use panel::{BASELINE, COMPUTED, LIMIT, Line, Panel, WANTED};
 
-const CARRIED: RGBColor = RGBColor(255, 231, 155);
+const CARRIED: RGBColor = RGBColor(255, 243, 205);
 
 const WIDTH: u32 = 1500;
 const HEADER: u32 = 100;

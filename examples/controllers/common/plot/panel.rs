@@ -1,6 +1,5 @@
 //! One panel: axes, the shaded time, limits and lines.
 
-use bgdyn_accuracy::plot::plotters::prelude::Rectangle;
 use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
     self, Area, Axis, BLUE, Drawn, FAINT, INK, Marker, ORANGE, RGBColor, Stroke, at, curve, mark,
@@ -77,17 +76,18 @@ impl Panel {
     pub fn draw(&self, area: &Area<'_>, lines: &[Line]) -> Drawn {
         let (low, high) = self.y_range(lines);
         let x = Axis::linear(self.x.0, self.x.1, 9).label(self.x_label.unwrap_or_default());
-        let y = Axis::linear(low, high, 5);
+        let y = Axis::linear(low, high, 7);
         let label = match self.y_label.split_once(" / ") {
             Some((name, unit)) => format!("{name} / {}", y.unit(unit)),
             None => self.y_label.clone(),
         };
-        let chart = plot::Panel::new(&self.title, x, y.label(label)).draw(area)?;
+        let panel = plot::Panel::new(&self.title, x, y.label(label));
+        let panel = match self.carried {
+            Some(time) => panel.shaded(time, CARRIED),
+            None => panel,
+        };
+        let chart = panel.draw(area)?;
         let inside = chart.plotting_area();
-        if let Some((from, to)) = self.carried {
-            let shade = [(from, low), (to, high)];
-            inside.draw(&Rectangle::new(shade, plot::shade(CARRIED)))?;
-        }
         let level = |y: f64| [(self.x.0, y), (self.x.1, y)];
         if low < 0.0 && high > 0.0 {
             curve(inside, level(0.0), Stroke::new(FAINT, 1.0))?;
@@ -138,11 +138,10 @@ pub fn draw_plan(
         let points = line.points.iter().copied();
         curve(chart.plotting_area(), points, line.stroke)?;
     }
-    let (left, top) = area.get_base_pixel();
     for (place, name) in marks {
         mark(chart.plotting_area(), *place, Marker::Disc, INK)?;
-        let (x, y) = chart.backend_coord(place);
-        let below = (x - left, y - top + at(0.0, 16.0).1);
+        let (x, y) = plot::place_in(area, &chart, *place);
+        let below = (x, y + at(0.0, 16.0).1);
         area.draw_text(name, &text(13, INK, HPos::Center), below)?;
     }
     Ok(())
