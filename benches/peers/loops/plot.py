@@ -10,15 +10,8 @@ TITLES = {"parallelograms": "Two parallelograms: error, m", "five_bar": "Five-ba
 def write(rows, program, path):
     """Draws the plot by bin/plots, which is benches/peers/plots."""
     timed = any(r.get("seconds") for r in rows)
-    run = lambda r: {
-        "system": SYSTEMS.index(r["system"]),
-        "along": r["seconds"] if timed else r["step"],
-        "error": r["error"],
-        "python": "Python" in r["inside"],
-    }
-    mechanisms = [
-        {"title": title, "runs": [run(r) for r in rows if r["mechanism"] == name and r.get("error")]}
-        for name, title in TITLES.items()
-    ]
+    run = lambda r: (SYSTEMS.index(r["system"]), r["seconds" if timed else "step"], r["error"], "Python" in r["inside"])
+    runs = lambda name: [run(r) for r in rows if r["mechanism"] == name and r.get("error")]
+    mechanisms = [(title, runs(name)) for name, title in TITLES.items()]
     numbers = json.dumps({"systems": SYSTEMS, "timed": timed, "mechanisms": mechanisms})
     subprocess.run([program, "errors", path], input=numbers, text=True, check=True)

@@ -3,12 +3,11 @@
 //! Dots are used if the length of a bar would have no meaning.
 
 use plotters::prelude::{Color, Rectangle};
-use plotters::style::text_anchor::HPos;
 
 use crate::format::short;
 use crate::plot::{
     ALARM, Area, Axis, BLUE, Chart, Drawn, FAINT, GRID, INK, Marker, ORANGE, Panel, RGBColor,
-    Stroke, at, bold, curve, draw, mark, px, text, with_tooltip, write,
+    Stroke, at, bold, curve, draw, mark, px, right_aligned, text, with_tooltip, write,
 };
 
 /// A line.
@@ -115,12 +114,7 @@ impl Bars {
         let below = if logarithmic { 30 } else { 14 };
         let height = TOP + ROW * self.lines.len() as u32 + below;
         let svg = draw((WIDTH, height), |area| {
-            write(
-                area,
-                (MARGIN, 27.0),
-                &self.title,
-                &text(17, INK, HPos::Left),
-            )?;
+            write(area, (MARGIN, 27.0), &self.title, text(17, INK))?;
             self.labels(area)?;
             for k in 0..self.columns.len() {
                 self.column(area, k, below)?;
@@ -148,11 +142,11 @@ impl Bars {
             let ends = [at(MARGIN, top), at(f64::from(WIDTH) - MARGIN, top)];
             curve(area, ends, Stroke::new(GRID, 1.0))?;
             let style = match self.compared && i == 0 {
-                true => bold(13, INK, HPos::Right),
-                false => text(13, INK, HPos::Right),
+                true => right_aligned(bold(13, INK)),
+                false => right_aligned(text(13, INK)),
             };
             let place = (MARGIN + LABELS - 16.0, top + 15.0);
-            write(area, place, &line.label, &style)?;
+            write(area, place, &line.label, style)?;
         }
         Ok(())
     }
@@ -162,13 +156,8 @@ impl Bars {
         let left = MARGIN + LABELS + distance * k as f64;
         let [what, unit] = &self.columns[k].title;
         let above = f64::from(TOP);
-        write(area, (left, above - 33.0), what, &text(14, INK, HPos::Left))?;
-        write(
-            area,
-            (left, above - 14.0),
-            unit,
-            &text(11, FAINT, HPos::Left),
-        )?;
+        write(area, (left, above - 33.0), what, text(14, INK))?;
+        write(area, (left, above - 14.0), unit, text(11, FAINT))?;
         let rows = Axis::rows(self.lines.len());
         let right = f64::from(WIDTH) - (left + width - NUMBERS);
         let panel = |x: Axis, below: u32| {
@@ -222,7 +211,7 @@ impl Bars {
             let from = if crossed { beyond } else { own } + px(6) as i32;
             let same = y > 1.0 && first.is_some_and(|first| first.overlaps(x));
             let words = format!("{}{}", if same { "≈ " } else { "" }, number(x.value));
-            area.draw_text(&words, &text(13, INK, HPos::Left), (from, height))?;
+            area.draw_text(&words, &text(13, INK), (from, height))?;
         }
         Ok(())
     }
@@ -237,7 +226,7 @@ impl Bars {
             }
             let (left, height) = chart.backend_coord(&place);
             let (colour, beside) = if drawn { (INK, px(10)) } else { (FAINT, 0) };
-            let style = text(13, colour, HPos::Left);
+            let style = text(13, colour);
             area.draw_text(&short(x), &style, (left + beside as i32, height))?;
         }
         Ok(())
@@ -249,12 +238,7 @@ impl Bars {
         for (i, line) in self.lines.iter().enumerate() {
             let Some(why) = &line.failed else { continue };
             let place = (left, f64::from(TOP + ROW * i as u32) + 15.0);
-            write(
-                area,
-                place,
-                &self.failure(why).0,
-                &text(11, ALARM, HPos::Left),
-            )?;
+            write(area, place, &self.failure(why).0, text(11, ALARM))?;
         }
         Ok(())
     }

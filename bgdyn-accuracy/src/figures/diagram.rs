@@ -1,12 +1,11 @@
 //! Draws the diagram of error against time, both on logarithmic axes.
 
 use plotters::prelude::{Color, Rectangle};
-use plotters::style::text_anchor::HPos;
 
 use crate::configuration::StepControl;
 use crate::plot::{
     ALARM, Area, Axis, Chart, Drawn, FAINT, INK, Marker, Panel, RGBColor, Sign, Stroke, at, curve,
-    draw, mark, sign, text, write,
+    draw, mark, right_aligned, sign, text, write,
 };
 use crate::row::Row;
 
@@ -52,7 +51,7 @@ impl Diagram<'_> {
     pub fn draw(&self) -> String {
         let legend = (TOP + ENTRY * self.series.len() as f64) as u32 + 10;
         draw((WIDTH, HEIGHT.max(legend)), |area| {
-            write(area, (24.0, 27.0), &self.title, &text(17, INK, HPos::Left))?;
+            write(area, (24.0, 27.0), &self.title, text(17, INK))?;
             let chart = self.axes(area)?;
             for series in &self.series {
                 self.curve(area, &chart, series)?;
@@ -83,7 +82,7 @@ impl Diagram<'_> {
                 let (_, y) = chart.backend_coord(&(1.0, value));
                 curve(area, [(left, y), (right, y)], line)?;
                 let (dx, dy) = at(4.0, 9.0);
-                let style = text(11, FAINT, HPos::Right);
+                let style = right_aligned(text(11, FAINT));
                 area.draw_text(what, &style, (right - dx, y - dy))?;
             }
         }
@@ -92,8 +91,8 @@ impl Diagram<'_> {
             let (_, bottom) = at(0.0, STRIP + 11.0);
             let strip = [(left, top), (right, bottom)];
             area.draw(&Rectangle::new(strip, FAILED.filled()))?;
-            let style = text(13, ALARM, HPos::Right);
-            write(area, (LEFT - 8.0, STRIP), "failed", &style)?;
+            let style = right_aligned(text(13, ALARM));
+            write(area, (LEFT - 8.0, STRIP), "failed", style)?;
         }
         Ok(chart)
     }
@@ -131,14 +130,14 @@ impl Diagram<'_> {
             };
             sign(area, (LEGEND, y), what)?;
             let label = (LEGEND + 44.0, y - 1.0);
-            write(area, label, &series.label, &text(14, INK, HPos::Left))?;
+            write(area, label, &series.label, text(14, INK))?;
             let (note, colour) = match none {
                 true => ("no run follows the motion", ALARM),
                 false if series.alarming => (series.note.as_str(), ALARM),
                 false => (series.note.as_str(), FAINT),
             };
-            let style = text(11, colour, HPos::Left);
-            write(area, (LEGEND + 44.0, y + 15.0), note, &style)?;
+            let style = text(11, colour);
+            write(area, (LEGEND + 44.0, y + 15.0), note, style)?;
         }
         Ok(())
     }

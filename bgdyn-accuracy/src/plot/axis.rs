@@ -112,8 +112,7 @@ impl Axis {
     /// Returns a logarithmic axis from `low` to `high`, with at most `most` ticks.
     pub fn log(low: f64, high: f64, most: usize) -> Self {
         let (low, high) = (low.log10(), high.log10());
-        let ticks = log_ticks(low, high, most);
-        Axis::new(Scale::Log, low, high, ticks)
+        Axis::new(Scale::Log, low, high, log_ticks(low, high, most))
     }
 
     /// Returns a logarithmic axis over whole decades around values, with at most `most` ticks. Values that
@@ -122,26 +121,19 @@ impl Axis {
         let logs = values.into_iter().map(f64::log10);
         let (low, high) = ends(logs.filter(|x| x.is_finite())).unwrap_or((-1.0, 0.0));
         let (low, high) = ((low - 0.05).floor(), (high + 0.05).ceil());
-        let ticks = log_ticks(low, high, most);
-        Axis::new(Scale::Log, low, high, ticks)
+        Axis::new(Scale::Log, low, high, log_ticks(low, high, most))
     }
 
     /// Returns a vertical axis of this number of rows, the first on top: row i is from i to i + 1. It has
     /// no ticks.
     pub fn rows(count: usize) -> Self {
-        let plain = Scale::Linear {
-            offset: 0.0,
-            exponent: 0,
-        };
-        Axis::new(plain, count as f64, 0.0, Vec::new())
+        Axis::linear(0.0, count as f64, 1).bare().reversed()
     }
 
     /// Returns the axis without its ticks; a horizontal axis is not drawn then.
     pub fn bare(self) -> Self {
-        Axis {
-            ticks: Vec::new(),
-            ..self
-        }
+        let ticks = Vec::new();
+        Axis { ticks, ..self }
     }
 
     pub(super) fn is_bare(&self) -> bool {
@@ -150,28 +142,21 @@ impl Axis {
 
     /// Returns the axis with a text along it.
     pub fn label(self, label: impl Into<String>) -> Self {
-        Axis {
-            label: label.into(),
-            ..self
-        }
+        let label = label.into();
+        Axis { label, ..self }
     }
 
     /// Returns the axis in the other direction: its numbers grow to the left, or downwards.
     pub fn reversed(self) -> Self {
-        Axis {
-            low: self.high,
-            high: self.low,
-            ..self
-        }
+        let (low, high) = (self.high, self.low);
+        Axis { low, high, ..self }
     }
 
     /// Returns the axis with a line through the panel at each tick; logarithmic axes and vertical ones
     /// have them.
     pub fn lines(self) -> Self {
-        Axis {
-            lines: true,
-            ..self
-        }
+        let lines = true;
+        Axis { lines, ..self }
     }
 
     /// Returns the name of the quantity that the numbers show: the name, less the axis's offset.

@@ -1,7 +1,6 @@
 //! Legends, and names beside the ends of curves.
 
 use plotters::prelude::{Color, Rectangle};
-use plotters::style::text_anchor::HPos;
 
 use super::{
     Area, Chart, Drawn, INK, Marker, RGBColor, Stroke, at, curve, mark, place_in, text, write,
@@ -43,17 +42,15 @@ pub fn sign(area: &Area<'_>, (x, y): (f64, f64), sign: Sign) -> Drawn {
 
 /// Draws signs with their texts in a row from a point, px.
 pub fn legend(area: &Area<'_>, (mut x, y): (f64, f64), entries: &[(Sign, &str)]) -> Drawn {
-    let style = text(13, INK, HPos::Left);
     for (what, words) in entries {
         // Points need less width than lines.
-        let less = if matches!(what, Sign::Points(..)) {
-            12.0
-        } else {
-            0.0
+        let less = match what {
+            Sign::Points(..) => 12.0,
+            _ => 0.0,
         };
         sign(area, (x - less, y), *what)?;
         x += WIDTH + GAP - 2.0 * less;
-        write(area, (x, y), words, &style)?;
+        write(area, (x, y), words, text(13, INK))?;
         x += 7.0 * words.chars().count() as f64 + 24.0;
     }
     Ok(())
@@ -76,7 +73,7 @@ pub fn name_ends(
     for ((x, y), name, colour) in names {
         let y = y.max(free);
         free = y + line;
-        area.draw_text(&name, &text(13, colour, HPos::Left), (x + gap, y))?;
+        area.draw_text(&name, &text(13, colour), (x + gap, y))?;
     }
     Ok(())
 }

@@ -18,7 +18,6 @@
 //! ```
 
 mod axis;
-mod fine;
 mod legend;
 mod panel;
 mod style;
@@ -30,7 +29,6 @@ use plotters::prelude::{
 };
 
 use crate::dark::with_dark_mode;
-use fine::{FINE, shown_at};
 
 pub use axis::Axis;
 pub use legend::{Sign, legend, name_ends, sign};
@@ -38,8 +36,8 @@ pub use panel::{Panel, place_in};
 pub use plotters;
 pub use plotters::style::RGBColor;
 pub use style::{
-    ALARM, BLUE, FAINT, GREEN, GRID, INK, Marker, ORANGE, PINK, SKY, Stroke, bold, curve, mark,
-    text, write,
+    ALARM, BLUE, FAINT, GREEN, GRID, INK, Marker, ORANGE, PINK, SKY, Stroke, bold, centred, curve,
+    mark, right_aligned, text, write,
 };
 
 /// A part of a drawing. Units are those of [`px`].
@@ -63,8 +61,16 @@ pub fn draw(size: (u32, u32), body: impl FnOnce(&Area<'_>) -> Drawn) -> String {
     };
     // Only files have errors, and fonts that the SVG text would contain.
     whole(&mut svg).expect("a drawing that is kept as text");
-    with_dark_mode(&shown_at(&svg, size))
+    // The view box retains the units.
+    let [fine, shown] = [px(1), 1].map(|unit| {
+        let (width, height) = (unit * size.0, unit * size.1);
+        format!("<svg width=\"{width}\" height=\"{height}\"")
+    });
+    with_dark_mode(&svg.replacen(&fine, &shown, 1))
 }
+
+/// Units per pixel: `plotters` has whole ones.
+const FINE: u32 = 10;
 
 /// Converts whole pixels to the drawing's units.
 pub const fn px(pixels: u32) -> u32 {

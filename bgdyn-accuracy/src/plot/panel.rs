@@ -1,7 +1,6 @@
 //! A panel: axes with their title and labels.
 
 use plotters::prelude::{ChartBuilder, Color, Rectangle};
-use plotters::style::text_anchor::HPos;
 
 use super::{Area, Axis, Chart, Drawn, FAINT, GRID, INK, RGBColor, px, text, write};
 
@@ -52,7 +51,7 @@ impl<'t> Panel<'t> {
     pub fn draw<'a>(&self, area: &Area<'a>) -> Drawn<Chart<'a>> {
         let [left, right, above, below] = self.sides;
         let title = (f64::from(left), f64::from(above) - 13.0);
-        write(area, title, self.title, &text(14, INK, HPos::Left))?;
+        write(area, title, self.title, text(14, INK))?;
         let margin = left.min(6);
         let mut chart = ChartBuilder::on(area)
             .margin_left(px(margin))
@@ -72,8 +71,8 @@ impl<'t> Panel<'t> {
         mesh.light_line_style(plotters::style::TRANSPARENT)
             .bold_line_style(GRID.stroke_width(px(1)))
             .axis_style(FAINT.stroke_width(px(1)))
-            .label_style(text(11, INK, HPos::Left))
-            .axis_desc_style(text(13, INK, HPos::Left))
+            .label_style(text(11, INK))
+            .axis_desc_style(text(13, INK))
             .set_all_tick_mark_size(px(4));
         if !self.x.lines {
             mesh.disable_x_mesh();

@@ -8,8 +8,7 @@ use plotters::prelude::{
 };
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::fine::FINE;
-use super::{Area, Drawn, at};
+use super::{Area, Drawn, at, px};
 
 /// Colour of texts.
 pub const INK: RGBColor = RGBColor(40, 40, 40);
@@ -31,31 +30,39 @@ pub const PINK: RGBColor = RGBColor(204, 121, 167);
 /// Sky blue of this palette.
 pub const SKY: RGBColor = RGBColor(86, 180, 233);
 
-/// Returns the style of a text of this size in pixels; its point is at half its height, and at its left
-/// end, middle or right end.
-pub fn text(size: u32, colour: RGBColor, anchor: HPos) -> TextStyle<'static> {
-    font(size, colour, anchor, FontStyle::Normal)
-}
-
-/// Returns the style of the same text in bold.
-pub fn bold(size: u32, colour: RGBColor, anchor: HPos) -> TextStyle<'static> {
-    font(size, colour, anchor, FontStyle::Bold)
-}
-
-fn font(size: u32, colour: RGBColor, anchor: HPos, style: FontStyle) -> TextStyle<'static> {
+/// Returns the style of a text of this size in pixels; its point is at half its height, at its left end.
+pub fn text(size: u32, colour: RGBColor) -> TextStyle<'static> {
     // The backend divides by this number.
-    let size = 1.24 * f64::from(FINE * size);
-    let font = FontDesc::new(FontFamily::SansSerif, size, style);
+    let size = 1.24 * f64::from(px(size));
     TextStyle {
-        font,
+        font: FontDesc::new(FontFamily::SansSerif, size, FontStyle::Normal),
         color: colour.to_backend_color(),
-        pos: Pos::new(anchor, VPos::Center),
+        pos: Pos::new(HPos::Left, VPos::Center),
     }
 }
 
+/// Returns the style of the same text in bold.
+pub fn bold(size: u32, colour: RGBColor) -> TextStyle<'static> {
+    let style = text(size, colour);
+    TextStyle {
+        font: style.font.style(FontStyle::Bold),
+        ..style
+    }
+}
+
+/// Returns the style of a text that ends at its point.
+pub fn right_aligned(style: TextStyle<'_>) -> TextStyle<'_> {
+    style.pos(Pos::new(HPos::Right, VPos::Center))
+}
+
+/// Returns the style of a text whose middle is at its point.
+pub fn centred(style: TextStyle<'_>) -> TextStyle<'_> {
+    style.pos(Pos::new(HPos::Center, VPos::Center))
+}
+
 /// Writes a line of text at a position in pixels.
-pub fn write(area: &Area<'_>, (x, y): (f64, f64), words: &str, style: &TextStyle<'_>) -> Drawn {
-    area.draw_text(words, style, at(x, y))
+pub fn write(area: &Area<'_>, (x, y): (f64, f64), words: &str, style: TextStyle<'_>) -> Drawn {
+    area.draw_text(words, &style, at(x, y))
 }
 
 /// A kind of line.

@@ -1,7 +1,6 @@
 //! Plots a batch: the final value of each output against each varied quantity.
 
 use bgdyn_accuracy::plot::plotters::prelude::{Color, Polygon};
-use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
     Area, Axis, BLUE, Drawn, INK, Marker, ORANGE, Panel, RGBColor, Stroke, curve, draw, mark, px,
     text, write,
@@ -44,8 +43,8 @@ pub(crate) fn plot(
         caption += &format!("; orange: {failed} failed, at the lower edge");
     }
     draw((width, HEADER + PANEL.1 * down as u32), |area| {
-        write(area, (16.0, 20.0), title, &text(18, INK, HPos::Left))?;
-        write(area, (16.0, 44.0), &caption, &text(13, INK, HPos::Left))?;
+        write(area, (16.0, 20.0), title, text(18, INK))?;
+        write(area, (16.0, 44.0), &caption, text(13, INK))?;
         let (_, rest) = area.split_vertically(px(HEADER));
         for (i, part) in rest.split_evenly((down, across)).iter().enumerate() {
             let (row, column) = (i / across, i % across);

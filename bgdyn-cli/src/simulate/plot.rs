@@ -1,6 +1,5 @@
 //! Plots a run: a panel for each column, over time.
 
-use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
     Area, Axis, BLUE, Drawn, INK, ORANGE, Panel, RGBColor, Stroke, curve, draw, place_in, px, text,
     write,
@@ -25,10 +24,10 @@ pub(crate) fn plot(title: &str, columns: &[Column], record: &Record) -> String {
     let marked = !record.events.is_empty() && record.events.len() <= EVENTS;
     let header = if marked { HEADER } else { HEADER - 20 };
     draw((width, header + PANEL.1 * down as u32), |area| {
-        write(area, (16.0, 20.0), title, &text(18, INK, HPos::Left))?;
+        write(area, (16.0, 20.0), title, text(18, INK))?;
         if marked {
             let events = "orange, upright: events, where a contact holds or is released";
-            write(area, (16.0, 42.0), events, &text(13, INK, HPos::Left))?;
+            write(area, (16.0, 42.0), events, text(13, INK))?;
         }
         let (_, rest) = area.split_vertically(px(header));
         let parts = rest.split_evenly((down, across));

@@ -5,7 +5,6 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
     Area, Axis, Drawn, FAINT, INK, ORANGE, Panel, Sign, Stroke, at, curve, draw, legend, px, text,
     write,
@@ -169,17 +168,12 @@ fn graph(area: &Area<'_>, effect: &dyn Effect) -> Drawn {
         "gravity" | "inertia" => "1  ṙ, ω",
         _ => "1  q̇",
     };
-    let symbol = text(18, INK, HPos::Left);
-    write(area, (20.0, 124.0), junction, &symbol)?;
-    write(area, (158.0, 124.0), effect.symbol(), &symbol)?;
+    let symbol = text(18, INK);
+    write(area, (20.0, 124.0), junction, symbol.clone())?;
+    write(area, (158.0, 124.0), effect.symbol(), symbol.clone())?;
     let bond = [at(92.0, 124.0), at(150.0, 124.0), at(141.0, 116.0)];
     curve(area, bond, Stroke::new(INK, 1.5))?;
-    write(
-        area,
-        (20.0, 156.0),
-        effect.keyword(),
-        &text(13, FAINT, HPos::Left),
-    )
+    write(area, (20.0, 156.0), effect.keyword(), text(13, FAINT))
 }
 
 /// Describes the values of a key.

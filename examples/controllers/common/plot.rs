@@ -4,7 +4,6 @@ mod panel;
 
 use std::path::{Path, PathBuf};
 
-use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{Area, Drawn, INK, RGBColor, Sign, legend, px, text, write};
 
 use super::cycle::Gripper;
@@ -53,7 +52,7 @@ fn draw_all<G, C, E, L, const N: usize>(
     runs: &Runs<'_, N>,
     area: &Area<'_>,
 ) -> Drawn {
-    write(area, (30.0, 32.0), cell.title, &text(22, INK, HPos::Left))?;
+    write(area, (30.0, 32.0), cell.title, text(22, INK))?;
     let entries = [
         (Sign::Line(WANTED), "wanted"),
         (

@@ -1,9 +1,8 @@
 //! One panel: axes, the shaded time, limits and lines.
 
-use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
-    self, Area, Axis, BLUE, Drawn, FAINT, INK, Marker, ORANGE, RGBColor, Stroke, at, curve, mark,
-    text,
+    self, Area, Axis, BLUE, Drawn, FAINT, INK, Marker, ORANGE, RGBColor, Stroke, at, centred,
+    curve, mark, text,
 };
 
 use super::CARRIED;
@@ -142,7 +141,7 @@ pub fn draw_plan(
         mark(chart.plotting_area(), *place, Marker::Disc, INK)?;
         let (x, y) = plot::place_in(area, &chart, *place);
         let below = (x, y + at(0.0, 16.0).1);
-        area.draw_text(name, &text(13, INK, HPos::Center), below)?;
+        area.draw_text(name, &centred(text(13, INK)), below)?;
     }
     Ok(())
 }

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use bgdyn_accuracy::plot::plotters::style::text_anchor::HPos;
 use bgdyn_accuracy::plot::{
     self, Area, Axis, BLUE, Drawn, GREEN, INK, ORANGE, PINK, RGBColor, curve, name_ends, px, text,
     write,
@@ -18,8 +17,8 @@ pub fn draw(curves: &[Curve]) -> String {
     plot::draw((1400, 540), |area| {
         let title = "Energy of a double pendulum, step by step";
         let about = "largest |ΔE| since the point before, in units of 29.43 J, half of what it takes to stand the pendulum up";
-        write(area, (16.0, 20.0), title, &text(18, INK, HPos::Left))?;
-        write(area, (16.0, 44.0), about, &text(13, INK, HPos::Left))?;
+        write(area, (16.0, 20.0), title, text(18, INK))?;
+        write(area, (16.0, 44.0), about, text(13, INK))?;
         let (_, rest) = area.split_vertically(px(60));
         let parts = rest.split_evenly((1, 2));
         let regular = "from (0.5 rad, 0): regular; in momenta";
