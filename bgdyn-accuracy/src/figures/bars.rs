@@ -6,8 +6,8 @@ use plotters::prelude::{Color, Rectangle};
 
 use crate::format::short;
 use crate::plot::{
-    ALARM, Area, Axis, BLUE, Chart, Drawn, FAINT, GRID, INK, Marker, ORANGE, Panel, RGBColor,
-    Stroke, at, bold, curve, draw, mark, px, right_aligned, text, with_tooltip, write,
+    ALARM, Area, Axis, BLUE, Chart, Drawn, FAINT, GRID, INK, Marker, ORANGE, Panel, Stroke,
+    VERMILION, at, bold, curve, draw, mark, px, right_aligned, text, with_tooltip, write,
 };
 
 /// A line.
@@ -103,8 +103,6 @@ const ROW: u32 = 30;
 const LABELS: f64 = 190.0;
 const NUMBERS: f64 = 62.0;
 const GAP: f64 = 26.0;
-/// Colour of the ranges of measured numbers: visible on bars and next to them.
-const WHISKER: RGBColor = RGBColor(230, 159, 0);
 /// Number of letters that fit beside a column.
 const LETTERS: usize = 24;
 
@@ -189,7 +187,8 @@ impl Bars {
             let bar = [(0.0, y - 0.25), (x.value, y + 0.25)];
             inside.draw(&Rectangle::new(bar, BLUE.filled()))?;
             if let Some([low, high]) = x.range {
-                let whisker = Stroke::new(WHISKER, 1.0);
+                // A colour that is visible on bars and next to them.
+                let whisker = Stroke::new(ORANGE, 1.0);
                 curve(inside, [(low, y), (high, y)], whisker)?;
                 for x in [low, high] {
                     curve(inside, [(x, y - 0.13), (x, y + 0.13)], whisker)?;
@@ -222,7 +221,7 @@ impl Bars {
             let drawn = x > 0.0 && x.is_finite();
             let place = (if drawn { x } else { least }, y);
             if drawn {
-                mark(chart.plotting_area(), place, Marker::Disc, ORANGE)?;
+                mark(chart.plotting_area(), place, Marker::Disc, VERMILION)?;
             }
             let (left, height) = chart.backend_coord(&place);
             let (colour, beside) = if drawn { (INK, px(10)) } else { (FAINT, 0) };

@@ -8,7 +8,7 @@ mod figure;
 use crate::format::{short, step, time};
 use crate::order_check::{Verdict, verdicts};
 use crate::pareto::targets;
-use crate::plot::{BLUE, GREEN, Marker, ORANGE, PINK, RGBColor, SKY, Stroke};
+use crate::plot::{BLUE, GREEN, Marker, ORANGE, PURPLE, RGBColor, SKY, Stroke, VERMILION};
 use crate::row::Row;
 use crate::study::Study;
 use bars::{Bars, Column, Line};
@@ -17,9 +17,6 @@ use effects::{added, left_out};
 pub use figure::Figure;
 use figure::about;
 pub(crate) use figure::way;
-
-/// Orange of the palette of Okabe and Ito.
-const AMBER: RGBColor = RGBColor(230, 159, 0);
 
 /// Returns the colour and marker of an integrator. The palette of Okabe and Ito is distinguishable for
 /// colour-blind readers; circles are explicit integrators, squares implicit ones, triangles integrators of
@@ -30,11 +27,11 @@ fn look(method: &str) -> (RGBColor, Marker) {
         "semi_implicit_euler" => (RGBColor(153, 153, 153), Marker::Disc),
         "rk4" => (BLUE, Marker::Disc),
         "midpoint" => (SKY, Marker::Square),
-        "gauss2" => (AMBER, Marker::Square),
-        "gauss3" => (ORANGE, Marker::Square),
+        "gauss2" => (ORANGE, Marker::Square),
+        "gauss3" => (VERMILION, Marker::Square),
         "gauss4" => (RGBColor(127, 59, 8), Marker::Square),
         "rodas4" => (GREEN, Marker::Square),
-        "dopri5" => (PINK, Marker::Disc),
+        "dopri5" => (PURPLE, Marker::Disc),
         _ => (RGBColor(0, 0, 0), Marker::Disc),
     };
     match plain {

@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
+use plotters::coord::ranged1d::{
+    BoldPoints, KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter,
+};
+use plotters::coord::types::RangedCoordf64;
 
 use bgdyn_runtime::Digits;
 
@@ -219,28 +222,16 @@ fn ends(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
 
 /// Returns round numbers from `low` to `high`, at most `most`, with their texts.
 fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<(f64, String)> {
-    let least = (high - low) / most as f64;
-    let power = 10_f64.powi(least.log10().floor() as i32);
-    let steps = [1.0, 2.0, 5.0, 10.0].map(|k| k * power);
-    let step = steps.into_iter().find(|s| *s >= least);
-    let step = step.unwrap_or(10.0 * power);
-    let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
-    // A number at an end of the axis is included in spite of rounding.
-    let (first, last) = (low / step - 1e-9, high / step + 1e-9);
-    let counts = first.ceil() as i64..=last.floor() as i64;
-    let tick = |k: i64| (k as f64 * step, decimal(k as f64 * step, decimals));
-    counts.map(tick).collect()
-}
-
-/// Prints a number with at most this number of decimals.
-fn decimal(x: f64, decimals: usize) -> String {
-    let text = format!("{x:.decimals$}");
-    let text = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
+    let numbers = RangedCoordf64::from(low..high).key_points(BoldPoints(most));
+    // 0.3, not 0.30000000000000004; 0, not −0.
+    let round = numbers.into_iter().map(|x| (x * 1e9).round() / 1e9 + 0.0);
+    let text = |x: f64| {
+        Digits::shortest(x)
+            .plain(-4..7)
+            .to_string()
+            .replace('-', "−")
     };
-    let text = if text == "-0" { "0" } else { text };
-    text.replace('-', "−")
+    round.map(|x| (x, text(x))).collect()
 }
 
 /// Returns values between two powers of ten, at most `most`: whole decades, or, if there are few, the

@@ -36,8 +36,8 @@ pub use panel::{Panel, place_in};
 pub use plotters;
 pub use plotters::style::RGBColor;
 pub use style::{
-    ALARM, BLUE, FAINT, GREEN, GRID, INK, Marker, ORANGE, PINK, SKY, Stroke, bold, centred, curve,
-    mark, right_aligned, text, write,
+    ALARM, BLUE, FAINT, GREEN, GRID, INK, Marker, ORANGE, PURPLE, SKY, Stroke, VERMILION, bold,
+    centred, curve, mark, right_aligned, text, write,
 };
 
 /// A part of a drawing. Units are those of [`px`].

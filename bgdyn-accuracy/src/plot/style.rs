@@ -22,13 +22,15 @@ pub const GRID: RGBColor = RGBColor(227, 227, 227);
 /// Blue of the palette of Okabe and Ito.
 pub const BLUE: RGBColor = RGBColor(0, 114, 178);
 /// Vermilion of this palette.
-pub const ORANGE: RGBColor = RGBColor(213, 94, 0);
+pub const VERMILION: RGBColor = RGBColor(213, 94, 0);
 /// Bluish green of this palette.
 pub const GREEN: RGBColor = RGBColor(0, 158, 115);
 /// Reddish purple of this palette.
-pub const PINK: RGBColor = RGBColor(204, 121, 167);
+pub const PURPLE: RGBColor = RGBColor(204, 121, 167);
 /// Sky blue of this palette.
 pub const SKY: RGBColor = RGBColor(86, 180, 233);
+/// Orange of this palette.
+pub const ORANGE: RGBColor = RGBColor(230, 159, 0);
 
 /// Returns the style of a text of this size in pixels; its point is at half its height, at its left end.
 pub fn text(size: u32, colour: RGBColor) -> TextStyle<'static> {

@@ -2,8 +2,8 @@
 
 use bgdyn_accuracy::plot::plotters::prelude::{Color, Polygon};
 use bgdyn_accuracy::plot::{
-    Area, Axis, BLUE, Drawn, INK, Marker, ORANGE, Panel, RGBColor, Stroke, curve, draw, mark, px,
-    text, write,
+    Area, Axis, BLUE, Drawn, INK, Marker, Panel, RGBColor, Stroke, VERMILION, curve, draw, mark,
+    px, text, write,
 };
 
 use super::batch::RunSummary;
@@ -101,7 +101,7 @@ fn draw_panel(
     }
     let foot = chart.y_range().start;
     for (q, _) in all().filter(|(_, run)| !sound(run)) {
-        mark(inside, (q, foot), Marker::Cross, ORANGE)?;
+        mark(inside, (q, foot), Marker::Cross, VERMILION)?;
     }
     Ok(())
 }

@@ -1,8 +1,8 @@
 //! Plots a run: a panel for each column, over time.
 
 use bgdyn_accuracy::plot::{
-    Area, Axis, BLUE, Drawn, INK, ORANGE, Panel, RGBColor, Stroke, curve, draw, place_in, px, text,
-    write,
+    Area, Axis, BLUE, Drawn, INK, Panel, RGBColor, Stroke, VERMILION, curve, draw, place_in, px,
+    text, write,
 };
 
 use super::run_table::{Column, Record};
@@ -66,7 +66,7 @@ fn panel(
     for event in events() {
         let (x, foot) = place_in(area, &chart, (event.t, y.start));
         let mark = [(x, foot), (x, foot - px(5) as i32)];
-        curve(area, mark, Stroke::new(ORANGE, 2.0))?;
+        curve(area, mark, Stroke::new(VERMILION, 2.0))?;
     }
     Ok(())
 }

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use bgdyn_accuracy::plot::{
-    Area, Axis, Drawn, FAINT, INK, ORANGE, Panel, Sign, Stroke, at, curve, draw, legend, px, text,
-    write,
+    Area, Axis, Drawn, FAINT, INK, Panel, Sign, Stroke, VERMILION, at, curve, draw, legend, px,
+    text, write,
 };
 use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
@@ -24,7 +24,7 @@ use super::written::{ALL, TENSOR, WRITTEN, mechanism, names};
 const STEPS: usize = 4000;
 const STEP: f64 = 5e-4;
 
-const WITH: Stroke = Stroke::new(ORANGE, 2.0);
+const WITH: Stroke = Stroke::new(VERMILION, 2.0);
 const WITHOUT: Stroke = Stroke::new(FAINT, 1.0).dashed(5.0, 4.0);
 
 fn docs() -> PathBuf {
@@ -145,7 +145,7 @@ fn figure(effect: &dyn Effect, paths: [&[[f64; 2]]; 2]) -> String {
             };
             let paths = paths.map(points);
             let y = Axis::around(paths.iter().flatten().map(|p| p.1), 7);
-            let x = Axis::linear(0.0, STEPS as f64 * STEP, 4).label("time, s");
+            let x = Axis::linear(0.0, STEPS as f64 * STEP, 5).label("time, s");
             let title = format!("{}, {}", y.quantity(name), y.unit(unit));
             let panel = Panel::new(&title, x, y).sides([56, 18, 32, 46]);
             let chart = panel.draw(part)?;

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use bgdyn_accuracy::plot::{self, Axis, FAINT, ORANGE, Sign, Stroke, curve, draw, legend, px};
+use bgdyn_accuracy::plot::{self, Axis, FAINT, Sign, Stroke, VERMILION, curve, draw, legend, px};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::SceneFunction;
@@ -46,7 +46,7 @@ const STUDIES: [Study; 2] = [
 ];
 
 const LUMPED: Stroke = Stroke::new(FAINT, 1.0).dashed(5.0, 4.0);
-const DISTRIBUTED: Stroke = Stroke::new(ORANGE, 2.0);
+const DISTRIBUTED: Stroke = Stroke::new(VERMILION, 2.0);
 
 /// A panel of the drawing: a curve of each stage.
 struct Panel {

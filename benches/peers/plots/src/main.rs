@@ -4,13 +4,13 @@
 use std::error::Error;
 
 use bgdyn_accuracy::plot::{
-    Axis, BLUE, GREEN, GRID, INK, Marker, ORANGE, PINK, Panel, RGBColor, SKY, Sign, Stroke, bold,
-    curve, draw, legend, mark, px, right_aligned, text, write,
+    Axis, BLUE, GREEN, GRID, INK, Marker, PURPLE, Panel, RGBColor, SKY, Sign, Stroke, VERMILION,
+    bold, curve, draw, legend, mark, px, right_aligned, text, write,
 };
 use serde::Deserialize;
 
 /// Colours of the systems, in their order.
-const COLOURS: [RGBColor; 5] = [ORANGE, BLUE, GREEN, PINK, SKY];
+const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, PURPLE, SKY];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

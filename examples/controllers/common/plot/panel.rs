@@ -1,7 +1,7 @@
 //! One panel: axes, the shaded time, limits and lines.
 
 use bgdyn_accuracy::plot::{
-    self, Area, Axis, BLUE, Drawn, FAINT, INK, Marker, ORANGE, RGBColor, Stroke, at, centred,
+    self, Area, Axis, BLUE, Drawn, FAINT, INK, Marker, RGBColor, Stroke, VERMILION, at, centred,
     curve, mark, text,
 };
 
@@ -12,7 +12,7 @@ pub const WANTED: Stroke = Stroke::new(RGBColor(190, 190, 190), 5.0);
 /// The run under computed torque.
 pub const COMPUTED: Stroke = Stroke::new(BLUE, 2.0);
 /// The run for comparison.
-pub const BASELINE: Stroke = Stroke::new(ORANGE, 2.0);
+pub const BASELINE: Stroke = Stroke::new(VERMILION, 2.0);
 /// The limit of a drive.
 pub const LIMIT: Stroke = Stroke::new(INK, 1.0).dashed(7.0, 5.0);
 

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use bgdyn_accuracy::plot::{
-    self, Area, Axis, BLUE, Drawn, GREEN, INK, ORANGE, PINK, RGBColor, curve, name_ends, px, text,
-    write,
+    self, Area, Axis, BLUE, Drawn, GREEN, INK, PURPLE, RGBColor, VERMILION, curve, name_ends, px,
+    text, write,
 };
 use hard_cases::{Curve, Panel};
 
-const COLOURS: [RGBColor; 4] = [ORANGE, BLUE, GREEN, PINK];
+const COLOURS: [RGBColor; 4] = [VERMILION, BLUE, GREEN, PURPLE];
 /// Width for the names of the curves.
 const NAMES: u32 = 190;
 
