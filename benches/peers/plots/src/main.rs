@@ -37,9 +37,11 @@ fn signs(systems: &[String]) -> Vec<(Sign, &str)> {
 #[derive(Deserialize)]
 struct Ratios {
     systems: Vec<String>,
-    /// Robots; for each of their functions the name and the systems' ratios.
-    robots: Vec<(String, Vec<(String, Vec<Option<f64>>)>)>,
+    robots: Vec<(String, Vec<Function>)>,
 }
+
+/// The name of a function, and the systems' ratios.
+type Function = (String, Vec<Option<f64>>);
 
 const LEFT: u32 = 190;
 const TOP: u32 = 62;
@@ -96,10 +98,11 @@ struct Errors {
     systems: Vec<String>,
     /// Whether times were measured: the second number of a run is its time for a simulated second, else its step, s.
     timed: bool,
-    /// Mechanisms; for each of their runs the index of the system, time or step, error, and whether Python takes part in
-    /// each step.
-    mechanisms: Vec<(String, Vec<(usize, f64, f64, bool)>)>,
+    mechanisms: Vec<(String, Vec<Run>)>,
 }
+
+/// The index of a system, time or step, error, and whether Python takes part in each step.
+type Run = (usize, f64, f64, bool);
 
 /// Draws errors over times, or over steps.
 fn errors(errors: &Errors) -> String {
