@@ -154,13 +154,13 @@ fn has_text(svg: &str, words: &str) -> bool {
 #[test]
 fn a_long_reason_is_a_tooltip() {
     let mut study = priced();
-    let why = "no rate of <shoulder>: the mass matrix is singular at 0 s".to_owned();
+    let why = "no \"rate\" of <a>: the mass matrix is singular at 0 s".to_owned();
     let last = study.rows.last_mut().expect("a row");
     (last.error, last.status) = (None, Status::Failed(why));
     let figures = figures(&study);
     let figure = figures.iter().find(|f| f.name.ends_with("_effects.svg"));
     let svg = &figure.expect("a figure of effects").svg;
-    let whole = "<title>failed: no rate of &lt;shoulder&gt;: the mass matrix is singular at 0 s</title>failed: ";
+    let whole = "<title>failed: no &quot;rate&quot; of &lt;a&gt;: the mass matrix is singular at 0 s</title>failed: ";
     assert_eq!(svg.matches(whole).count(), 1, "{svg}");
 }
 

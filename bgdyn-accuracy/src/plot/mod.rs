@@ -29,6 +29,7 @@ use plotters::prelude::{
 };
 
 use crate::dark::with_dark_mode;
+use crate::format::escaped;
 
 pub use axis::Axis;
 pub use legend::{Sign, legend, name_ends, sign};
@@ -85,7 +86,9 @@ pub fn at(x: f64, y: f64) -> (i32, i32) {
 
 /// Gives a text in the drawing a tooltip: the first one that reads `shown` and has none.
 pub fn with_tooltip(svg: &str, shown: &str, tooltip: &str) -> String {
-    let [shown, tooltip] = [shown, tooltip].map(crate::format::escaped);
+    // As `plotters` writes it.
+    let quoted = |text: &str| escaped(text).replace('"', "&quot;").replace('\'', "&apos;");
+    let [shown, tooltip] = [shown, tooltip].map(quoted);
     let titled = format!(">\n<title>{tooltip}</title>{shown}\n</text>");
     svg.replacen(&format!(">\n{shown}\n</text>"), &titled, 1)
 }
