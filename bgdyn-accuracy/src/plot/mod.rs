@@ -62,12 +62,19 @@ pub fn draw(size: (u32, u32), body: impl FnOnce(&Area<'_>) -> Drawn) -> String {
     };
     // Only files have errors, and fonts that the SVG text would contain.
     whole(&mut svg).expect("a drawing that is kept as text");
+    // What every shape and text would repeat.
+    let font = " font-family=\"sans-serif\"";
+    let svg = svg.replace(" opacity=\"1\"", "").replace(font, "");
     // The view box retains the units.
-    let [fine, shown] = [px(1), 1].map(|unit| {
-        let (width, height) = (unit * size.0, unit * size.1);
-        format!("<svg width=\"{width}\" height=\"{height}\"")
-    });
-    with_dark_mode(&svg.replacen(&fine, &shown, 1))
+    let root = |unit| {
+        format!(
+            "<svg width=\"{}\" height=\"{}\"",
+            unit * size.0,
+            unit * size.1
+        )
+    };
+    let shown = format!("{}{font}", root(1));
+    with_dark_mode(&svg.replacen(&root(FINE), &shown, 1))
 }
 
 /// Units per pixel: `plotters` has whole ones.
