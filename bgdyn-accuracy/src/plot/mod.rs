@@ -94,7 +94,11 @@ pub fn at(x: f64, y: f64) -> (i32, i32) {
 /// Gives a text in the drawing a tooltip: the first one that reads `shown` and has none.
 pub fn with_tooltip(svg: &str, shown: &str, tooltip: &str) -> String {
     // As `plotters` writes it.
-    let quoted = |text: &str| escaped(text).replace('"', "&quot;").replace('\'', "&apos;");
+    let quoted = |words: &str| {
+        escaped(words)
+            .replace('"', "&quot;")
+            .replace('\'', "&apos;")
+    };
     let [shown, tooltip] = [shown, tooltip].map(quoted);
     let titled = format!(">\n<title>{tooltip}</title>{shown}\n</text>");
     svg.replacen(&format!(">\n{shown}\n</text>"), &titled, 1)
