@@ -85,7 +85,7 @@ impl Generate {
         options.verify = !self.no_verify;
         let spec = SpecFile::open(&self.file)?;
         let load = |path: &str| spec.load(path);
-        let found = generate_files(&spec.text, &spec.stem, backend, &given, &options, load);
+        let found = generate_files(&spec.with_load(&load), &options, backend, &given);
         let (files, warnings) = found.map_err(|error| match error {
             FilesError::Refused(refusal) => spec.refused(refusal),
             FilesError::Backend(error) => of_backend(error),

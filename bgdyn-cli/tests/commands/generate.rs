@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate_module;
@@ -27,10 +28,8 @@ fn the_source_is_the_same_in_every_run_and_in_every_place() {
 fn the_source_is_what_the_macro_gets() {
     let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
     let place = OutputOptions::source_text("scara4.yaml".into());
-    let (tokens, _) = generate_module(&text, "scara4", &place, &Options::default(), |path| {
-        Err(path.into())
-    })
-    .expect("a good spec");
+    let spec = SpecText::mechanism(&text, "scara4");
+    let (tokens, _) = generate_module(&spec, &Options::default(), &place).expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
     // Trailing commas in lists and the quotes of documentation depend on the formatting; the titles above
