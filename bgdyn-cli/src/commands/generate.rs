@@ -100,9 +100,13 @@ impl Generate {
         }
     }
 
-    /// Writes files to the output folder.
+    /// Writes files to the output folder, which is created if it does not exist.
     fn write_all(&self, files: &[GeneratedFile]) -> Result<()> {
         let folder = self.output.as_deref().unwrap_or(Path::new("."));
+        if !self.check {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{} cannot be created", folder.display()))?;
+        }
         let mut each = files.iter();
         each.try_for_each(|file| self.write(&folder.join(&file.name), &file.text))
     }

@@ -104,7 +104,7 @@ fn momenta_and_studies_are_refused_by_name() {
     );
     let error = bgdyn(&["accuracy", &scene("cart_run")]).bad_input();
     assert!(error.contains("`drive`"), "{error}");
-    let error = bgdyn(&["generate", &scene("cart_run"), "--canonical"]).bad_input();
+    let error = bgdyn(&["generate", &scene("cart_run"), "--canonical"]).bad_usage();
     assert!(error.contains("Lie–Poisson"), "{error}");
 }
 

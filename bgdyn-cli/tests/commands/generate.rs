@@ -136,9 +136,11 @@ fn plain_text_has_the_same_statements() {
 
 #[test]
 fn backends_write_their_files() {
-    let header = scratch("generate_c", "scara4.h", "");
-    let folder = header.strip_suffix("/scara4.h").expect("a folder");
-    let source = format!("{folder}/scara4.c");
+    let blocked = scratch("generate_c", "file", "");
+    let folder = format!("{blocked}_beside/new");
+    let _ = fs::remove_dir_all(&folder);
+    let folder = folder.as_str();
+    let (header, source) = (format!("{folder}/scara4.h"), format!("{folder}/scara4.c"));
     let asked = ["generate", SCARA, "--backend", "c", "-o", folder];
     assert_eq!(bgdyn(&asked).good(), "");
     let written = fs::read_to_string(&header).expect("the header");
@@ -150,6 +152,9 @@ fn backends_write_their_files() {
     let single = [&check[..], &["--option", "float=float"]].concat();
     let stderr = bgdyn(&single).bad_input();
     assert!(stderr.contains("scara4.h:"), "{stderr}");
+    let into_a_file = ["generate", SCARA, "--backend", "c", "-o", &blocked];
+    let stderr = bgdyn(&into_a_file).bad_input();
+    assert!(stderr.contains("file cannot be created: "), "{stderr}");
 }
 
 #[test]
