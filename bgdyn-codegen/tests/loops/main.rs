@@ -24,6 +24,7 @@ mod actuated_positions;
 mod closed_form;
 mod counts;
 mod drawn;
+mod driven_loads;
 mod faults;
 mod frame_rows;
 mod locks;
