@@ -26,6 +26,7 @@ mod counts;
 mod drawn;
 mod driven_loads;
 mod faults;
+mod followed;
 mod frame_rows;
 mod locks;
 mod multipliers;
