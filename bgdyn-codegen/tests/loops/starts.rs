@@ -259,7 +259,7 @@ fn velocities_that_do_not_exist_are_refused() {
             ["`rod_pin` does not close", "m or rad"],
         ),
     ] {
-        let faults = overridden(&system, values).err().expect("refused");
+        let faults = overridden(&system, values).expect_err("refused");
         assert_eq!(faults.0.len(), 1, "{values:?}: {:?}", faults.0);
         assert_eq!(faults.0[0].rule, rule, "{:?}", faults.0);
         for word in words {

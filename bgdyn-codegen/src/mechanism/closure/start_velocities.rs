@@ -24,60 +24,50 @@ impl Closure {
         given: &[(usize, Dd)],
         others: &[(usize, Dd)],
     ) -> Result<Vec<Dd>, Unreached> {
-        let n = self.independents.len();
         let Some(map) = self.velocity_map(q) else {
             return Err(Unreached::OtherBranch);
         };
-        let index = |j: usize| self.independents.iter().position(|i| i.0 == j);
-        let joints = |of: &[(usize, Dd)]| of.iter().map(|&(j, _)| j).collect::<Vec<usize>>();
         let left = self.left_free(&map, &joints(given), &joints(others));
         let others = others.iter().filter(|(j, _)| left.contains(j));
-        let taken: Vec<(usize, Dd)> = given.iter().chain(others).copied().collect();
-        let mut u = vec![Dd::ZERO; n];
-        let mut free: Vec<usize> = (0..n).collect();
-        for &(j, v) in &taken {
-            if let Some(k) = index(j) {
-                u[k] = v;
-                free.retain(|other| *other != k);
+        let (own, dependents): (Vec<_>, Vec<_>) = given
+            .iter()
+            .chain(others)
+            .copied()
+            .partition(|&(j, _)| self.independents.iter().any(|i| i.0 == j));
+        let mut u = vec![Dd::ZERO; self.independents.len()];
+        let mut free = Vec::new();
+        for (k, i) in self.independents.iter().enumerate() {
+            match own.iter().rev().find(|(j, _)| *j == i.0) {
+                Some(&(_, v)) => u[k] = v,
+                None => free.push(k),
             }
         }
-        let of_dependents: Vec<(usize, Dd)> = taken
-            .iter()
-            .copied()
-            .filter(|(j, _)| index(*j).is_none())
-            .collect();
-        let along = |j: usize, u: &[Dd]| {
-            let terms = map[j].iter().zip(u);
-            terms.fold(Dd::ZERO, |sum, (s, u)| sum + *s * *u)
-        };
+        let rows = self.scaled(&map, &joints(&dependents));
         let chosen = |row: &Vec<Dd>| free.iter().map(|&k| row[k]).collect();
-        let all = self.scaled(&map, &joints(&of_dependents));
-        let all: Vec<Vec<Dd>> = all.iter().map(chosen).collect();
-        let Pivots { regular, small } = pivots(&all, free.len());
-        let entry =
-            |&(row, _): &(usize, usize)| regular.iter().map(|&(_, c)| all[row][c]).collect();
-        let side = |&(row, _): &(usize, usize)| {
-            let (j, v) = of_dependents[row];
-            (v - along(j, &u)) / self.row_size(j)
+        let rows: Vec<Vec<Dd>> = rows.iter().map(chosen).collect();
+        let Pivots { regular, small } = pivots(&rows, free.len());
+        // The regular rows and columns alone: what is left of the others is the rounding of their digits.
+        let entry = |&(r, _): &(usize, usize)| regular.iter().map(|&(_, c)| rows[r][c]).collect();
+        let side = |&(r, _): &(usize, usize)| {
+            let (j, v) = dependents[r];
+            (v - along(&map[j], &u)) / self.row_size(j)
         };
-        let matrix: Vec<Vec<Dd>> = regular.iter().map(entry).collect();
-        let sides: Vec<Dd> = regular.iter().map(side).collect();
+        let matrix = regular.iter().map(entry).collect();
+        let sides = regular.iter().map(side).collect();
         let found = solve(matrix, &[sides], 0.0).unwrap_or_default();
         for (&(_, column), x) in regular.iter().zip(found.into_iter().flatten()) {
             u[free[column]] = x;
         }
-        for (row, &(j, v)) in of_dependents.iter().enumerate() {
+        for (row, &(j, v)) in dependents.iter().enumerate() {
             let still = small.iter().find(|(at, _)| *at == row);
-            let contradicts = agrees(j, true, (v, along(j, &u)));
-            if let (Err(_), Some(&(_, part))) = (&contradicts, still) {
-                let given = v.to_f64();
-                return Err(Unreached::Still {
+            agrees(j, true, (v, along(&map[j], &u))).map_err(|contradicts| match still {
+                None => contradicts,
+                Some(&(_, part)) => Unreached::Still {
                     index: j,
-                    given,
+                    given: v.to_f64(),
                     part,
-                });
-            }
-            contradicts?;
+                },
+            })?;
         }
         Ok(u)
     }
@@ -115,6 +105,17 @@ impl Closure {
             _ => Dd::ONE,
         }
     }
+}
+
+/// Returns the joints of velocities.
+fn joints(of: &[(usize, Dd)]) -> Vec<usize> {
+    of.iter().map(|&(j, _)| j).collect()
+}
+
+/// Returns the velocity of a joint with this row of S.
+fn along(row: &[Dd], u: &[Dd]) -> Dd {
+    let terms = row.iter().zip(u);
+    terms.fold(Dd::ZERO, |sum, (s, u)| sum + *s * *u)
 }
 
 /// The pivots of rows.
