@@ -141,6 +141,8 @@ fn compile(model: &Model, compiler: &str, command: &str, out: &Path) {
     let mut process = Command::new(command);
     process.current_dir(&folder).args(FLAGS);
     process.args(has_fma.then_some("-march=native"));
+    // clang would collect neighbouring results to store them at once; for gcc a pragma in the file turns that off.
+    process.args((compiler == "clang").then_some("-fno-slp-vectorize"));
     run(process.args(["-c", &format!("{arm}.c"), "-o", "arm.o"]));
     let archive = out.join(format!("lib{library}.a"));
     run(Command::new("ar")

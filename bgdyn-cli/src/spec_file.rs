@@ -9,10 +9,10 @@ use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::format::{parse, parse_scene};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::options::{Options, UnknownName, formulation_named, preference_named};
-use bgdyn_codegen::read_scene;
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::verify::explain;
+use bgdyn_codegen::{SpecText, read_scene};
 use clap::Args;
 
 use crate::output::tell;
@@ -108,6 +108,18 @@ impl SpecFile {
         match &self.mechanism {
             Some(text) => Ok(text.clone()),
             None => std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string()),
+        }
+    }
+
+    /// Returns the text with its surroundings; `load` is [`Self::load`].
+    pub fn with_load<'a>(
+        &'a self,
+        load: &'a dyn Fn(&str) -> Result<String, String>,
+    ) -> SpecText<'a> {
+        SpecText {
+            text: &self.text,
+            stem: &self.stem,
+            load,
         }
     }
 

@@ -29,6 +29,7 @@ use crate::files::{beside, stem};
 use crate::options::Options;
 use crate::options::{formulation_named, preference_named};
 use crate::pipeline::generate_module;
+use crate::read::SpecText;
 use crate::refusal::Refusal;
 use crate::verify::explain;
 
@@ -176,9 +177,13 @@ impl Build {
             .map_err(|_| Error(format!("{shown}: the spec is not UTF-8: convert it first")))?;
         let stem = stem(&self.spec);
         let (place, options) = (self.place()?, self.options()?);
+        let spec = SpecText {
+            text: &text,
+            stem: &stem,
+            load: &|path| self.load(path),
+        };
         let (tokens, findings) =
-            generate_module(&text, &stem, &place, &options, |path| self.load(path))
-                .map_err(|r| self.refused(r, &text))?;
+            generate_module(&spec, &options, &place).map_err(|r| self.refused(r, &text))?;
         Ok(Source {
             module: self.module.clone().unwrap_or(stem),
             text: source_text(tokens),

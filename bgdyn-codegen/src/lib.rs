@@ -28,6 +28,7 @@ pub mod files;
 pub mod format;
 pub mod formulation;
 pub mod function;
+pub mod generated;
 mod inner_products;
 pub mod interface;
 pub mod layout;
@@ -56,7 +57,7 @@ pub mod verify;
 
 #[cfg(feature = "source")]
 pub use build_script::{Build, build};
-pub use read::{read, read_machine, read_scene};
+pub use read::{Checked, SpecText, read, read_machine, read_scene};
 
 /// The examples of `docs/extending.md`, compiled by `cargo test --doc -p bgdyn-codegen`.
 #[cfg(doctest)]

@@ -6,13 +6,54 @@ use crate::bond_graph;
 use crate::effect;
 use crate::fault::{Fault, Faults, Severity, wording};
 use crate::files::stem;
-use crate::format::{JointSpec, Spec, parse, parse_scene};
+use crate::format::{JointSpec, Spec, is_scene, parse, parse_scene};
 use crate::machine::{self, Machine};
 use crate::mechanism::Mechanism;
 use crate::method;
 use crate::refusal::Refusal;
 use crate::scene::{self, Verdict};
 use crate::system::SceneEquations;
+
+/// The text of a mechanism or of a scene, and its surroundings.
+pub struct SpecText<'a> {
+    /// The text.
+    pub text: &'a str,
+    /// The stem of the file's name.
+    pub stem: &'a str,
+    /// Returns the text of a scene's mechanism, given its path in the scene, or the reason why there is none.
+    pub load: &'a dyn Fn(&str) -> Result<String, String>,
+}
+
+impl<'a> SpecText<'a> {
+    /// Returns the text of a mechanism, with nothing to load.
+    pub fn mechanism(text: &'a str, stem: &'a str) -> Self {
+        let load = &|path: &str| Err(format!("`{path}` is not loaded"));
+        SpecText { text, stem, load }
+    }
+}
+
+/// A checked mechanism, or the equations of a checked scene.
+pub enum Checked {
+    /// A mechanism.
+    Mechanism(Box<Mechanism>),
+    /// The equations of a scene.
+    Scene(Box<SceneEquations>),
+}
+
+/// Parses and checks a mechanism or a scene; returns the warnings beside it.
+///
+/// # Errors
+/// The faults of the mechanism, or of the scene or its mechanism.
+pub fn read_text(spec: &SpecText<'_>) -> Result<(Checked, Faults), Refusal> {
+    if is_scene(spec.text) {
+        let (equations, warnings) = read_scene(spec.text, spec.stem, spec.load)?;
+        return Ok((Checked::Scene(Box::new(equations)), warnings));
+    }
+    match read(spec.text, Some(spec.stem)) {
+        (Some(mechanism), warnings) => Ok((Checked::Mechanism(Box::new(mechanism)), warnings)),
+        (None, faults) => Err(Refusal::Spec(faults)),
+    }
+}
 
 /// Parses and checks a spec. `stem` is the file's name without its extension, if there is a file; only the
 /// part before its first dot is used.

@@ -9,6 +9,7 @@ mod input;
 
 use std::path::Path;
 
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::verify::explain;
@@ -109,13 +110,12 @@ fn module(
         let file = bgdyn_codegen::files::beside(&path, &mechanism);
         place.also.push(file.display().to_string());
     }
-    match pipeline::generate_module(
-        &text,
-        &bgdyn_codegen::files::stem(&path),
-        &place,
-        &input.options,
-        load,
-    ) {
+    let spec = SpecText {
+        text: &text,
+        stem: &bgdyn_codegen::files::stem(&path),
+        load: &load,
+    };
+    match pipeline::generate_module(&spec, &input.options, &place) {
         Ok((tokens, _warnings)) => Ok(tokens),
         Err(Refusal::Spec(faults)) => {
             let mut message = faults.render(&written, &text).trim_end().to_string();

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::bond_graph::{self, BondGraph};
 use bgdyn_codegen::engine::{Callable, Engine};
 use bgdyn_codegen::expr::Operations;
@@ -218,9 +219,8 @@ impl Spec {
             methods: Some(vec![self.name_of(method)]),
             ..self.options.clone()
         };
-        let made = pipeline::generate_module(&self.text, &self.name, &output, &options, |path| {
-            Err(path.into())
-        });
+        let spec = SpecText::mechanism(&self.text, &self.name);
+        let made = pipeline::generate_module(&spec, &options, &output);
         let (tokens, _) = made.map_err(|refusal| format!("{refusal:?}"))?;
         Ok(bgdyn_codegen::emit::source_text(tokens))
     }

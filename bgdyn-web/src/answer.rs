@@ -114,14 +114,8 @@ pub(crate) fn code(file: &SpecFile, backend: &str) -> Result<Value, String> {
     let given = GivenOptions::new(name, backend.name(), backend.options(), []);
     let given = given.map_err(of_backend)?;
     let load = |path: &str| file.load(path);
-    let written = generate_files(
-        &file.text,
-        &file.stem,
-        backend,
-        &given,
-        &Options::default(),
-        load,
-    );
+    let spec = file.with_load(&load);
+    let written = generate_files(&spec, &Options::default(), backend, &given);
     let (files, _) = written.map_err(|error| match error {
         FilesError::Refused(refusal) => refused(file, refusal),
         FilesError::Backend(error) => of_backend(error),

@@ -8,12 +8,15 @@ use bgdyn::runtime::wide::f64x4;
 use bgdyn::runtime::{Argument, Cause, Dd};
 use bgdyn::{Dynamics, Scalar};
 
-bgdyn::bgdyn!("crank_and_rod.yaml", methods = [dynamics, reactions]);
+bgdyn::bgdyn!(
+    "crank_and_rod.yaml",
+    methods = [dynamics, reactions, joint_reactions]
+);
 bgdyn::bgdyn!("three_drives.yaml");
-bgdyn::bgdyn!("one_drive.yaml");
+bgdyn::bgdyn!("one_drive.yaml", methods = [dynamics, joint_reactions]);
 bgdyn::bgdyn!(
     "../../specs/loops/five_bar.yaml",
-    methods = [dynamics, constrained_dynamics, reactions]
+    methods = [dynamics, constrained_dynamics, reactions, joint_reactions]
 );
 
 use crank_and_rod::CrankAndRod;
@@ -79,6 +82,44 @@ fn efforts_of_the_cranks_do_not_depend_on_the_coordinates() {
         let size = other.force.amax();
         assert!((own.force - other.force).amax() < 1e-12 * size);
     }
+}
+
+/// The same machine in two coordinates: drives at the cranks load the joints in the same way.
+#[test]
+fn loads_of_joints_do_not_depend_on_the_coordinates() {
+    let (own, other) = (CrankAndRod::<f64>::default(), FiveBar::<f64>::default());
+    let (q, [v, a, _]) = state::<f64>();
+    let (qd, qdd) = (own.tree_velocity(&q, &v), own.tree_acceleration(&q, &v, &a));
+    let cranks = |x: &SVector<f64, 4>| vector![x[0], x[2]];
+    let tau = own.inverse_dynamics(&q, &v, &a).expect("regular");
+    let loads = own.joint_reactions(&q, &v, &a, &tau);
+    let wanted = other.joint_reactions(&q, &cranks(&qd), &cranks(&qdd));
+    assert_eq!(loads.len(), crank_and_rod::LINK_NAMES.len());
+    let size = wanted.iter().map(|load| load.force.amax());
+    let size = size.fold(0.0, f64::max);
+    for (own, other) in loads.iter().zip(&wanted) {
+        let off = (own.force - other.force).amax();
+        assert!(off < 1e-12 * size, "{off:e} of {size}");
+        let off = (own.moment - other.moment).amax();
+        assert!(off < 1e-12 * size, "{off:e} of {size}");
+    }
+    // About their axes joints bear the efforts of their drives: that of a dependent joint to the last bit.
+    assert!((loads[0].moment[2] - tau[0]).abs() < 1e-12 * size);
+    assert!(loads[1].moment[2].abs() < 1e-12 * size);
+    assert_eq!((loads[2].moment[2], loads[3].moment[2]), (tau[1], 0.0));
+}
+
+/// One drive at a rod for two cranks: the cranks have no drives, and move as the drive alone moves them.
+#[test]
+fn joints_of_an_underactuated_machine_bear_its_drive_alone() {
+    let machine = OneDrive::<f64>::default();
+    let (q, v, tau) = (machine.neutral(), vector![0.75, -1.5], vector![2.0]);
+    let a = machine.forward_dynamics(&q, &v, &tau).expect("regular");
+    let loads = machine.joint_reactions(&q, &v, &a, &tau);
+    let about_axes = loads.map(|load| load.moment[2]);
+    assert_eq!(one_drive::ACTUATED, ["distal1_angle"]);
+    assert_eq!((about_axes[1], about_axes[3]), (2.0, 0.0));
+    assert!(about_axes[0].abs() < 1e-12 && about_axes[2].abs() < 1e-12);
 }
 
 #[test]

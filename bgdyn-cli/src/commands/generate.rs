@@ -85,7 +85,7 @@ impl Generate {
         options.verify = !self.no_verify;
         let spec = SpecFile::open(&self.file)?;
         let load = |path: &str| spec.load(path);
-        let found = generate_files(&spec.text, &spec.stem, backend, &given, &options, load);
+        let found = generate_files(&spec.with_load(&load), &options, backend, &given);
         let (files, warnings) = found.map_err(|error| match error {
             FilesError::Refused(refusal) => spec.refused(refusal),
             FilesError::Backend(error) => of_backend(error),
@@ -100,9 +100,13 @@ impl Generate {
         }
     }
 
-    /// Writes files to the output folder.
+    /// Writes files to the output folder, which is created if it does not exist.
     fn write_all(&self, files: &[GeneratedFile]) -> Result<()> {
         let folder = self.output.as_deref().unwrap_or(Path::new("."));
+        if !self.check {
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{} cannot be created", folder.display()))?;
+        }
         let mut each = files.iter();
         each.try_for_each(|file| self.write(&folder.join(&file.name), &file.text))
     }

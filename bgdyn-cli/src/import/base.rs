@@ -64,12 +64,29 @@ pub(super) fn free(model: &mut Model, tree: &Tree, base: Base) -> Result<()> {
         .map(|joint| joint.name.clone())
         .collect();
     let name = free_name(ROOT, &taken);
+    put(model, root, &name, kind);
+    Ok(())
+}
+
+/// Puts a floating joint between the world and each link without a joint, as the file means them.
+pub(super) fn free_all(model: &mut Model, tree: &Tree) {
+    for &root in tree.roots.iter().rev() {
+        let taken = model.joints.iter().map(|joint| joint.name.clone());
+        let name = free_name(
+            &format!("{}_free", model.links[root].name),
+            &taken.collect(),
+        );
+        put(model, root, &name, JointType::Floating);
+    }
+}
+
+/// Puts a joint between the world and a link without one. At its neutral position the link is where it was fixed.
+fn put(model: &mut Model, root: usize, name: &str, kind: JointType) {
     let link = &mut model.links[root];
     let joint = Joint {
         kind,
         origin: link.place.take().unwrap_or_else(Placement::identity),
-        ..Joint::fixed(&name, link.at, None, &link.name)
+        ..Joint::fixed(name, link.at, None, &link.name)
     };
     model.joints.insert(0, joint);
-    Ok(())
 }

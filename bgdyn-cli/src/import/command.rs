@@ -8,16 +8,16 @@ use anyhow::{Context, Result, anyhow};
 use bgdyn_codegen::format::Dimension;
 use std::path::{Path, PathBuf};
 
-/// Convert a URDF, an MJCF or a table of Denavit–Hartenberg parameters to a mechanism
+/// Convert a URDF, an MJCF, an SDF or a table of Denavit–Hartenberg parameters to a mechanism
 #[derive(Debug, Clone, Default, clap::Args)]
 #[command(after_help = "Example:\n  bgdyn import ur5.urdf -o specs/ur5.yaml\n  \
     bgdyn import pr2.urdf --chain torso_lift_link r_gripper_tool_frame --lock r_wrist_roll_joint=0.5\n  \
-    bgdyn import go2.urdf --base floating\n  bgdyn import humanoid.xml\n  \
+    bgdyn import go2.urdf --base floating\n  bgdyn import humanoid.xml\n  bgdyn import gripper.sdf --base fixed\n  \
     bgdyn import ur5.csv --convention standard\n\n\
     The module is named after the output file. A report on stderr lists changed names, what was \
     written and what was not imported.")]
 pub struct ImportArgs {
-    /// The URDF (a xacro file must be expanded first), the MJCF, or a table `.csv`; `-` reads it from standard input
+    /// The URDF (a xacro file must be expanded first), the MJCF, the SDF, or a table `.csv`; `-` reads it from standard input
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Output file [default: stdout]

@@ -66,6 +66,7 @@ pub(super) fn read(text: &str, name: &str, convention: Option<Convention>) -> Re
         source: "a table of Denavit–Hartenberg parameters".into(),
         gravity: None,
         moving_base: false,
+        free_roots: false,
         links: vec![base()],
         joints: Vec::new(),
         frames: Vec::new(),
@@ -278,6 +279,7 @@ impl JointRow<'_> {
             child: name.clone(),
             origin: placed.placement(),
             axis: [Num::zero(), Num::zero(), Num::computed(1.0)],
+            lead: None,
             limits: if fixed { Limits::default() } else { limits },
             mimic: None,
             effects: JointEffects {

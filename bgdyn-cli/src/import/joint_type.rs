@@ -6,6 +6,7 @@ pub(super) enum JointType {
     Revolute,
     Continuous,
     Prismatic,
+    Helical,
     Fixed,
     Spherical,
     Floating,
@@ -27,6 +28,7 @@ impl JointType {
             JointType::Revolute => "revolute",
             JointType::Continuous => "continuous",
             JointType::Prismatic => "prismatic",
+            JointType::Helical => "helical",
             JointType::Fixed => "fixed",
             JointType::Spherical => "spherical",
             JointType::Floating => "floating",
@@ -51,7 +53,7 @@ impl JointType {
     pub(super) fn is_scalar(self) -> bool {
         matches!(
             self,
-            JointType::Revolute | JointType::Continuous | JointType::Prismatic
+            JointType::Revolute | JointType::Continuous | JointType::Prismatic | JointType::Helical
         )
     }
 

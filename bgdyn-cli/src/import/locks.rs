@@ -12,6 +12,7 @@ use anyhow::{Result, bail};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::math::Vec3;
 use bgdyn_codegen::unit::UnitFactor;
+use bgdyn_runtime::Dd;
 
 /// Fixes a joint at a value of its coordinate, and its followers at theirs; returns a line that names these.
 pub(super) fn lock(model: &mut Model, asked: &Lock) -> Result<Option<String>> {
@@ -68,7 +69,9 @@ fn check(joint: &Joint, value: &Num, unit: Option<Dimension>) -> Result<()> {
     let (own, does) = match joint.kind {
         JointType::Fixed => bail!("--lock: the joint `{name}` is fixed already"),
         JointType::Prismatic => (Dimension::Length, "slides"),
-        JointType::Revolute | JointType::Continuous => (Dimension::Angle, "turns"),
+        JointType::Revolute | JointType::Continuous | JointType::Helical => {
+            (Dimension::Angle, "turns")
+        }
         kind if value.is_zero() => {
             debug_assert!(!kind.is_scalar());
             return Ok(());
@@ -96,6 +99,11 @@ fn fix(joint: &mut Joint, value: &Num) {
         let by = value.exact();
         let moved = match joint.kind {
             JointType::Prismatic => displaced(unit(axis).scale(by).0),
+            JointType::Helical => {
+                let lead = joint.lead.as_ref().map_or(Dd::ZERO, Num::exact);
+                let along = lead * by / (Dd::PI * Dd::from_f64(2.0));
+                displaced(unit(axis).scale(along).0).then(&turned(axis, by))
+            }
             _ => turned(axis, by),
         };
         joint.origin = joint.origin.then(&moved.placement());

@@ -1,6 +1,7 @@
 //! Closed loops of a robot: their names, their links, and what they need to be a mechanism.
 
-use super::model::{Loop, LoopPlace, Model};
+use super::joint_type::JointType;
+use super::model::{Joint, Loop, LoopPlace, Model};
 use super::naming::{free_name, identifier};
 use super::writing::{Allowed, NamedLoop};
 use bgdyn_codegen::mechanism::Mechanism;
@@ -53,4 +54,34 @@ pub(super) fn accepted(
         .map(read)
         .filter(|(_, mechanism)| mechanism.is_some());
     others.next().unwrap_or(first)
+}
+
+/// Returns the moving joints on the way from one link to another.
+pub(super) fn joints_between<'a>(
+    model: &'a Model,
+    a: &Option<String>,
+    b: &Option<String>,
+) -> Vec<&'a Joint> {
+    let to_world = |link: &Option<String>| {
+        let mut at = link.clone();
+        let mut passed = Vec::new();
+        while let Some(name) = at {
+            let Some(index) = model.joints.iter().position(|joint| joint.child == name) else {
+                break;
+            };
+            passed.push(index);
+            at = model.joints[index].parent.clone();
+        }
+        passed
+    };
+    let [a, b] = [a, b].map(to_world);
+    let alone = |own: &[usize], other: &[usize]| -> Vec<usize> {
+        let own = own.iter().copied();
+        own.filter(|joint| !other.contains(joint)).collect()
+    };
+    let way = [alone(&a, &b), alone(&b, &a)].concat();
+    let joints = way.into_iter().map(|joint| &model.joints[joint]);
+    joints
+        .filter(|joint| joint.kind != JointType::Fixed)
+        .collect()
 }

@@ -1,7 +1,7 @@
-//! `bgdyn import`: converts a URDF, an MJCF or a table of Denavit–Hartenberg parameters into a mechanism.
+//! `bgdyn import`: converts a URDF, an MJCF, an SDF or a table of Denavit–Hartenberg parameters into a mechanism.
 //!
 //! Text → elements with their positions (`xml`) → the part that a mechanism can represent; the rest is
-//! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of a table `dh`), with planes
+//! counted (`select`) → links and joints (`reading`; of an MJCF `mjcf`, of an SDF `sdf`, of a table `dh`), with planes
 //! (`planar`), followers (`mimic`), `limits` and `effects` → changes by options (`rework`: `locks`, `base`) →
 //! their order (`tree`) and names (`naming`) → YAML (`writing`). `doubts` warns about suspicious data,
 //! `placement` computes poses; `loops` decides what closed loops need.
@@ -29,6 +29,7 @@ mod placement;
 mod planar;
 mod reading;
 mod rework;
+mod sdf;
 mod select;
 mod tally;
 mod tree;
@@ -68,7 +69,7 @@ pub struct Import {
     pub written: String,
 }
 
-/// Converts the text of a URDF or an MJCF to a mechanism; the root element decides which it is.
+/// Converts the text of a URDF, an MJCF or an SDF to a mechanism; the root element decides which it is.
 ///
 /// Links are in the order of their joints, numbers have their original text. An error starts with
 /// `LINE:COLUMN: `.
@@ -84,6 +85,7 @@ pub fn import_with(text: &str, options: &Options) -> Result<Import> {
     let root = xml::parse(text)?;
     let model = match root.name.as_str() {
         mjcf::ROOT => mjcf::read(&root, options.folder.as_deref())?,
+        sdf::ROOT => sdf::read(&root)?,
         _ => reading::read(&root)?,
     };
     made(model, options)
@@ -110,9 +112,11 @@ fn made(mut model: Model, options: &Options) -> Result<Import> {
     tree::order(&model)?;
     let mut messages: Vec<String> = planar::turn_links(&mut model).into_iter().collect();
     messages.extend(rework::rework(&mut model, options)?);
-    if let Some(base) = options.base {
-        let tree = tree::order(&model)?;
-        base::free(&mut model, &tree, base)?;
+    let tree = tree::order(&model)?;
+    match options.base {
+        Some(base) => base::free(&mut model, &tree, base)?,
+        None if model.free_roots => base::free_all(&mut model, &tree),
+        None => {}
     }
     let tree = tree::order(&model)?;
     let named = Identifiers::new(&model);

@@ -15,6 +15,8 @@ pub(super) struct Model {
     pub(super) gravity: Option<[Num; 3]>,
     /// Whether the motion of the base is given at run time.
     pub(super) moving_base: bool,
+    /// Whether the links without a joint move freely by the file, and are not fixed to the world.
+    pub(super) free_roots: bool,
     pub(super) links: Vec<Link>,
     /// In the order of the file.
     pub(super) joints: Vec<Joint>,
@@ -46,8 +48,10 @@ pub(super) struct Frame {
 /// A closed loop: two places that meet.
 pub(super) struct Loop {
     pub(super) name: String,
-    /// Its type in a mechanism: `point` or `weld`.
+    /// Its type in a mechanism.
     pub(super) kind: &'static str,
+    /// The axis of a hinge or a slider, in the axes of both places.
+    pub(super) axis: Option<[Num; 3]>,
     pub(super) a: LoopPlace,
     pub(super) b: LoopPlace,
 }
@@ -76,6 +80,18 @@ pub(super) struct Inertial {
     pub(super) tensor: [Num; 6],
 }
 
+impl Inertial {
+    /// Returns the inertia, given in the axes of `shift`, in those in which `shift` is given.
+    pub(super) fn shifted(self, shift: &Placement) -> Self {
+        let own = Placement {
+            xyz: self.com,
+            rpy: self.rpy,
+        };
+        let Placement { xyz: com, rpy } = shift.then(&own);
+        Inertial { com, rpy, ..self }
+    }
+}
+
 pub(super) struct Joint {
     pub(super) name: String,
     pub(super) at: At,
@@ -85,6 +101,8 @@ pub(super) struct Joint {
     pub(super) child: String,
     pub(super) origin: Placement,
     pub(super) axis: [Num; 3],
+    /// The displacement of a helical joint for each turn, m.
+    pub(super) lead: Option<Num>,
     pub(super) limits: Limits,
     pub(super) mimic: Option<Mimic>,
     pub(super) effects: JointEffects,
@@ -101,6 +119,7 @@ impl Joint {
             child: child.to_owned(),
             origin: Placement::identity(),
             axis: [Num::zero(), Num::zero(), Num::computed(1.0)],
+            lead: None,
             limits: Limits::default(),
             mimic: None,
             effects: JointEffects::default(),
@@ -110,6 +129,7 @@ impl Joint {
     /// Fixes it at its origin.
     pub(super) fn fix(&mut self) {
         self.kind = JointType::Fixed;
+        self.lead = None;
         self.limits = Limits::default();
         self.mimic = None;
         self.effects = JointEffects::default();

@@ -23,7 +23,7 @@ impl Placement {
         }
     }
 
-    fn is_identity(&self) -> bool {
+    pub(super) fn is_identity(&self) -> bool {
         all_zero(&self.xyz) && all_zero(&self.rpy)
     }
 

@@ -31,6 +31,7 @@ pub(super) fn read(root: &Element) -> Result<Model> {
         source: "a URDF".into(),
         gravity: None,
         moving_base: false,
+        free_roots: false,
         links,
         joints,
         frames: Vec::new(),
@@ -144,6 +145,7 @@ fn joint(element: &Element, strict: bool, groups: &mut Groups) -> Result<Joint> 
         child: child.to_string(),
         origin,
         axis,
+        lead: None,
         limits,
         mimic: match element.child("mimic") {
             Some(mimic) if !fixed => Some(mimic::read(mimic)?),

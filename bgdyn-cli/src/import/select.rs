@@ -87,7 +87,7 @@ pub(super) fn select(root: &Element) -> Result<(Element, Vec<String>)> {
         return Err(fault(
             root.at,
             format_args!(
-                "the root of a URDF is `<robot>`, that of an MJCF `<mujoco>`; this is `<{}>`",
+                "the root of a URDF is `<robot>`, that of an MJCF `<mujoco>`, that of an SDF `<sdf>`; this is `<{}>`",
                 root.name
             ),
         ));
@@ -101,7 +101,7 @@ pub(super) fn select(root: &Element) -> Result<(Element, Vec<String>)> {
 fn keep(element: &Element, kind: &Kind, quaternions: bool, ignored: &mut Tally) -> Result<Element> {
     let Element { name, at, .. } = element;
     let mut kept = Element::empty(name, *at);
-    if element.text {
+    if !element.text.is_empty() {
         ignored.count(format!("text in `<{name}>`"), 0);
     }
     for (attribute, value) in &element.attributes {

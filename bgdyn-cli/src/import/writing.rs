@@ -88,6 +88,7 @@ pub(super) fn loops(loops: &[NamedLoop<'_>], allowed: Allowed) -> String {
     let entry = |(one, name, [a, b]): &NamedLoop<'_>| {
         let mut lines = vec![format!("name: {}", scalar(name))];
         lines.push(format!("type: {}", one.kind));
+        lines.extend(one.axis.as_ref().and_then(axis));
         lines.push(format!("a: {}", place(&one.a.place, a)));
         lines.push(format!("b: {}", place(&one.b.place, b)));
         if allowed != Allowed::Nothing {
@@ -171,6 +172,12 @@ fn write_joint(joint: &Joint, name: &str, leader: Option<(&str, bool)>, lines: &
     if joint.kind.has_axis() {
         keys.extend(axis(&joint.axis));
     }
+    keys.extend(
+        joint
+            .lead
+            .as_ref()
+            .map(|lead| format!("lead: {}", lead.text)),
+    );
     keys.extend(origin(&joint.origin));
     keys.extend(limits(&joint.limits));
     if let (Some(mimic), Some((leader, alike))) = (&joint.mimic, leader) {

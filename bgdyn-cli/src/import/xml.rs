@@ -20,8 +20,8 @@ pub(super) struct Element {
     pub(super) name: String,
     pub(super) attributes: Vec<(String, String)>,
     pub(super) children: Vec<Element>,
-    /// Whether it directly contains text other than white space.
-    pub(super) text: bool,
+    /// The text directly in it, without the white space around it.
+    pub(super) text: String,
     pub(super) at: At,
 }
 
@@ -33,7 +33,7 @@ impl Element {
             name: name.into(),
             attributes,
             children,
-            text: false,
+            text: String::new(),
             at,
         }
     }
@@ -130,9 +130,10 @@ fn element(node: Node<'_, '_>, lines: &Lines<'_>, depth: usize) -> Result<Elemen
         if child.is_element() {
             read.children.push(element(child, lines, depth + 1)?);
         } else if child.is_text() {
-            read.text |= child.text().is_some_and(|text| !text.trim().is_empty());
+            read.text += child.text().unwrap_or_default();
         }
     }
+    read.text = read.text.trim().to_owned();
     Ok(read)
 }
 

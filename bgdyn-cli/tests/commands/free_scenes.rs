@@ -2,39 +2,28 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// Runs the command from the root of the workspace.
-fn bgdyn(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bgdyn"))
-        .args(arguments)
-        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
-        .output()
-        .expect("the command starts")
-}
+use crate::{Run, bgdyn};
 
 fn scene(name: &str) -> String {
     format!("tests/free_scenes/{name}.scene.yaml")
 }
 
 /// Simulates a scene for a short time into a folder of its own; returns the folder.
-fn simulated(test: &str, name: &str, more: &[&str]) -> (PathBuf, Output) {
+fn simulated(test: &str, name: &str, more: &[&str]) -> (PathBuf, Run) {
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     let (file, folder) = (scene(name), out.display().to_string());
     let usual = [
         "simulate", &file, "--out", &folder, "--end", "0.05s", "--points", "11",
     ];
-    let output = bgdyn(&[&usual, more].concat());
-    (out, output)
+    (out, bgdyn(&[&usual, more].concat()))
 }
 
 /// Returns the error of a run that is refused.
 fn refused(test: &str, name: &str, more: &[&str]) -> String {
-    let (_, output) = simulated(test, name, more);
-    assert!(!output.status.success(), "{more:?}");
-    String::from_utf8(output.stderr).expect("UTF-8")
+    simulated(test, name, more).1.bad_input()
 }
 
 /// Returns the columns' names and the rows of a table.
@@ -52,8 +41,8 @@ fn table(folder: &Path, name: &str) -> (Vec<String>, Vec<Vec<f64>>) {
 
 #[test]
 fn tables_have_positions_and_velocities_by_name() {
-    let (folder, output) = simulated("free_table", "heavy_top_run", &[]);
-    assert!(output.status.success(), "{output:?}");
+    let (folder, run) = simulated("free_table", "heavy_top_run", &[]);
+    run.good();
     let (names, rows) = table(&folder, "heavy_top_run");
     let wanted = [
         "t [s]",
@@ -77,8 +66,8 @@ fn tables_have_positions_and_velocities_by_name() {
 #[test]
 fn points_between_steps_are_orientations() {
     let more = ["--method", "dop853", "--tolerance", "1e-5"];
-    let (folder, output) = simulated("free_dense", "heavy_top_run", &more);
-    assert!(output.status.success(), "{output:?}");
+    let (folder, run) = simulated("free_dense", "heavy_top_run", &more);
+    run.good();
     for row in table(&folder, "heavy_top_run").1 {
         let square: f64 = row[1..5].iter().map(|x| x * x).sum();
         assert!((square - 1.0).abs() < 1e-15, "t = {}: {square}", row[0]);
@@ -93,40 +82,30 @@ fn a_run_begins_in_a_pose() {
         "--initial",
         "free.rpy=0, 0, 90 deg",
     ];
-    let (folder, output) = simulated("free_pose", "disc_run", &more);
-    assert!(output.status.success(), "{output:?}");
+    let (folder, run) = simulated("free_pose", "disc_run", &more);
+    run.good();
     let half = 0.5_f64.sqrt();
     let start = &table(&folder, "disc_run").1[0];
     assert_eq!(start[..8], [0.0, 1.0, 0.2, 3.0, 0.0, 0.0, half, half]);
     let error = refused("free_long", "disc_run", &["--initial", "free_qx=0.5"]);
     assert!(error.contains("`free` has the length 1.11803"), "{error}");
-    let error = refused("free_few", "disc_run", &["--initial", "free.rpy=0, 1"]);
+    let (_, few) = simulated("free_few", "disc_run", &["--initial", "free.rpy=0, 1"]);
+    let error = few.bad_usage();
     assert!(error.contains("2 numbers: write 3"), "{error}");
 }
 
 #[test]
 fn momenta_and_studies_are_refused_by_name() {
-    let error = refused(
-        "free_momenta",
-        "buoy_run",
-        &["--method", "canonical_gauss2"],
-    );
+    let method = ["--method", "canonical_gauss2"];
+    let error = simulated("free_momenta", "buoy_run", &method).1.bad_usage();
     assert!(
         error.contains("`free`") && error.contains("use `gauss2`"),
         "{error}"
     );
-    let studied = bgdyn(&["accuracy", &scene("cart_run")]);
-    let error = String::from_utf8(studied.stderr).expect("UTF-8");
-    assert!(
-        !studied.status.success() && error.contains("`drive`"),
-        "{error}"
-    );
-    let generated = bgdyn(&["generate", &scene("cart_run"), "--canonical"]);
-    let error = String::from_utf8(generated.stderr).expect("UTF-8");
-    assert!(
-        !generated.status.success() && error.contains("Lie–Poisson"),
-        "{error}"
-    );
+    let error = bgdyn(&["accuracy", &scene("cart_run")]).bad_input();
+    assert!(error.contains("`drive`"), "{error}");
+    let error = bgdyn(&["generate", &scene("cart_run"), "--canonical"]).bad_usage();
+    assert!(error.contains("Lie–Poisson"), "{error}");
 }
 
 /// The page has a body for each link that moves, followers and links inside universal joints included.
@@ -147,8 +126,8 @@ fn the_page_has_every_moving_body() {
             ],
         ),
     ] {
-        let (folder, output) = simulated(&format!("free_page_{name}"), name, &[]);
-        assert!(output.status.success(), "{output:?}");
+        let (folder, run) = simulated(&format!("free_page_{name}"), name, &[]);
+        run.good();
         let page = fs::read_to_string(folder.join(format!("{name}.html"))).expect("a page");
         let data = page
             .split("type=\"application/json\"")
@@ -183,14 +162,14 @@ fn functions_of_a_scene_take_unit_quaternions() {
         { "y": { "ball_qx": 0.6, "ball_qw": 0.9 } } ] }"#;
     fs::write(&states, text).expect("a file");
     let states = states.display().to_string();
-    let output = bgdyn(&[
+    let run = bgdyn(&[
         "eval",
         &scene("heavy_top_run"),
         "derivative",
         "--states",
         &states,
     ]);
-    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let report: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let rates = report["results"][0].as_array().expect("rates");
     let wanted = [0.8, 0.0, 0.0, -0.6];
     for (found, wanted) in rates.iter().zip(wanted) {

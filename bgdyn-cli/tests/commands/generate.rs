@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate_module;
@@ -27,10 +28,8 @@ fn the_source_is_the_same_in_every_run_and_in_every_place() {
 fn the_source_is_what_the_macro_gets() {
     let text = fs::read_to_string(root().join(SCARA)).expect("the spec");
     let place = OutputOptions::source_text("scara4.yaml".into());
-    let (tokens, _) = generate_module(&text, "scara4", &place, &Options::default(), |path| {
-        Err(path.into())
-    })
-    .expect("a good spec");
+    let spec = SpecText::mechanism(&text, "scara4");
+    let (tokens, _) = generate_module(&spec, &Options::default(), &place).expect("a good spec");
     let source = bgdyn(&["generate", SCARA]).good();
     let parsed: proc_macro2::TokenStream = source.parse().expect("Rust");
     // Trailing commas in lists and the quotes of documentation depend on the formatting; the titles above
@@ -137,9 +136,11 @@ fn plain_text_has_the_same_statements() {
 
 #[test]
 fn backends_write_their_files() {
-    let header = scratch("generate_c", "scara4.h", "");
-    let folder = header.strip_suffix("/scara4.h").expect("a folder");
-    let source = format!("{folder}/scara4.c");
+    let blocked = scratch("generate_c", "file", "");
+    let folder = format!("{blocked}_beside/new");
+    let _ = fs::remove_dir_all(&folder);
+    let folder = folder.as_str();
+    let (header, source) = (format!("{folder}/scara4.h"), format!("{folder}/scara4.c"));
     let asked = ["generate", SCARA, "--backend", "c", "-o", folder];
     assert_eq!(bgdyn(&asked).good(), "");
     let written = fs::read_to_string(&header).expect("the header");
@@ -151,6 +152,9 @@ fn backends_write_their_files() {
     let single = [&check[..], &["--option", "float=float"]].concat();
     let stderr = bgdyn(&single).bad_input();
     assert!(stderr.contains("scara4.h:"), "{stderr}");
+    let into_a_file = ["generate", SCARA, "--backend", "c", "-o", &blocked];
+    let stderr = bgdyn(&into_a_file).bad_input();
+    assert!(stderr.contains("file cannot be created: "), "{stderr}");
 }
 
 #[test]

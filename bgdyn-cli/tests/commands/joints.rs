@@ -1,61 +1,43 @@
 //! `bgdyn eval` of mechanisms with joints of several degrees of freedom.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use serde_json::{Value, json};
+
+use crate::{bgdyn, root, scratch};
 
 const SPEC: &str = "tests/golden/joints/quadrotor_arm.yaml";
 const VALUES: &str = "tests/golden/joints/quadrotor_arm.json";
 
-/// A run of the command from the root of the workspace.
-struct Run {
+/// A run of `bgdyn eval`.
+struct Evaluated {
     code: Option<i32>,
     report: Value,
     stderr: String,
 }
 
-fn root() -> &'static Path {
-    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
-}
-
-fn eval(spec: &str, method: &str, states: &str) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_bgdyn"))
-        .args(["eval", spec, method, "--states", states])
-        .current_dir(root())
-        .output()
-        .expect("the command starts");
-    let stderr = String::from_utf8(output.stderr).expect("UTF-8");
-    Run {
-        code: output.status.code(),
-        report: serde_json::from_slice(&output.stdout)
-            .unwrap_or_else(|e| panic!("{method}: {e}: {stderr}")),
-        stderr,
+fn eval(spec: &str, method: &str, states: &str) -> Evaluated {
+    let run = bgdyn(&["eval", spec, method, "--states", states]);
+    let report = serde_json::from_str(&run.stdout);
+    Evaluated {
+        code: run.code,
+        report: report.unwrap_or_else(|e| panic!("{method}: {e}: {}", run.stderr)),
+        stderr: run.stderr,
     }
 }
 
 /// Evaluates a method at states that are written for one test.
-fn at(test: &str, spec: &str, method: &str, states: &Value) -> Run {
-    let path: PathBuf = [env!("CARGO_TARGET_TMPDIR"), test, "states.json"]
-        .iter()
-        .collect();
-    fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");
-    fs::write(&path, json!({ "states": states }).to_string()).expect("a file");
-    eval(spec, method, &path.display().to_string())
+fn at(test: &str, spec: &str, method: &str, states: &Value) -> Evaluated {
+    let states = json!({ "states": states }).to_string();
+    eval(spec, method, &scratch(test, "states.json", states))
 }
 
 /// Writes a spec for one test.
 fn written(test: &str, spec: &str) -> String {
-    let path: PathBuf = [env!("CARGO_TARGET_TMPDIR"), test, "model.yaml"]
-        .iter()
-        .collect();
-    fs::create_dir_all(path.parent().expect("a parent")).expect("a directory");
-    fs::write(&path, spec).expect("a file");
-    path.display().to_string()
+    scratch(test, "model.yaml", spec)
 }
 
-impl Run {
+impl Evaluated {
     /// Returns the results of a run without failures.
     fn good(self) -> Vec<Value> {
         assert_eq!(self.code, Some(0), "{}{}", self.report, self.stderr);
@@ -268,16 +250,7 @@ fn a_vanished_pivot_names_its_velocity() {
 /// Equations are not printed for such joints; more terms would not help.
 #[test]
 fn equations_name_the_joint() {
-    let spec = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../tests/golden/joints/quadrotor_arm.yaml"
-    );
-    let run = std::process::Command::new(env!("CARGO_BIN_EXE_bgdyn"))
-        .args(["equations", spec])
-        .output()
-        .expect("the command runs");
-    let said = String::from_utf8_lossy(&run.stderr);
-    assert!(!run.status.success());
+    let said = bgdyn(&["equations", SPEC]).bad_input();
     assert!(said.contains("no closed form: the joint `free`"), "{said}");
     assert!(!said.contains("--limit"), "{said}");
 }

@@ -122,8 +122,12 @@ fn starts_that_loops_do_not_reach_are_refused() {
         ),
         (
             "torque",
-            "inputs: { slider_position: { computed_torque: { target: 0.6 m, stiffness: 1, damping: 1 } } }",
-            ["drive", "`computed_torque`", "independent"],
+            "inputs: { slider_position: { computed_torque: { target: 0.6 m } }, crank_angle: { computed_torque: { target: 0.5 } } }",
+            [
+                "followed-joints",
+                "`computed_torque` of 1 joint in loops, `slider_position`",
+                "contradict each other: leave 1 of them out",
+            ],
         ),
     ] {
         let mut file = scene(name, keys);
@@ -186,4 +190,86 @@ fn the_graph_of_a_scene_has_its_loops() {
     }
     assert!(!drawn.contains("Se: P₁"), "the crank has no drive: {drawn}");
     assert!(!drawn.contains("Not drawn"), "{drawn}");
+}
+
+/// Returns a column of the table of a run.
+fn column(out: &str, name: &str, title: &str) -> Vec<f64> {
+    let table = std::fs::read_to_string(format!("{out}/{name}.csv")).expect("a table");
+    let mut lines = table.lines();
+    let titles = lines.next().expect("titles").split(',');
+    let at = titles
+        .into_iter()
+        .position(|own| own == title)
+        .expect("a column");
+    let entry = |line: &str| {
+        line.split(',')
+            .nth(at)
+            .expect("an entry")
+            .parse()
+            .expect("a number")
+    };
+    lines.map(entry).collect()
+}
+
+/// The slider follows a harmonic motion, from its place and velocity there.
+#[test]
+fn a_slider_follows_its_target() {
+    let keys = "inputs: { slider_position: { computed_torque: { target: { harmonic: { amplitude: 50 mm, frequency: 0.5 Hz, offset: 550 mm } }, stiffness: 100, damping: 20 } } }\ninitial: { slider_position: 550 mm, slider_position_rate: 0.15707963267948966 }\nintegration: { method: dop853, tolerance: 1e-12, end: 3 s }";
+    let file = scene("follows", keys);
+    let out = std::path::Path::new(&file).with_file_name("follows");
+    let out = out.to_str().expect("a path");
+    bgdyn(&["simulate", &file, "--out", out, "--points", "31"]).good();
+    let times = column(out, "follows", "t [s]");
+    let places = column(out, "follows", "slider_position [m]");
+    assert_eq!(places.len(), 31);
+    for (t, x) in times.iter().zip(&places) {
+        let wanted = 0.55 + 0.05 * (std::f64::consts::PI * t).sin();
+        assert!((x - wanted).abs() < 1e-10, "{x} at {t} s, not {wanted}");
+    }
+}
+
+/// A run from the velocity of the slider, by an option, is the run from the velocity of the crank.
+#[test]
+fn a_run_may_start_with_the_velocity_of_a_dependent_joint() {
+    let keys = format!("initial: {{ crank_angle: 0.7, crank_angle_rate: 4 }}\n{RUN}");
+    let file = scene("rates", &keys);
+    let run = |name: &str, more: &[&str]| {
+        let out = std::path::Path::new(&file).with_file_name(name);
+        let out = out.to_str().expect("a path").to_owned();
+        let run = [
+            &["simulate", &file, "--out", &out, "--end", "0.5 s"][..],
+            more,
+        ]
+        .concat();
+        bgdyn(&run).good();
+        column(&out, "rates", "crank_angle [rad]")
+    };
+    let by_crank = run("by_crank", &[]);
+    let states = scratch(
+        "loops_scenes",
+        "rates.json",
+        json!({ "states": [{}] }).to_string(),
+    );
+    let rates = bgdyn(&["eval", &file, "position_rates", "--states", &states]).good();
+    let rates: Value = serde_json::from_str(&rates).expect("JSON");
+    let slider = rates["results"][0][2].as_f64().expect("a number");
+    let by_slider = run(
+        "by_slider",
+        &["--initial", &format!("slider_position_rate={slider}")],
+    );
+    for (x, y) in by_crank.iter().zip(&by_slider) {
+        assert!((x - y).abs() < 1e-10, "{x} and {y}");
+    }
+    let options = [
+        "--initial",
+        "slider_position_rate=0.3",
+        "--initial",
+        "crank_angle_rate=4",
+    ];
+    let run = [&["simulate", &file][..], &options].concat();
+    let refused = bgdyn(&run).bad_input();
+    assert!(
+        refused.contains("`slider_position_rate` is 0.3 m/s here"),
+        "{refused}"
+    );
 }

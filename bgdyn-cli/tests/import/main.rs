@@ -1,4 +1,4 @@
-//! `bgdyn import`: URDF, MJCF, tables of Denavit–Hartenberg parameters, options, joints that move freely.
+//! `bgdyn import`: URDF, MJCF, SDF, tables of Denavit–Hartenberg parameters, options, joints that move freely.
 
 mod free;
 mod mjcf;
@@ -6,6 +6,8 @@ mod mjcf_corners;
 mod mjcf_loops;
 mod mjcf_report;
 mod options;
+mod sdf;
+mod sdf_writer;
 mod table;
 mod urdf;
 

@@ -74,7 +74,7 @@ fn errors_say_where_and_what() {
         String::new(),
         "no xml".into(),
         "<robot name='r'>\n<link name='a'>\n</robot>".into(),
-        "<sdf version='1.6'/>".into(),
+        "<scene version='1.6'/>".into(),
         "<robot name='r'/>".into(),
         "<robot name='r'><link/></robot>".into(),
         "<robot name='r'><link name='a'/>\n <link name='a'/></robot>".into(),
@@ -283,7 +283,7 @@ fn the_command_writes_the_file() {
             file.display()
         )
     );
-    std::fs::write(&file, "<sdf/>").unwrap();
+    std::fs::write(&file, "<scene/>").unwrap();
     let error = run(ImportArgs {
         file: file.clone(),
         output: None,

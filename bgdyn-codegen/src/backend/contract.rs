@@ -2,6 +2,7 @@
 
 use super::given::{BackendError, BackendOption, GivenOptions};
 use crate::function::Function;
+use crate::generated::Generated;
 use crate::model::Model;
 use crate::plan::PlanLimits;
 use crate::refusal::Refusal;
@@ -35,6 +36,15 @@ pub enum BackendInput<'a> {
     Mechanism(&'a Model),
     /// A scene with its functions.
     Scene(&'a SceneEquations, &'a [Function]),
+}
+
+impl<'a> From<&'a Generated> for BackendInput<'a> {
+    fn from(generated: &'a Generated) -> Self {
+        match generated {
+            Generated::Mechanism(model) => BackendInput::Mechanism(model),
+            Generated::Scene(equations, functions) => BackendInput::Scene(equations, functions),
+        }
+    }
 }
 
 /// A file that a backend writes.

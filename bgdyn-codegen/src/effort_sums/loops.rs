@@ -106,6 +106,22 @@ impl<'g, 'a> EffortSums<'g, 'a> {
         coupled.into_iter().map(|p| rates[p]).collect()
     }
 
+    /// Returns the rate of x at constant velocities: ∂x/∂q · N(q) S(q) v.
+    pub(crate) fn rate_at_constant_velocity(&self, x: Expr<'g>) -> Expr<'g> {
+        let rates: Vec<Signed> = self
+            .position_rates()
+            .into_iter()
+            .map(Expr::signed)
+            .collect();
+        let seed = |_: &mut Graph, leaf| match leaf {
+            Leaf::Position(p) => rates.get(p).copied(),
+            _ => None,
+        };
+        let x = x.signed();
+        self.b
+            .expr(self.b.with_graph(|g| Tangent::new(seed).of(g, x)))
+    }
+
     /// Returns ∂x/∂q_j along the tangent: d/dε x(integrate(q, ε e_j)).
     pub(crate) fn slope(&self, x: Expr<'g>, j: usize) -> Expr<'g> {
         let x = x.signed();

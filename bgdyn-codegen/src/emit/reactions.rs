@@ -9,11 +9,11 @@ use super::tokens::number;
 use crate::bond_graph::ClosedTree;
 use crate::math::Vec3;
 use crate::method::Method;
-use crate::plan::{UndeterminedLoad, has_loads, undetermined_loads};
+use crate::plan::{UndeterminedLoad, undetermined_loads};
 
 /// Returns the constants of the reactions, if a method returns some.
 pub(super) fn reaction_constants(closed: &ClosedTree, present: &[Method]) -> Option<TokenStream> {
-    if !present.iter().any(has_loads) {
+    if !present.iter().any(|method| method.has_loads()) {
         return None;
     }
     let closure = &closed.closure;
@@ -66,7 +66,7 @@ pub(super) fn reaction_docs(method: Method, closed: Option<&ClosedTree>) -> Vec<
             " plane's normal; of a ball along x, y and z of the plane. Of a knife edge: what acts on it, in the axes of",
             " its link. All other efforts on the joints are zero.",
         ]),
-        Method::JointReactions => docs.extend([
+        Method::JointReactions | Method::ActuatedJointReactions(_) => docs.extend([
             "",
             " The component along or about a free axis is the effort of its drive. The force of a link without a parent is",
             " that of the world.",
@@ -77,8 +77,12 @@ pub(super) fn reaction_docs(method: Method, closed: Option<&ClosedTree>) -> Vec<
         ]),
         _ => {}
     }
+    if matches!(method, Method::ActuatedJointReactions(_)) {
+        docs.push(" Independent joints that are not actuated have the effort that `a` needs beside `tau`: zero if both belong");
+        docs.push(" together, by `forward_dynamics` or `inverse_dynamics`.");
+    }
     let some = closed.is_some_and(|closed| !undetermined_loads(&closed.closure).is_empty());
-    if has_loads(&method) && some {
+    if method.has_loads() && some {
         docs.extend([
             "",
             " Statically indeterminate: loads along [`UNDETERMINED`] are left out, and not determined.",

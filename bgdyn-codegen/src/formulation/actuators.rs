@@ -49,7 +49,7 @@ pub(super) fn actuator_efforts<'g>(
         .map(|(k, side)| Equation {
             row: columns.iter().map(|column| column[k]).collect(),
             side,
-            pivot: first + k,
+            pivot: Some(first + k),
         })
         .collect();
     if actuated.joints.len() > closure.independents.len() {
@@ -78,11 +78,25 @@ pub(super) fn actuator_efforts<'g>(
     Some(found)
 }
 
-/// Σ row · x = side, with the index of its pivot.
+/// Returns the solution of as many equations Σ row · x = side as unknowns, without checks of pivots.
+pub(crate) fn solve_square<'g>(
+    b: &'g Builder,
+    equations: Vec<(Vec<Expr<'g>>, Expr<'g>)>,
+    samples: &[Vec<Dd>],
+) -> Vec<Expr<'g>> {
+    let unchecked = |(row, side)| Equation {
+        row,
+        side,
+        pivot: None,
+    };
+    square(b, equations.into_iter().map(unchecked).collect(), samples)
+}
+
+/// Σ row · x = side, with the index of its pivot; `None` for one that is not checked.
 struct Equation<'g> {
     row: Vec<Expr<'g>>,
     side: Expr<'g>,
-    pivot: usize,
+    pivot: Option<usize>,
 }
 
 impl<'g> Equation<'g> {
@@ -132,11 +146,17 @@ fn square<'g>(b: &'g Builder, equations: Vec<Equation<'g>>, samples: &[Vec<Dd>])
 }
 
 /// Returns 1 / value. The value, of either sign, is refused if it is a rounding error of its size at the sampled
-/// positions.
-fn inverted<'g>(b: &'g Builder, value: Expr<'g>, samples: &[Vec<Dd>], index: usize) -> Expr<'g> {
-    match value.as_constant() {
-        Some(x) if x != Dd::ZERO => b.constant(Dd::ONE) / value,
-        _ => {
+/// positions, with an index to check it by.
+fn inverted<'g>(
+    b: &'g Builder,
+    value: Expr<'g>,
+    samples: &[Vec<Dd>],
+    index: Option<usize>,
+) -> Expr<'g> {
+    match (value.as_constant(), index) {
+        (Some(x), _) if x != Dd::ZERO => b.constant(Dd::ONE) / value,
+        (_, None) => b.constant(Dd::ONE) / value,
+        (_, Some(index)) => {
             let size = b.number(largest_at(b, value, samples));
             value.sign() / value.abs().pivot(size, index)
         }
@@ -170,11 +190,12 @@ fn least<'g>(
         }
         // What is left of the row is refused if it is a rounding error of the row at the sampled positions.
         let left = dot(&row, &row);
-        let inverse = match left.as_constant() {
-            Some(x) if x > Dd::ZERO => b.constant(Dd::ONE) / left,
-            _ => {
+        let inverse = match (left.as_constant(), equation.pivot) {
+            (Some(x), _) if x > Dd::ZERO => b.constant(Dd::ONE) / left,
+            (_, None) => b.constant(Dd::ONE) / left,
+            (_, Some(pivot)) => {
                 let size = b.number(largest_at(b, whole, samples).sqrt());
-                let length = left.sqrt().pivot(size, equation.pivot);
+                let length = left.sqrt().pivot(size, pivot);
                 b.constant(Dd::ONE) / (length * length)
             }
         };

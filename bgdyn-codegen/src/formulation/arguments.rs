@@ -49,9 +49,9 @@ impl<'g> Arguments<'g> {
             || matches!(method, Method::KineticEnergy | Method::ProjectVelocity);
         let turning = graph.velocity_products || kinematic;
         let efforts = match method {
-            Method::ActuatedForward(number) | Method::ActuatedReactions(number) => {
-                read_all(number, true, Leaf::Input)
-            }
+            Method::ActuatedForward(number)
+            | Method::ActuatedReactions(number)
+            | Method::ActuatedJointReactions(number) => read_all(number, true, Leaf::Input),
             _ => read(
                 takes(Argument::Tau) || takes(Argument::TreeTau),
                 Leaf::Input,
@@ -89,6 +89,7 @@ fn moves_with_base(method: Method) -> bool {
             | Method::InverseDerivativesByTree
             | Method::ForwardDerivativesByTree
             | Method::JointReactions
+            | Method::ActuatedJointReactions(_)
     )
 }
 

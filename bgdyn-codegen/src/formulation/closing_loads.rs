@@ -69,11 +69,13 @@ pub(super) fn reactions<'g>(
     loops.flat_map(reaction).collect()
 }
 
-/// Adds the loads of loops and contacts to those through the joints of the open tree, `entries`.
+/// Adds the loads of loops and contacts to those through the joints of the open tree, `entries`. `drives` are the
+/// efforts of the drives at dependent joints, by velocity of the tree.
 pub(super) fn add_to_joints<'g>(
     b: &'g Builder,
     closed: &ClosedTree,
     (q, lambda): (&[Expr<'g>], &[Expr<'g>]),
+    drives: &[Expr<'g>],
     entries: &mut [Expr<'g>],
 ) {
     let closure = &closed.closure;
@@ -98,14 +100,14 @@ pub(super) fn add_to_joints<'g>(
     });
     let loops: Vec<ChainLoad<'_, 'g>> = loops.collect();
     add_chain_loads(b, (&closed.tree, q), &loops, entries);
-    for at in free_components(closed) {
-        entries[at] = b.zero();
+    for (at, j, sign) in free_components(closed) {
+        entries[at] = drives[j.0] * b.constant(sign);
     }
 }
 
-/// Returns the components along free axes of dependent joints, which have no efforts, where that axis is one of the
-/// link's.
-fn free_components(closed: &ClosedTree) -> Vec<usize> {
+/// Returns the components along free axes of dependent joints where that axis is one of the link's, each with its
+/// velocity and the direction of the axis, 1 or −1: they are the efforts of the drives, zero without one.
+fn free_components(closed: &ClosedTree) -> Vec<(usize, CoordinateId, Dd)> {
     let frames = &closed.tree.frames;
     let alone = |j: CoordinateId| {
         let moved = frames.iter().filter(|f| f.degrees.velocities.contains(&j));
@@ -114,7 +116,7 @@ fn free_components(closed: &ClosedTree) -> Vec<usize> {
     let shown = frames.iter().filter(|frame| !frame.hidden).enumerate();
     let component = |(place, frame): (usize, &LinkFrame)| {
         let dependent = |j: &CoordinateId| closed.closure.dependents().any(|d| d == *j);
-        frame.coordinate.filter(|j| dependent(j) && alone(*j))?;
+        let own = frame.coordinate.filter(|j| dependent(j) && alone(*j))?;
         let part = match frame.motion {
             Motion::Rotation => 3,
             Motion::Translation => 0,
@@ -122,7 +124,7 @@ fn free_components(closed: &ClosedTree) -> Vec<usize> {
         };
         let mut along = (0..3).filter(|&k| frame.axis.0[k] != Dd::ZERO);
         let only = along.next().filter(|_| along.next().is_none())?;
-        Some(6 * place + part + only)
+        Some((6 * place + part + only, own, frame.axis.0[only]))
     };
     shown.filter_map(component).collect()
 }

@@ -40,7 +40,9 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
             vec![Method::InverseDynamics, Method::MassMatrix]
         }
         Method::ProjectVelocity => vec![Method::MassMatrix],
-        Method::JointReactions => vec![Method::JointReactions, Method::InverseDynamics],
+        Method::JointReactions | Method::ActuatedJointReactions(_) => {
+            vec![Method::JointReactions, Method::InverseDynamics]
+        }
         Method::Pose(_) | Method::Velocity(_) | Method::Jacobian(_) => vec![method],
         Method::JacobianDotV(site) => vec![method, Method::Jacobian(site)],
         _ => vec![],
@@ -153,10 +155,15 @@ pub(super) fn compose<'g>(
             all.extend(map.multipliers(&minus(&moved.lacking, &driven)));
             all
         }
-        Method::JointReactions => {
+        Method::JointReactions | Method::ActuatedJointReactions(_) => {
             let accelerations = motion.accelerations(&x.a);
-            let mut all = tree.read(method, Some(&accelerations))?;
-            all.extend(map.multipliers(&tree.efforts(Method::InverseDynamics, x)?));
+            let mut all = tree.read(Method::JointReactions, Some(&accelerations))?;
+            let needed = tree.efforts(Method::InverseDynamics, x)?;
+            let lacking = match method {
+                Method::JointReactions => needed,
+                _ => minus(&needed, &on_tree(b, closed, &x.tau)?),
+            };
+            all.extend(map.multipliers(&lacking));
             all
         }
         _ => return None,

@@ -28,6 +28,8 @@ mod solve;
 mod subspaces;
 mod velocity_map;
 
+pub(crate) use actuators::solve_square;
+
 use crate::bond_graph::BondGraph;
 use crate::expr::{Graph, Signed};
 pub use definition::{Formulation, Offer};

@@ -45,7 +45,10 @@ impl Method {
     pub fn of_actuated_joints(self) -> bool {
         matches!(
             self,
-            Method::ActuatedInverse(_) | Method::ActuatedForward(_) | Method::ActuatedReactions(_)
+            Method::ActuatedInverse(_)
+                | Method::ActuatedForward(_)
+                | Method::ActuatedReactions(_)
+                | Method::ActuatedJointReactions(_)
         )
     }
 
@@ -69,10 +72,6 @@ impl Method {
             "inverse_dynamics" => Some(format!(
                 "no `inverse_dynamics`: the number of actuated joints is {drives}, that of independent velocities {mobility}, so that no efforts produce every acceleration; `reduced_inverse_dynamics` returns the efforts along the independent velocities"
             )),
-            "joint_reactions" => Some(
-                "no `joint_reactions` with `actuated`: it returns the loads with drives at the independent joints; `reactions` returns those of the loops under the efforts of the actuated joints"
-                    .into(),
-            ),
             _ => None,
         }
     }

@@ -5,6 +5,7 @@
 mod actuated;
 mod argument;
 mod derivatives;
+mod loads;
 mod scene_function;
 mod shape;
 mod words;
@@ -84,6 +85,8 @@ pub enum Method {
     ActuatedForward(usize),
     /// Forces and moments at the closing places and contacts under efforts of the actuated joints.
     ActuatedReactions(usize),
+    /// Forces and moments at the joints of the tree of links, with drives at the actuated joints.
+    ActuatedJointReactions(usize),
     /// A function of a scene.
     Scene(SceneFunction),
 }
@@ -172,14 +175,16 @@ impl Method {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
             if let Some(actuated) = closed.closure.drives() {
-                // Its loads are those with drives at the independent joints.
+                // Loads depend on where the drives are.
                 all.retain(|m| !matches!(m, Method::Reactions | Method::JointReactions));
                 all.extend(Method::of_actuated(closed));
-                all.push(Method::ActuatedReactions(actuated.joints.len()));
+                let number = actuated.joints.len();
+                all.push(Method::ActuatedReactions(number));
+                all.push(Method::ActuatedJointReactions(number));
             }
         }
         // Joints carry the loads of these loops, which no equation contains.
-        all.retain(|method| graph.parallel.is_empty() || *method != Method::JointReactions);
+        all.retain(|method| graph.parallel.is_empty() || !method.loads_joints());
         all
     }
 
@@ -276,7 +281,7 @@ impl Method {
             Method::ConstrainedDynamics => "constrained_dynamics".into(),
             Method::ProjectVelocity => "project_velocity".into(),
             Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
-            Method::JointReactions => "joint_reactions".into(),
+            Method::JointReactions | Method::ActuatedJointReactions(_) => "joint_reactions".into(),
             Method::Scene(role) => role.name().into(),
         }
     }
@@ -303,6 +308,7 @@ impl Method {
             | Method::ForwardDerivativesByTree => &[Q, V, Tau],
             Method::Reactions => &[Q, V, Tau],
             Method::ActuatedForward(_) | Method::ActuatedReactions(_) => &[Q, V, ActuatedTau],
+            Method::ActuatedJointReactions(_) => &[Q, V, A, ActuatedTau],
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
             Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
             Method::Scene(SceneFunction::Inverse) => &[
@@ -358,7 +364,7 @@ impl Method {
             Method::ConstrainedDynamics => Shape::CheckedTreeAndRows,
             Method::ProjectVelocity => Shape::CheckedTree,
             Method::Reactions | Method::ActuatedReactions(_) => Shape::CheckedWrenches,
-            Method::JointReactions => Shape::LinkWrenches,
+            Method::JointReactions | Method::ActuatedJointReactions(_) => Shape::LinkWrenches,
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse

@@ -104,6 +104,10 @@ impl Method {
                 "Forces and moments at the places where loops close and wheels touch, under the efforts `tau` of the actuated joints, as in [`REACTION_NAMES`]."
                     .into()
             }
+            Method::ActuatedJointReactions(_) => {
+                "Force and moment on each link from its parent through its joint, about the link's origin, in link axes, at the accelerations `a` and under the efforts `tau` of the actuated joints, as in [`ACTUATED`]; links as in [`LINK_NAMES`]."
+                    .into()
+            }
             Method::Scene(role) => role.summary().into(),
         }
     }
@@ -142,7 +146,10 @@ impl Method {
             Method::ConstraintBias => "m/s², rad/s²",
             Method::ConstrainedDynamics => "rad/s², m/s²; N, N·m",
             Method::ProjectVelocity => "rad/s, m/s",
-            Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions => "N, N·m",
+            Method::Reactions
+            | Method::ActuatedReactions(_)
+            | Method::JointReactions
+            | Method::ActuatedJointReactions(_) => "N, N·m",
             Method::Scene(_) => "as its parts say",
         }
     }

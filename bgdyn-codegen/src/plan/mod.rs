@@ -43,4 +43,4 @@ pub use products::{ProductPlan, ProductTable};
 pub use reads::{is_part, leaves, leaves_of, reads_dependents, unread};
 pub use sines::AnglePair;
 pub use summary::summary_of;
-pub use undetermined::{UndeterminedLoad, has_loads, undetermined_loads};
+pub use undetermined::{UndeterminedLoad, undetermined_loads};

@@ -7,7 +7,6 @@ use crate::mechanism::closure::{
     ClosingRow, Closure, ContactShape, LoopRow, PlaneContact, RowKind,
 };
 use crate::mechanism::joint::DoubleDouble;
-use crate::method::Method;
 
 /// A load that equations of rigid bodies do not determine.
 pub struct UndeterminedLoad {
@@ -19,14 +18,6 @@ pub struct UndeterminedLoad {
     pub force: Vec3<Dd>,
     /// The direction of the moment, in the axes of the reaction; zero for a force.
     pub moment: Vec3<Dd>,
-}
-
-/// Returns whether a method returns loads of loops or contacts.
-pub fn has_loads(method: &Method) -> bool {
-    matches!(
-        method,
-        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
-    )
 }
 
 /// Returns the loads of the rows without a multiplier: those that hold at every position of the joints, and those that

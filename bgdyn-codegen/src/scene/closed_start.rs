@@ -51,6 +51,10 @@ pub(super) fn fault(
             };
             wording::start_contradicts(&location(name), name, (*given, *closed), unit)
         }
+        Unreached::Still { index, given, part } => {
+            let (name, unit) = rate(layout, *index);
+            wording::start_stands_still(&location(name), name, (*given, unit), *part)
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use bgdyn_runtime::Dd;
 use super::Scene;
 use super::closed_start::{self, motion_of};
 use crate::fault::{Faults, Location, unknown_name, wording};
+use crate::mechanism::closure::{Closure, Unreached};
 
 /// A value of a run that can be overridden.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +25,8 @@ pub enum OverrideKind {
     Position(usize),
     /// A velocity at the start.
     Velocity(usize),
+    /// The velocity at the start of a joint in a loop that follows others, by its index among these.
+    DependentVelocity(usize),
     /// An initial first-order state, in the quantity that the scene gives: for a fluid volume, its
     /// pressure.
     State(usize),
@@ -44,7 +47,7 @@ impl Scene {
     /// Returns all values that can be overridden: positions, velocities, first-order states, modes
     /// (`NAME_mode`), run-time parameters.
     pub fn overrides(&self) -> Vec<Override> {
-        use OverrideKind::{Mode, Parameter, Position, State, Velocity};
+        use OverrideKind::{DependentVelocity, Mode, Parameter, Position, State, Velocity};
         let layout = &self.layout;
         let one = |name: &str, unit, kind| Override {
             name: name.to_owned(),
@@ -56,6 +59,11 @@ impl Scene {
         let positions = positions.map(|(i, p)| one(&p.name, p.dimension.si(), Position(i)));
         let velocities =
             coordinates.map(|(j, c)| one(&c.rate_name, c.dimensions[1].si(), Velocity(j)));
+        let dependents = layout.dependents.iter().enumerate();
+        let dependents = dependents.map(|(d, joint)| {
+            let unit = joint.dimensions[1].si();
+            one(&joint.rate_name, unit, DependentVelocity(d))
+        });
         let states = layout.states.iter().enumerate().map(|(i, part)| {
             let dimension = part.entered.map_or(part.dimension, |e| e.dimension);
             one(&part.name, dimension.si(), State(i))
@@ -66,6 +74,7 @@ impl Scene {
         let parameters = parameters.map(|(i, p)| one(&p.name, p.unit, Parameter(i)));
         positions
             .chain(velocities)
+            .chain(dependents)
             .chain(states)
             .chain(modes)
             .chain(parameters)
@@ -136,6 +145,7 @@ impl Scene {
             match overrides.kind {
                 OverrideKind::Position(j) => scene.initial.q[j] = value,
                 OverrideKind::Velocity(j) => scene.initial.v[j] = value,
+                OverrideKind::DependentVelocity(_) => {}
                 OverrideKind::Mode(i) => scene.initial.modes[i] = value,
                 OverrideKind::Parameter(i) => scene.parameters[i].default = value,
                 OverrideKind::State(i) => {
@@ -170,15 +180,9 @@ impl Scene {
         };
         if let Some(closure) = self.mechanism.closure() {
             let in_tree = closure.start.len();
-            let independent = |p: usize| self.layout.positions[p].coordinate.is_some();
-            let chosen = |p: &usize| {
-                let name = &self.layout.positions[*p].name;
-                let changed = values.iter().any(|(s, _)| s.name == *name);
-                changed || (independent(*p) && given(name))
-            };
-            let given: Vec<usize> = (0..in_tree).filter(chosen).collect();
-            let q = &mut scene.initial.q[..in_tree];
-            if let Err(reason) = closure.reach(q, &given) {
+            let given = self.positions_of_start(closure, values);
+            let closed = closure.reach(&mut scene.initial.q[..in_tree], &given);
+            if let Err(reason) = closed.and_then(|()| self.moved(closure, &mut scene, values)) {
                 faults.push(closed_start::fault(&self.layout, &reason, |_| {
                     Location::file()
                 }));
@@ -204,5 +208,85 @@ impl Scene {
             }
         }
         Ok(scene)
+    }
+
+    /// Returns the positions in the open tree that these values give, and those of independent joints that the file gives
+    /// and the values leave free, in the order of the joints.
+    fn positions_of_start(&self, closure: &Closure, values: &[(Override, Dd)]) -> Vec<usize> {
+        let layout = &self.layout;
+        let changed = |p: &usize| {
+            let mut values = values.iter();
+            values.any(|(one, _)| one.kind == OverrideKind::Position(*p))
+        };
+        let of_file = |p: &usize| {
+            let position = &layout.positions[*p];
+            let mut written = self.written.initial.iter();
+            position.coordinate.is_some() && written.any(|raw| raw.name.value == position.name)
+        };
+        let all = 0..closure.start.len();
+        let (mut given, others): (Vec<usize>, Vec<usize>) = all
+            .filter(|p| changed(p) || of_file(p))
+            .partition(|p| changed(p));
+        let velocity = |p: usize| {
+            let mut positions = closure.positions.iter();
+            positions.position(|own| own.is_some_and(|own| own.0 == p))
+        };
+        let velocities = |of: &[usize]| {
+            of.iter()
+                .filter_map(|&p| velocity(p))
+                .collect::<Vec<usize>>()
+        };
+        let map = closure.velocity_map(&closure.start);
+        let left =
+            map.map(|map| closure.left_free(&map, &velocities(&given), &velocities(&others)));
+        let is_left = |p: &usize| match (velocity(*p), &left) {
+            (Some(j), Some(left)) => left.contains(&j),
+            _ => true,
+        };
+        given.extend(others.into_iter().filter(is_left));
+        given.sort_unstable();
+        given
+    }
+
+    /// Sets the independent velocities of a scene with loops, if velocities of dependent joints are among these values or
+    /// in the file: those of the file hold as far as the values leave them free, in their order.
+    fn moved(
+        &self,
+        closure: &Closure,
+        scene: &mut Scene,
+        values: &[(Override, Dd)],
+    ) -> Result<(), Unreached> {
+        let layout = &self.layout;
+        let independent = |j: usize| Some(closure.independents.get(j)?.0);
+        let dependent = |d: usize| layout.dependents[d].velocity.0;
+        let of_values = values.iter().filter_map(|(one, value)| match one.kind {
+            OverrideKind::Velocity(j) => Some((independent(j)?, *value)),
+            OverrideKind::DependentVelocity(d) => Some((dependent(d), *value)),
+            _ => None,
+        });
+        let of_values: Vec<(usize, Dd)> = of_values.collect();
+        let start = (&self.initial.q[..], &self.initial.v[..]);
+        let of_file = |name: &str| {
+            let mut coordinates = layout.coordinates.iter();
+            if let Some(j) = coordinates.position(|c| c.rate_name == name) {
+                return Some((independent(j)?, self.initial.v[j]));
+            }
+            let mut dependents = layout.dependents.iter();
+            let joint = dependents.find(|joint| joint.rate_name == name)?;
+            let (_, velocity) = motion_of((&self.mechanism, layout), &joint.name, start)?;
+            Some((joint.velocity.0, velocity))
+        };
+        let written = self.written.initial.iter();
+        let of_file = written.filter_map(|raw| of_file(&raw.name.value));
+        let of_file: Vec<(usize, Dd)> = of_file.collect();
+        let mut all = of_values.iter().chain(&of_file);
+        let own = |j: usize| closure.independents.iter().any(|i| i.0 == j);
+        if values.is_empty() || all.all(|&(j, _)| own(j)) {
+            return Ok(());
+        }
+        let q = &scene.initial.q[..closure.start.len()];
+        let u = closure.independent_velocities(q, &of_values, &of_file)?;
+        scene.initial.v[..u.len()].copy_from_slice(&u);
+        Ok(())
     }
 }

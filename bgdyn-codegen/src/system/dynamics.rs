@@ -1,4 +1,4 @@
-//! Accelerations and rates of a scene, and the drives for given accelerations.
+//! Accelerations and rates of a scene, and the drives and efforts for given accelerations.
 
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::holds::{Holding, held, own_accelerations};
@@ -100,6 +100,17 @@ pub(super) fn efforts<'g>(
     sums: &EffortSums<'g, '_>,
     at: &[Expr<'g>],
 ) -> Vec<Expr<'g>> {
+    let all = needed(system, sums, at).into_iter().enumerate();
+    all.map(|(j, effort)| sums.before_gear(j, effort)).collect()
+}
+
+/// Returns the effort that each coordinate needs behind its gear at these accelerations: all other efforts of the laws
+/// are subtracted.
+pub(super) fn needed<'g>(
+    system: &SceneEquations,
+    sums: &EffortSums<'g, '_>,
+    at: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
     let placed: Vec<Signed> = at.iter().map(|a| a.signed()).collect();
     let links = sums.copied(
         (&system.graph, sums.asked),
@@ -114,7 +125,7 @@ pub(super) fn efforts<'g>(
             Some(&effort) => effort,
             None => own_inertia(sums, j) * at[j],
         };
-        sums.before_gear(j, inertial - sums.effort(j))
+        inertial - sums.effort(j)
     });
     all.collect()
 }

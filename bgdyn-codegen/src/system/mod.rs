@@ -9,6 +9,7 @@ mod canonical;
 mod coordinate_rows;
 mod dynamics;
 mod equations;
+mod followed;
 mod holds;
 mod idle;
 mod jacobian;

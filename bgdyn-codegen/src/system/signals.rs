@@ -1,10 +1,10 @@
 //! The sources of the inputs, as expressions: signals in time and controllers.
 
-use super::dynamics::efforts;
+use super::followed::computed_torques;
 use super::pose_hold;
 use super::summed::summed;
 use super::waveform::{course, rate};
-use super::{ActuatorEfforts, EffortSums, SceneEquations};
+use super::{ActuatorEfforts, SceneEquations};
 use crate::expr::{Builder, Expr, Leaf};
 use crate::scene::InputSource;
 
@@ -13,8 +13,7 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     let layout = &system.scene.layout;
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
     let name = |i: usize| layout.inputs[i].follows.as_deref().unwrap_or_default();
-    let followed = |i: usize| layout.coordinate_named(name(i));
-    let torques = computed_torques(system, b, &sums, &followed);
+    let torques = computed_torques(system, b, &sums);
     let mut values: Vec<Expr<'g>> = Vec::new();
     for (i, drive) in system.scene.drives.iter().enumerate() {
         values.push(match drive {
@@ -29,43 +28,11 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
                 let (wanted, port) = (course(b, target), sums.coordinate(name(i)));
                 (wanted - port.displacement) * *stiffness + (rate(b, wanted) - port.rate) * *damping
             }
-            InputSource::ComputedTorque { .. } => torques[followed(i).unwrap_or(0)],
+            InputSource::ComputedTorque { .. } => torques[i].unwrap_or(b.zero()),
             InputSource::Hold(hold, k) => pose_hold::efforts(&sums, hold).0[*k],
         });
     }
     values
-}
-
-/// Returns the inverse dynamics of the whole scene at the accelerations that the controllers demand.
-fn computed_torques<'g>(
-    system: &SceneEquations,
-    b: &'g Builder,
-    sums: &EffortSums<'g, '_>,
-    followed: &dyn Fn(usize) -> Option<usize>,
-) -> Vec<Expr<'g>> {
-    let n = system.scene.layout.nv();
-    let mut wanted: Vec<Option<Expr<'g>>> = vec![None; n];
-    for (i, drive) in system.scene.drives.iter().enumerate() {
-        if let (
-            InputSource::ComputedTorque {
-                target,
-                stiffness,
-                damping,
-            },
-            Some(j),
-        ) = (drive, followed(i))
-        {
-            let place = course(b, target);
-            let speed = rate(b, place);
-            let error = (place - sums.position_of(j)) * *stiffness + (speed - sums.v[j]) * *damping;
-            wanted[j] = Some(rate(b, speed) + error);
-        }
-    }
-    if wanted.iter().all(Option::is_none) {
-        return vec![];
-    }
-    let at: Vec<Expr<'g>> = wanted.into_iter().map(|a| a.unwrap_or(b.zero())).collect();
-    efforts(system, sums, &at)
 }
 
 /// Returns the value of an input that is the rate of another one, or the rate of its rate.

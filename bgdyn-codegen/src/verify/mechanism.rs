@@ -15,7 +15,13 @@ use crate::conditioning::tree_states::of_method;
 use crate::expr::Inputs;
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
+use crate::model::Model;
 use crate::random::Random;
+
+/// Compares the functions of a model with the literal sum, as [`check_functions`] does.
+pub fn check_model(model: &Model) -> Vec<Difference> {
+    check_functions(model.mechanism.name(), &model.bond_graph, &model.functions)
+}
 
 /// Compares functions of a mechanism with the literal sum for its bond graph: at three states, or at one
 /// for more than ten coordinates. Returns at most one difference per function.

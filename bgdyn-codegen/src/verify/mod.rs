@@ -17,7 +17,7 @@ mod states;
 
 use std::fmt;
 
-pub use mechanism::check_functions;
+pub use mechanism::{check_functions, check_model};
 pub use scene::check_scene;
 
 /// A difference between a function and the literal sum: an error of the generator.

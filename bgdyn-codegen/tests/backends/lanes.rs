@@ -5,7 +5,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 
 use crate::c_program::{CCall, CProgram, build, compilers, numbers, run, write};
-use crate::same_bits::{files, model};
+use crate::same_bits::{files, model, selected};
 use crate::values::{CNumber, expected, state};
 
 /// States of each mechanism.
@@ -18,8 +18,16 @@ fn sines_in_lanes() {
         println!("skipped: the processor has no AVX2 with FMA");
         return;
     }
-    for arm in ["scara", "puma560", "panda", "ur5"] {
-        let model = model(&format!("specs/{arm}.yaml"), &Options::default());
+    let of_torso = selected(&["inverse_dynamics", "mass_matrix"]);
+    for (arm, options) in [
+        ("scara", Options::default()),
+        ("puma560", Options::default()),
+        ("panda", Options::default()),
+        ("ur5", Options::default()),
+        // More angles than there are lanes.
+        ("torso", of_torso),
+    ] {
+        let model = model(&format!("specs/{arm}.yaml"), &options);
         let mut random = Random(20_261_130);
         let states = (0..STATES).map(|k| {
             let mut state = state::<f64>(&mut random, &model, [3.0, 100.0, 2e5, 1e9][k % 4]);

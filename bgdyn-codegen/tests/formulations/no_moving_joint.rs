@@ -4,7 +4,7 @@ use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate_module;
-use bgdyn_codegen::read;
+use bgdyn_codegen::{SpecText, read};
 
 const TEXT: &str = "
 format: 1
@@ -23,8 +23,8 @@ fn everything_is_generated() {
         ..Options::default()
     };
     let place = OutputOptions::source_text("still.yaml".into());
-    let (tokens, _) = generate_module(TEXT, "still", &place, &options, |path| Err(path.into()))
-        .expect("no fault");
+    let spec = SpecText::mechanism(TEXT, "still");
+    let (tokens, _) = generate_module(&spec, &options, &place).expect("no fault");
     assert!(tokens.to_string().contains("forward_dynamics_derivatives"));
     let (mechanism, _) = read(TEXT, Some("still"));
     let model = bgdyn_codegen::selection::model(mechanism.expect("no fault"), &options)

@@ -3,6 +3,7 @@
 
 use crate::common::rng::Rng;
 use crate::common::{Robot, State, largest};
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::interface::Interface;
 use bgdyn_codegen::method::Method;
@@ -106,10 +107,8 @@ fn blocks_read_parameters_as_fields() {
     let (x, y): (Vec<f64>, Vec<f64>) = (s.value(&cut), s.value(&robot.chosen(method)));
     assert_eq!(x, y);
     let place = OutputOptions::source_text("chain32.yaml".into());
-    let module = generate_module(&text, "chain32", &place, &Default::default(), |path| {
-        Err(path.into())
-    })
-    .expect("a sound spec");
+    let spec = SpecText::mechanism(&text, "chain32");
+    let module = generate_module(&spec, &Default::default(), &place).expect("a sound spec");
     let module = module.0.to_string();
     let mut functions = module.split("fn ");
     let block = |f: &str| f.starts_with("inverse_dynamics_block_") && f.contains("self . payload");
@@ -120,10 +119,8 @@ fn blocks_read_parameters_as_fields() {
 fn what_a_method_does_not_read_is_said() {
     let (_, text) = with("specs/scara.yaml", &part("flange", false));
     let place = OutputOptions::source_text("scara.yaml".into());
-    let module = generate_module(&text, "scara", &place, &Default::default(), |path| {
-        Err(path.into())
-    })
-    .expect("a sound spec");
+    let spec = SpecText::mechanism(&text, "scara");
+    let module = generate_module(&spec, &Default::default(), &place).expect("a sound spec");
     let module = module.0.to_string();
     let field = "Run-time parameter: mass of link `part`, kg. Default 0.0.";
     assert!(module.contains(field));

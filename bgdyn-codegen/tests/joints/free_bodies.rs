@@ -182,8 +182,7 @@ pub fn assert_free_bodies(
     allowed: f64,
     what: &str,
 ) {
-    let gravity = ["0.3", "-0.4", "-9.7"].map(|x| x.parse().expect("a number"));
-    let needed = needed(tree, state, gravity);
+    let needed = needed(tree, state, tree.mechanism.gravity().0);
     let links = tree.mechanism.links();
     assert_eq!(joints.len(), 6 * links.len(), "{what}");
     let loads = joints.chunks(6).zip(&needed);

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::Method;
@@ -317,13 +318,8 @@ fn unread(module: &str, method: &str) -> String {
 fn the_documentation_lists_what_is_not_read() {
     let text = golden_text("quadrotor_arm.yaml");
     let output = OutputOptions::source_text("quadrotor_arm.yaml".into());
-    let generated = pipeline::generate_module(
-        &text,
-        "quadrotor_arm",
-        &output,
-        &Options::default(),
-        |path| Err(path.into()),
-    );
+    let spec = SpecText::mechanism(&text, "quadrotor_arm");
+    let generated = pipeline::generate_module(&spec, &Options::default(), &output);
     let module = generated.expect("a module").0.to_string();
     let places = ["`q[0]` (free_x)", "`q[1]` (free_y)", "`q[2]` (free_z)"];
     for method in ["inverse_dynamics", "bias", "gravity", "forward_dynamics"] {

@@ -161,3 +161,120 @@ fn starts_that_do_not_exist_are_refused() {
         assert_eq!(rules, [rule], "{given}: {:?}", faults.0);
     }
 }
+
+/// Replaces values of a start, as the options of a run do.
+fn overridden(
+    system: &SceneEquations,
+    values: &[(&str, f64)],
+) -> Result<SceneEquations, bgdyn_codegen::fault::Faults> {
+    let found = values.iter().map(|&(name, value)| {
+        let one = system
+            .scene
+            .override_named("part of the state", name, |_| true);
+        (one.unwrap_or_else(|e| panic!("{e}")), Dd::from_f64(value))
+    });
+    system.with_overrides(&found.collect::<Vec<_>>())
+}
+
+/// Velocities of joints of any kind replace those of the file, which hold in their order as far as they are free.
+#[test]
+fn velocities_of_any_joints_replace_those_of_the_file() {
+    let positions = "proximal1_angle: 2, proximal2_angle: 1.1";
+    let both = "proximal1_angle_rate: 0.7, proximal2_angle_rate: 0.2";
+    let rods = "distal1_angle_rate: 0.3, distal2_angle_rate: -0.4";
+    for (file, values, wanted) in [
+        // Nothing in the file: what does not follow is 0.
+        (
+            "",
+            &[("distal1_angle_rate", 0.5)][..],
+            &[("distal1_angle_rate", 0.5)][..],
+        ),
+        // The first one of the file is kept.
+        (
+            both,
+            &[("distal1_angle_rate", 0.5)],
+            &[("distal1_angle_rate", 0.5), ("proximal1_angle_rate", 0.7)],
+        ),
+        (
+            both,
+            &[("distal1_angle_rate", 0.5), ("distal2_angle_rate", -0.1)],
+            &[("distal1_angle_rate", 0.5), ("distal2_angle_rate", -0.1)],
+        ),
+        (
+            both,
+            &[("distal1_angle_rate", 0.5), ("proximal2_angle_rate", -0.1)],
+            &[("distal1_angle_rate", 0.5), ("proximal2_angle_rate", -0.1)],
+        ),
+        // Those of the file are at dependent joints, and hold at other positions too.
+        (
+            rods,
+            &[("proximal1_angle", 1.9)],
+            &[("distal1_angle_rate", 0.3), ("distal2_angle_rate", -0.4)],
+        ),
+        (
+            rods,
+            &[("proximal2_angle_rate", 0.25)],
+            &[("proximal2_angle_rate", 0.25), ("distal1_angle_rate", 0.3)],
+        ),
+    ] {
+        let system = started("five_bar", &format!("{positions}, {file}"));
+        let system = overridden(&system, values).unwrap_or_else(|e| panic!("{values:?}: {e:?}"));
+        assert!(open(&system) < 1e-25);
+        for &(name, value) in wanted {
+            let found = at(&system, name);
+            assert!(
+                (found - value).abs() < 1e-14,
+                "{file}, {values:?}: {name} is {found}"
+            );
+        }
+    }
+}
+
+/// Rates at a dead centre, where the slider stands still; more of them than velocities; a position out of reach.
+#[test]
+fn velocities_that_do_not_exist_are_refused() {
+    let system = started("slider_crank", "crank_angle: 0.3");
+    // The offset of 20 mm over the crank and the rod in line, 0.7 m.
+    let dead = (0.02_f64 / 0.7).asin();
+    for (values, rule, words) in [
+        (
+            &[("crank_angle", dead), ("slider_position_rate", 0.3)][..],
+            "singular-start",
+            ["`slider_position_rate` is 0.3 m/s here", "stands still"],
+        ),
+        (
+            &[("crank_angle_rate", 2.0), ("slider_position_rate", 0.3)],
+            "contradicting-start",
+            ["`slider_position_rate` is 0.3 m/s here", "make it -"],
+        ),
+        (
+            &[("rod_angle_rate", 2.0), ("slider_position_rate", 0.3)],
+            "contradicting-start",
+            ["here, but the loops", "make it "],
+        ),
+        // The position of the crank in the file makes room for that of the slider.
+        (
+            &[("slider_position", 0.8), ("slider_position_rate", 0.3)],
+            "open-start",
+            ["`rod_pin` does not close", "m or rad"],
+        ),
+    ] {
+        let faults = overridden(&system, values).expect_err("refused");
+        assert_eq!(faults.0.len(), 1, "{values:?}: {:?}", faults.0);
+        assert_eq!(faults.0[0].rule, rule, "{:?}", faults.0);
+        for word in words {
+            assert!(faults.0[0].message.contains(word), "{:?}", faults.0);
+        }
+    }
+    let moved = overridden(&system, &[("slider_position", 0.6)]).expect("a start");
+    assert!(open(&moved) < 1e-25 && (at(&moved, "slider_position") - 0.6).abs() < 1e-15);
+    // At the dead centre the rod turns, and 0 is what the slider does.
+    let values = [
+        ("crank_angle", dead),
+        ("slider_position_rate", 0.0),
+        ("rod_angle_rate", 1.0),
+    ];
+    let still = overridden(&system, &values).expect("a start");
+    assert!((at(&still, "rod_angle_rate") - 1.0).abs() < 1e-14);
+    assert!(at(&still, "slider_position_rate").abs() < 1e-14);
+}

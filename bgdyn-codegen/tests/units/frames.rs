@@ -1,5 +1,6 @@
 //! The types of frames in a module.
 
+use bgdyn_codegen::SpecText;
 use bgdyn_codegen::emit::OutputOptions;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::generate_module;
@@ -15,10 +16,8 @@ fn frames_of_different_names_are_different_types() {
         frames.join(", ")
     );
     let output = OutputOptions::source_text("one.yaml".into());
-    let (module, _) = generate_module(&spec, "one", &output, &Options::default(), |path| {
-        Err(path.into())
-    })
-    .expect("a module");
+    let spec = SpecText::mechanism(&spec, "one");
+    let (module, _) = generate_module(&spec, &Options::default(), &output).expect("a module");
     let module = module.to_string();
     let wanted = [
         "Tool", "Tool1", "Tool_1", "Tool_1_2", "Tool_12", "TooL", "TOol",

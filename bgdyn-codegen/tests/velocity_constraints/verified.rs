@@ -5,11 +5,9 @@ use bgdyn_codegen::formulation;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::random::Random;
-use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::selection::model;
-use bgdyn_codegen::verify::explain;
+use bgdyn_codegen::verify::{check_model, explain};
 
 use super::files::spec;
 use super::planar_references::ROBOT;
@@ -29,11 +27,9 @@ fn options(way: Way) -> Options {
 
 fn accepted(text: &str, way: Way) -> Model {
     let model = model(Robot::read(text).mechanism, &options(way)).expect("a model");
-    match verify(&model, &options(way)) {
-        Ok(()) => model,
-        Err(Refusal::Unequal(found)) => panic!("{way:?}: {}\n{text}", explain(&found)),
-        Err(refusal) => panic!("{way:?}: {refusal:?}\n{text}"),
-    }
+    let found = check_model(&model);
+    assert!(found.is_empty(), "{way:?}: {}\n{text}", explain(&found));
+    model
 }
 
 #[test]
@@ -71,11 +67,8 @@ fn methods_on_request_are_accepted() {
     for text in texts.chain([ball.constrained()]) {
         let model = model(Robot::read(&text).mechanism, &options).expect("a model");
         assert_eq!(model.functions.len(), names.len());
-        match verify(&model, &options) {
-            Ok(()) => {}
-            Err(Refusal::Unequal(found)) => panic!("{}\n{text}", explain(&found)),
-            Err(refusal) => panic!("{refusal:?}\n{text}"),
-        }
+        let found = check_model(&model);
+        assert!(found.is_empty(), "{}\n{text}", explain(&found));
     }
 }
 
@@ -156,11 +149,9 @@ fn derivatives_are_accepted() {
     for text in texts.chain([ball.constrained()]) {
         let model = model(Robot::read(&text).mechanism, &derivatives).expect("a model");
         assert_eq!(model.functions.len(), 2);
-        match verify(&model, &derivatives) {
-            Ok(()) => assert_turned_signs_are_refused("derivatives", &model),
-            Err(Refusal::Unequal(found)) => panic!("{}\n{text}", explain(&found)),
-            Err(refusal) => panic!("{refusal:?}\n{text}"),
-        }
+        let found = check_model(&model);
+        assert!(found.is_empty(), "{}\n{text}", explain(&found));
+        assert_turned_signs_are_refused("derivatives", &model);
     }
 }
 

@@ -277,11 +277,15 @@ class Model:
         q: Values,
         v: Values,
         a: Values,
+        tau: Values = ...,
         *,
         out: tuple[Array, Array] | None = None,
         threads: int = 1,
     ) -> Wrenches:
-        """Returns force and moment on each link through its joint, at the link's origin, in link axes."""
+        """Returns force and moment on each link through its joint, at the link's origin, in link axes.
+
+        With `actuated` in the file, `tau` are the efforts of these joints; otherwise it is not an argument.
+        """
     def velocity_map(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
         """With loops: returns S(q), (..., nt, nv); the velocities of the open tree are S v."""
     def tree_velocity(

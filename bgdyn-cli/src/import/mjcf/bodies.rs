@@ -73,7 +73,7 @@ impl Builder<'_> {
         self.model.links.push(Link {
             name: name.clone(),
             at: element.at,
-            inertial: inertial.map(|inertial| shifted(inertial, &shift)),
+            inertial: inertial.map(|inertial| inertial.shifted(&shift)),
             place: fixed,
         });
         let axes = BodyAxes {
@@ -229,19 +229,5 @@ impl Builder<'_> {
             });
         }
         Ok(())
-    }
-}
-
-/// Returns an inertia of the body's axes in those of its link.
-fn shifted(inertial: Inertial, shift: &Placement) -> Inertial {
-    let own = Placement {
-        xyz: inertial.com,
-        rpy: inertial.rpy,
-    };
-    let Placement { xyz: com, rpy } = shift.then(&own);
-    Inertial {
-        com,
-        rpy,
-        ..inertial
     }
 }

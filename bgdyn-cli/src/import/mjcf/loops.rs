@@ -4,8 +4,8 @@ use super::builder::{BodyAxes, Builder};
 use super::pose::exact;
 use super::settings::one_of;
 use crate::import::attributes::numbers;
-use crate::import::joint_type::JointType;
-use crate::import::model::{Loop, LoopPlace, Model};
+use crate::import::loops::joints_between;
+use crate::import::model::{Loop, LoopPlace};
 use crate::import::naming::{free_name, shown};
 use crate::import::number::Num;
 use crate::import::placement::{Placement, Pose, displaced, turned_by_quaternion};
@@ -81,13 +81,14 @@ impl Builder<'_> {
         let way = joints_between(self.model, &a.link, &b.link);
         if way.is_empty() {
             self.report.groups.add(ON_ONE_LINK, label);
-        } else if way.iter().any(|joint| !joint.is_scalar()) {
+        } else if way.iter().any(|joint| !joint.kind.is_scalar()) {
             self.report.groups.add(BALLS, label);
         } else {
             self.report.groups.add(EXACT, label);
             self.model.loops.push(Loop {
                 name: given,
                 kind,
+                axis: None,
                 a,
                 b,
             });
@@ -191,28 +192,4 @@ fn relative(element: &Element) -> Result<Option<Pose>> {
         translation: exact(&[x, y, z]),
         ..turned_by_quaternion([i, j, k, w])
     }))
-}
-
-/// Returns the types of the moving joints on the way from one link to another.
-fn joints_between(model: &Model, a: &Option<String>, b: &Option<String>) -> Vec<JointType> {
-    let to_world = |link: &Option<String>| {
-        let mut at = link.clone();
-        let mut passed = Vec::new();
-        while let Some(name) = at {
-            let Some(index) = model.joints.iter().position(|joint| joint.child == name) else {
-                break;
-            };
-            passed.push(index);
-            at = model.joints[index].parent.clone();
-        }
-        passed
-    };
-    let [a, b] = [a, b].map(to_world);
-    let alone = |own: &[usize], other: &[usize]| -> Vec<usize> {
-        let own = own.iter().copied();
-        own.filter(|joint| !other.contains(joint)).collect()
-    };
-    let way = [alone(&a, &b), alone(&b, &a)].concat();
-    let kinds = way.into_iter().map(|joint| model.joints[joint].kind);
-    kinds.filter(|kind| *kind != JointType::Fixed).collect()
 }

@@ -77,6 +77,7 @@ pub(super) fn read(root: &Element, folder: Option<&Path>) -> Result<Model> {
         source: "an MJCF".into(),
         gravity: settings::gravity(&root, &mut report)?,
         moving_base: false,
+        free_roots: false,
         links: Vec::new(),
         joints: Vec::new(),
         frames: Vec::new(),

@@ -12,6 +12,7 @@ use crate::plan::{BlockPlan, FunctionPlan, PlanLimits, Tail, block_name};
 /// What the plans of C functions keep to: results are a caller's array, so that every output is stored when it is
 /// known.
 pub(super) const LIMITS: PlanLimits = PlanLimits {
+    // `sin_cos_all` has registers for so many.
     sines: 8,
     store_from: 0,
 };

@@ -10,7 +10,7 @@ use super::undetermined::{undetermined, undetermined_type};
 use crate::function::Function;
 use crate::method::{Method, Shape};
 use crate::model::Model;
-use crate::plan::{Naming, has_loads, summary_of, unread};
+use crate::plan::{Naming, summary_of, unread};
 
 /// Returns what the files of a mechanism have.
 pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a> {
@@ -57,7 +57,7 @@ fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String>
         lines.push(format!("Does not read: {}.", unread.join(", ")));
     }
     lines.extend(result_order(function.shape()).map(String::from));
-    if has_loads(&method) && !undetermined(context).is_empty() {
+    if method.has_loads() && !undetermined(context).is_empty() {
         lines.push(format!(
             "Loads along those of {} are left out, and not determined.",
             context.style.global("undetermined_loads")

@@ -6,13 +6,13 @@ use super::context::ModelContext;
 use super::files::comment;
 use super::table::Table;
 use crate::math::Vec3;
-use crate::plan::{UndeterminedLoad, has_loads, undetermined_loads};
+use crate::plan::{UndeterminedLoad, undetermined_loads};
 
 /// Returns the loads, if a function returns loads of loops or contacts.
 pub(super) fn undetermined(context: &ModelContext<'_>) -> Vec<UndeterminedLoad> {
     let model = context.model;
     let closed = model.bond_graph.closed.as_deref();
-    let closed = closed.filter(|_| model.functions.iter().any(|f| has_loads(&f.method)));
+    let closed = closed.filter(|_| model.functions.iter().any(|f| f.method.has_loads()));
     closed.map_or(Vec::new(), |closed| undetermined_loads(&closed.closure))
 }
 

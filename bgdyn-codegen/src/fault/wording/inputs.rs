@@ -24,9 +24,55 @@ pub(crate) fn unknown_source(location: &Location, word: &str, known: &str) -> Fa
 // Controllers
 
 pub(crate) fn computed_torque_without_effort(location: &Location) -> Fault {
-    let message = "`computed_torque` computes the effort of an independent joint, and this input is not such an effort";
+    let message =
+        "`computed_torque` computes the effort of a joint, and this input is not such an effort";
     Fault::new(location, "drive", message)
         .with_help("use `pd`, whose gains have this input's unit, or `given`")
+}
+
+/// `followed` are the joints in loops with computed torques, `ways` the independent joints that move them and have none.
+pub(crate) fn followed_joints_do_not_fit(
+    location: &Location,
+    followed: &[&str],
+    ways: &[&str],
+) -> Fault {
+    let (number, names) = (followed.len(), followed.join("`, `"));
+    let moved = match ways {
+        [] => "no independent joint that is not followed itself".to_owned(),
+        ways => format!("the independent joints `{}`", ways.join("`, `")),
+    };
+    let message = format!(
+        "`computed_torque` of {number} {} in loops, `{names}`: {moved} move {}, {} velocities",
+        if number == 1 { "joint" } else { "joints" },
+        if number == 1 { "it" } else { "them" },
+        ways.len()
+    );
+    let help = match ways.len().checked_sub(number) {
+        Some(more) => format!(
+            "the motion is undetermined: follow {more} more of these joints, independent or not; or use `pd`, which follows one joint alone"
+        ),
+        None => format!(
+            "the targets contradict each other: leave {} of them out",
+            number - ways.len()
+        ),
+    };
+    Fault::new(location, "followed-joints", message).with_help(help)
+}
+
+/// `rank` is the number of independent joints whose motion is determined.
+pub(crate) fn followed_joints_do_not_determine(
+    location: &Location,
+    (followed, ways): (&[&str], &[&str]),
+    rank: usize,
+) -> Fault {
+    let message = format!(
+        "the joints `{}` with `computed_torque` determine {rank} of the {} independent velocities `{}` at closed positions: the motion of some follows from that of others",
+        followed.join("`, `"),
+        ways.len(),
+        ways.join("`, `")
+    );
+    Fault::new(location, "followed-joints", message)
+        .with_help("follow other joints of the loops, or independent ones")
 }
 
 pub(crate) fn controller_without_joint(location: &Location, word: &str) -> Fault {

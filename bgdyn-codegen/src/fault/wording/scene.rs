@@ -236,6 +236,21 @@ pub(crate) fn start_contradicts(
         .with_help(format!("leave `{name}` out, or one of the others"))
 }
 
+/// `part` is by how much less than elsewhere the joint moves with the others.
+pub(crate) fn start_stands_still(
+    location: &Location,
+    name: &str,
+    (given, unit): (f64, &str),
+    part: f64,
+) -> Fault {
+    let message = format!(
+        "`{name}` is {given} {unit} here, but at these positions the joint stands still whatever the others do: it moves with them by {part:.1e} of what it does elsewhere"
+    );
+    Fault::new(location, "singular-start", message).with_help(format!(
+        "give the velocity of another joint in place of `{name}`, or other positions"
+    ))
+}
+
 /// `natural` is the same method on velocities.
 pub(crate) fn canonical_of_quasi_velocities(
     location: &Location,

@@ -75,14 +75,11 @@ pub(super) fn outputs<'g>(
     let rows = closure.rows.iter();
     let conditions: Vec<Expr<'g>> = rows.map(|row| places.condition(row)).collect();
     let mut outputs = compose(b, closed, method, (&x, &motion), (&read, &conditions))?;
-    if !matches!(
-        method,
-        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
-    ) {
+    if !method.has_loads() {
         return Some(outputs);
     }
     let lambda = outputs.split_off(outputs.len() - closure.rows.len());
-    if method != Method::JointReactions {
+    if !method.loads_joints() {
         outputs.extend(places.reactions(&lambda));
         return Some(outputs);
     }

@@ -8,6 +8,7 @@ use std::rc::Rc;
 
 use bgdyn_runtime::ACTUATORS;
 
+use super::actuators::on_tree;
 use super::arguments::Arguments;
 use super::closing_loads::{add_to_joints, reactions};
 use super::loop_methods::{LoopMotion, compose, reads};
@@ -79,6 +80,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::Reactions
             | Method::ActuatedReactions(_)
             | Method::JointReactions
+            | Method::ActuatedJointReactions(_)
     );
     let reversible = !in_axes_of_a && loops.clone().any(|one| one.reversible);
     let vectors = matches!(
@@ -94,6 +96,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::Multipliers
             | Method::ConstraintBias
             | Method::JointReactions
+            | Method::ActuatedJointReactions(_)
     );
     let choices = |can: bool| {
         if can {
@@ -140,7 +143,7 @@ fn function(prepared: &Prepared<'_>, method: Method, form: LoopForm) -> Option<(
         let residuals = loop_residuals(&b, &closed.closure, &x.q);
         let read = |method: Method| prepared.tree_function(method);
         let outputs = compose(&b, closed, method, (&x, &motion), (&read, &residuals))?;
-        let outputs = with_loads(&b, closed, (method, &x.q), outputs);
+        let outputs = with_loads(&b, closed, (method, &x), outputs);
         outputs.into_iter().map(Expr::signed).collect()
     };
     let name = match reads(method).first() {
@@ -168,23 +171,24 @@ fn first_pivot(closed: &ClosedTree, own: &Multibody, method: Method) -> FirstPiv
 fn with_loads<'g>(
     b: &'g Builder,
     closed: &ClosedTree,
-    (method, q): (Method, &[Expr<'g>]),
+    (method, x): (Method, &Arguments<'g>),
     mut outputs: Vec<Expr<'g>>,
 ) -> Vec<Expr<'g>> {
-    if !matches!(
-        method,
-        Method::Reactions | Method::ActuatedReactions(_) | Method::JointReactions
-    ) {
+    if !method.has_loads() {
         return outputs;
     }
     let closure = &closed.closure;
     let lambda = outputs.split_off(outputs.len() - closure.rows.len());
-    match method {
-        Method::Reactions | Method::ActuatedReactions(_) => {
-            outputs.extend(reactions(b, closure, (q, &lambda)));
-        }
-        _ => add_to_joints(b, closed, (q, &lambda), &mut outputs),
+    if !method.loads_joints() {
+        outputs.extend(reactions(b, closure, (&x.q, &lambda)));
+        return outputs;
     }
+    let drives = match method {
+        Method::ActuatedJointReactions(_) => on_tree(b, closed, &x.tau),
+        _ => None,
+    };
+    let drives = drives.unwrap_or_else(|| vec![b.zero(); closure.positions.len()]);
+    add_to_joints(b, closed, (&x.q, &lambda), &drives, &mut outputs);
     outputs
 }
 

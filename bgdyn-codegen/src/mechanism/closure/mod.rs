@@ -22,7 +22,8 @@
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
 //! | `polygon/` | planar loops in closed form |
 //! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
-//! | `reach.rs` | closed positions and velocities with given ones |
+//! | `reach.rs`, `start_velocities.rs` | closed positions with given ones, and velocities there |
+//! | `followed.rs` | which independent velocities joints determine |
 //! | `solve.rs` | linear equations |
 
 mod actuated;
@@ -32,6 +33,7 @@ mod contact;
 mod contact_row;
 mod contact_shape;
 mod contact_types;
+mod followed;
 mod numeric;
 mod polygon;
 mod ranges;
@@ -40,6 +42,7 @@ mod round_contact;
 mod row;
 mod rows_at;
 mod solve;
+mod start_velocities;
 
 use bgdyn_runtime::Dd;
 
@@ -62,7 +65,6 @@ pub use ranges::{ClosedRange, RangeEnd, TreeLimits};
 pub use reach::Unreached;
 pub use row::{ClosingRow, RowKind};
 pub use rows_at::{RowAxes, RowLoad, RowsAt};
-use solve::solve_basic;
 pub(crate) use solve::{eliminate, solve};
 
 /// A kinematic loop of a mechanism.

@@ -1,11 +1,11 @@
-//! Closed positions and velocities with given ones: a start, locked joints.
+//! Closed positions with given ones: a start, locked joints.
 //!
 //! Given positions are reached from the closed position of the mechanism in small parts, closed after each, so that the
 //! branch stays that of the mechanism.
 
 use bgdyn_runtime::Dd;
 
-use super::{Closure, solve_basic};
+use super::Closure;
 
 /// Parts of the way from the closed position of the mechanism to the given one.
 const PARTS: u32 = 32;
@@ -42,6 +42,15 @@ pub enum Unreached {
         given: f64,
         /// That of the closed start.
         closed: f64,
+    },
+    /// The loops hold a joint with a given velocity, whatever the others do.
+    Still {
+        /// The velocity's index in the open tree.
+        index: usize,
+        /// The given number.
+        given: f64,
+        /// By how much less than elsewhere the joint moves with the others.
+        part: f64,
     },
 }
 
@@ -107,47 +116,6 @@ impl Closure {
         }
         Ok(())
     }
-
-    /// Returns the independent velocities for given velocities of the open tree, by index; those that do not follow from
-    /// the given ones are 0.
-    ///
-    /// # Errors
-    /// At a singular position, and if the given ones contradict each other.
-    pub fn independent_velocities(
-        &self,
-        q: &[Dd],
-        given: &[(usize, Dd)],
-    ) -> Result<Vec<Dd>, Unreached> {
-        let n = self.independents.len();
-        let Some(map) = self.velocity_map(q) else {
-            return Err(Unreached::OtherBranch);
-        };
-        let mut u = vec![Dd::ZERO; n];
-        let mut fixed = vec![false; n];
-        let index = |j: usize| self.independents.iter().position(|i| i.0 == j);
-        for &(j, v) in given {
-            if let Some(k) = index(j) {
-                (u[k], fixed[k]) = (v, true);
-            }
-        }
-        let of_dependents = || given.iter().filter(|(j, _)| index(*j).is_none());
-        let along = |j: usize, u: &[Dd]| {
-            let terms = map[j].iter().zip(u);
-            terms.fold(Dd::ZERO, |sum, (s, u)| sum + *s * *u)
-        };
-        let free: Vec<usize> = (0..n).filter(|k| !fixed[*k]).collect();
-        let rows = of_dependents().map(|&(j, _)| free.iter().map(|&k| map[j][k]).collect());
-        let rows: Vec<Vec<Dd>> = rows.collect();
-        let sides: Vec<Dd> = of_dependents().map(|&(j, v)| v - along(j, &u)).collect();
-        let found = solve_basic(&rows, &sides, free.len());
-        for (&k, x) in free.iter().zip(found) {
-            u[k] = x;
-        }
-        for &(j, v) in of_dependents() {
-            agrees(j, true, (v, along(j, &u)))?;
-        }
-        Ok(u)
-    }
 }
 
 fn open(closure: &Closure, q: &[Dd], gap: f64, part: f64) -> Unreached {
@@ -163,7 +131,12 @@ fn open(closure: &Closure, q: &[Dd], gap: f64, part: f64) -> Unreached {
     }
 }
 
-fn agrees(index: usize, velocity: bool, (given, closed): (Dd, Dd)) -> Result<(), Unreached> {
+/// Returns the contradiction if a given position or velocity differs from that of the closed start.
+pub(super) fn agrees(
+    index: usize,
+    velocity: bool,
+    (given, closed): (Dd, Dd),
+) -> Result<(), Unreached> {
     let (given, closed) = (given.to_f64(), closed.to_f64());
     match (given - closed).abs() <= AGREES * f64::max(1.0, closed.abs()) {
         true => Ok(()),

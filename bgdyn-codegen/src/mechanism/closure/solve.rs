@@ -22,19 +22,6 @@ pub(crate) fn solve(mut a: Vec<Vec<Dd>>, b: &[Vec<Dd>], least: f64) -> Option<Ve
     Some(found)
 }
 
-/// Returns a solution x of A x = b with as many zeros as possible; with equations that contradict others it is one of
-/// the others. `n` is the length of x.
-pub(crate) fn solve_basic(rows: &[Vec<Dd>], b: &[Dd], n: usize) -> Vec<Dd> {
-    let with_side = |(row, &b): (&Vec<Dd>, &Dd)| [&row[..], &[b]].concat();
-    let mut a: Vec<Vec<Dd>> = rows.iter().zip(b).map(with_side).collect();
-    let (pivots, _) = eliminate(&mut a, n);
-    let mut x = vec![Dd::ZERO; n];
-    for (row, column) in pivots {
-        x[column] = a[row][n] / a[row][column];
-    }
-    x
-}
-
 /// Eliminates the first `columns` columns (Gauss–Jordan, complete pivoting). Returns the pivots, row and column,
 /// and the ratio of the smallest to the largest one; pivots below 1e-24 of the largest are rounding errors and are
 /// left out.

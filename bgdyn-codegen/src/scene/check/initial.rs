@@ -201,7 +201,7 @@ fn close(
         let own = given.iter().filter(|(kind, _)| *kind == 1);
         let own = own.filter_map(|&(_, j)| Some((closure.independents.get(j)?.0, initial.v[j])));
         let all: Vec<(usize, Dd)> = own.chain(dependents).collect();
-        closure.independent_velocities(&initial.q[..in_tree], &all)
+        closure.independent_velocities(&initial.q[..in_tree], &all, &[])
     });
     match closed {
         Ok(u) => initial.v[..u.len()].copy_from_slice(&u),

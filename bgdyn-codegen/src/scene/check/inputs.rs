@@ -115,6 +115,7 @@ pub(super) fn drives(
         let part = &layout.inputs[i];
         let follows = part.follows.as_ref().map(|name| layout.position_of(name));
         let effort = part.drives.is_some_and(|j| layout.coordinates[j].moves());
+        let effort = effort || part.drives_dependent.is_some();
         if let Some(drive) = signal::drive(raw, part.dimension, follows, effort, faults) {
             let followed = part.follows.as_ref();
             let quasi = followed.filter(|name| {

@@ -1,6 +1,7 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod effects;
+mod followed;
 mod hold;
 mod initial;
 mod inputs;
@@ -152,9 +153,12 @@ pub(in crate::scene) fn assembled(
     if let Some(name) = layout.repeated().filter(|_| !reported) {
         faults.push(wording::repeated_state_or_input(&Location::file(), name));
     }
+    let parameters = state::parameters(&scene.mechanism, &scene.elements, faults);
+    let drives = inputs::drives(&layout, inputs, refused, faults);
+    followed::check((&scene.mechanism, &layout), &drives, inputs, faults);
     Scene {
-        parameters: state::parameters(&scene.mechanism, &scene.elements, faults),
-        drives: inputs::drives(&layout, inputs, refused, faults),
+        parameters,
+        drives,
         initial: initial::initial(
             (&scene.mechanism, &layout),
             &scene.written.initial,
