@@ -68,7 +68,7 @@ fn run(system: &SceneEquations) -> Vec<[f64; 2]> {
     let layout = &system.scene.layout;
     let contacts = (!layout.modes.is_empty()).then(|| system.function(SceneFunction::Contacts));
     let mut at = system.start();
-    // Typical inputs of a caller: 4 V, 4 N, a half open valve.
+    // Typical inputs of a caller: 4 V, 4 N, a valve opened by a fifth: the piston stays within its stroke.
     for (value, part) in at.u.iter_mut().zip(&layout.inputs) {
         *value = if part.name.ends_with("fx") || part.drives.is_some() {
             4.0
@@ -76,7 +76,7 @@ fn run(system: &SceneEquations) -> Vec<[f64; 2]> {
             0.0
         };
         if part.name == "valve" {
-            *value = 0.5;
+            *value = 0.2;
         }
     }
     let mut path = Vec::new();
@@ -263,7 +263,7 @@ fn section(effect: &dyn Effect, pair: &[SceneEquations; 2]) -> String {
 
 const HEAD: &str = "# Effects
 
-What a [scene](scenes.md) can call for. Each effect is an element of the bond graph: a store (`I`, `C`), a resistor (`R`), a gyrator or transformer (`GY`, `TF`, `MTF`), a source (`Se`, `Sf`). The figures show it on its junction, and what it does to one mechanism: an arm that turns under gravity and carries a sled on a slide, for two seconds, from 0.5 rad and 0.05 m at 0.6 m/s. Inputs that a caller would give are 4 in their unit, a valve is open by half; the hydraulic elements act together, as one circuit with a cylinder on the slide. The cost is what the scene's `derivative` takes more than without the effect.
+What a [scene](scenes.md) can call for. Each effect is an element of the bond graph: a store (`I`, `C`), a resistor (`R`), a gyrator or transformer (`GY`, `TF`, `MTF`), a source (`Se`, `Sf`). The figures show it on its junction, and what it does to one mechanism: an arm that turns under gravity and carries a sled on a slide, for two seconds, from 0.5 rad and 0.05 m at 0.6 m/s. Inputs that a caller would give are 4 in their unit, a valve is open by a fifth; the hydraulic elements act together, as one circuit with a cylinder on the slide. The cost is what the scene's `derivative` takes more than without the effect.
 
 Equations, sources and refused values in detail: [friction](effects/friction.md), [springs, dampers, stops](effects/springs.md), [drives](effects/drives.md)MORE.
 
