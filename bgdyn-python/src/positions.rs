@@ -113,13 +113,17 @@ impl<'a> Positions<'a> {
         let Some(loops) = &self.loops else {
             return Ok(self.own.integrate(q, dv));
         };
-        if loops.closure.nonholonomic() {
+        if loops.closure.closes_along() {
             let moved = follow(
                 &DVector::from_column_slice(q),
                 |q| DVector::from_vec(self.tree_velocity(loops, q.as_slice(), dv)),
                 |q, moved| loops.tree.integrate(q.as_slice(), moved.as_slice()).into(),
             );
-            return closed(loops.closure, moved.as_slice());
+            let there = closed(loops.closure, moved.as_slice())?;
+            return match loops.closure.nonholonomic() || loops.same_branch(q, &there) {
+                true => Ok(there),
+                false => Err(Open(None)),
+            };
         }
         let moved = self.tree_velocity(loops, q, dv);
         let target = loops.tree.integrate(q, &moved);
@@ -136,15 +140,7 @@ impl<'a> Positions<'a> {
     /// Returns the displacement from q0 to q1.
     pub fn difference(&self, q1: &[f64], q0: &[f64]) -> Vec<f64> {
         match &self.loops {
-            Some(loops) if loops.closure.nonholonomic() => {
-                let moved = loops.tree.difference(q1, q0);
-                loops
-                    .closure
-                    .independents
-                    .iter()
-                    .map(|j| moved[j.0])
-                    .collect()
-            }
+            Some(loops) if loops.closure.closes_along() => loops.way(q1, q0),
             _ => self.own.difference(q1, q0),
         }
     }
@@ -170,6 +166,22 @@ impl<'a> Positions<'a> {
             }
             return closed(loops.closure, &loops.tree.sample(&all));
         }
+        if loops.closure.closes_along() {
+            let mut all = vec![0.5; loops.closure.positions.len()];
+            for (j, &u) in loops.closure.independents.iter().zip(u) {
+                all[j.0] = u;
+            }
+            let mut q = self.neutral();
+            let mut part = loops.way(&loops.tree.sample(&all), &q);
+            part.iter_mut().for_each(|x| *x /= PARTS as f64);
+            for _ in 0..PARTS {
+                match self.integrate(&q, &part) {
+                    Ok(there) if loops.same_branch(&q, &there) => q = there,
+                    _ => break,
+                }
+            }
+            return Ok(q);
+        }
         Ok(loops.walked(&self.neutral(), &self.own.sample(u)).0)
     }
 
@@ -193,6 +205,13 @@ impl<'a> Positions<'a> {
 }
 
 impl Loops<'_> {
+    /// Returns the independent velocities of the way in the open tree from q0 to q1.
+    fn way(&self, q1: &[f64], q0: &[f64]) -> Vec<f64> {
+        let moved = self.tree.difference(q1, q0);
+        let independents = self.closure.independents.iter();
+        independents.map(|j| moved[j.0]).collect()
+    }
+
     fn same_branch(&self, q: &[f64], other: &[f64]) -> bool {
         self.closure.signs_at(&exact(q)) == self.closure.signs_at(&exact(other))
     }

@@ -291,7 +291,7 @@ fn zipped<Z: StateVector>(a: &Z, b: &Z, with: impl Fn(Z::Scalar, Z::Scalar) -> Z
     all
 }
 
-/// Steps of [`towards`].
+/// Steps of [`towards`] and of [`walk`].
 pub const PARTS: usize = 16;
 
 /// Returns the closed position closest to `target` on the way from the closed position `start`: the positions with
@@ -323,6 +323,23 @@ pub fn towards<T: Scalar, const NQ: usize, const NT: usize>(
             }
         }
         let closing = close(next, dependents, &step);
+        let closed = closing.last.less(closed());
+        for (q, &next) in q.iter_mut().zip(closing.q.iter()) {
+            *q = T::select(closed, next, *q);
+        }
+    }
+    q
+}
+
+/// Returns the last closed position on a way of [`PARTS`] parts from the closed position `start`; `step` is one of them.
+#[inline]
+pub fn walk<T: Scalar, const NQ: usize>(
+    start: SVector<T, NQ>,
+    step: impl Fn(&SVector<T, NQ>) -> Closing<SVector<T, NQ>>,
+) -> SVector<T, NQ> {
+    let mut q = start;
+    for _ in 0..PARTS {
+        let closing = step(&q);
         let closed = closing.last.less(closed());
         for (q, &next) in q.iter_mut().zip(closing.q.iter()) {
             *q = T::select(closed, next, *q);

@@ -21,7 +21,7 @@ pub(super) fn closure_access(
     graph: &Multibody,
     present: &[Method],
 ) -> (TokenStream, TokenStream) {
-    if closed.closure.nonholonomic() {
+    if closed.closure.closes_along() {
         return contact_access(closed, graph, present);
     }
     let closure = &closed.closure;
@@ -113,7 +113,7 @@ pub(super) fn position_body(
     name: &str,
     arguments: &[(&str, &TokenStream, bool)],
 ) -> TokenStream {
-    if closed.closure.nonholonomic() {
+    if closed.closure.closes_along() {
         return contact_position_body(closed, name);
     }
     let of_tree = joint_segments(&closed.tree);
@@ -163,7 +163,7 @@ pub(super) fn position_body(
 
 /// Returns the lines of documentation about the loops: which rows hold at every position, which joints follow.
 pub(super) fn loop_docs(closed: &ClosedTree) -> Vec<String> {
-    if closed.closure.nonholonomic() {
+    if closed.closure.closes_along() {
         return contact_docs(closed);
     }
     row_docs(closed, "Loops")

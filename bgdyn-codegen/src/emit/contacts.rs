@@ -1,8 +1,9 @@
-//! Emits what only mechanisms with wheels or knife edges have.
+//! Emits what only mechanisms have whose positions close along velocities: those with wheels or knife edges, and those
+//! with loops through joints of several velocities.
 //!
 //! These are names of the open tree and of the rows, and the functions of positions of the trait `Dynamics`. All
-//! positions of the open tree are in q, and each may have any value: the velocities decide how they change
-//! together.
+//! positions of the open tree are in q. With wheels and knife edges each may have any value: the velocities decide how
+//! they change together.
 
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -10,7 +11,7 @@ use quote::quote;
 use super::closed_positions::{dependent, row_docs, start, tree_constants};
 use super::constants::size;
 use super::joint_by_joint::joint_by_joint;
-use crate::bond_graph::{ClosedTree, Multibody, joint_segments};
+use crate::bond_graph::{ClosedTree, JointSegment, Multibody, joint_segments};
 use crate::method::Method;
 use crate::plan::closing_names;
 
@@ -23,8 +24,14 @@ pub(super) fn contact_access(
     let closure = &closed.closure;
     let independents = closure.independents.iter().map(|j| size(j.0));
     let closing = closes(closed).then(|| closing_constants(closed, graph));
-    let row = "the constraint, and the direction";
-    let of_tree = tree_constants(closed, graph, ("constraints", row), present);
+    let (what, row) = match closure.nonholonomic() {
+        true => ("constraints", "the constraint, and the direction"),
+        false => (
+            "loops",
+            "the loop, and the direction in the axes of its place a",
+        ),
+    };
+    let of_tree = tree_constants(closed, graph, (what, row), present);
     let constants = quote! {
         #of_tree
         /// The independent velocities among those of the open tree.
@@ -119,7 +126,7 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
         },
         "sample" => {
             let body = body(&[("moved", &moved, false)], true);
-            quote! {
+            let sampled = quote! {
                 let mut moved = __na::SVector::<T, NT>::from_element(T::from_f64(0.5));
                 for (&j, &u) in INDEPENDENTS.iter().zip(u.iter()) {
                     if let ::core::option::Option::Some(moved) = moved.get_mut(j) {
@@ -128,30 +135,55 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
                 }
                 let q = { #body };
                 #moved_along
-                #closed_again
-                q
+            };
+            if closed.closure.nonholonomic() {
+                return quote! { #sampled #closed_again q };
             }
-        }
-        "difference" => {
-            let body = body(&[("q1", &q, true), ("q0", &q, true)], false);
+            let (start, way) = (start(closed), independent_way(&of_tree));
             quote! {
-                let moved = { #body };
-                let mut own = __na::SVector::<T, NV>::from_element(T::from_f64(0.0));
-                for (own, &j) in own.iter_mut().zip(INDEPENDENTS.iter()) {
-                    if let ::core::option::Option::Some(&moved) = moved.get(j) {
-                        *own = moved;
-                    }
-                }
-                own
+                #sampled
+                let start = { #start };
+                let way = {
+                    let (q1, q0) = (&q, &start);
+                    #way
+                };
+                let share = T::from_f64(1.0 / __rt::closure::PARTS as f64);
+                let part = way.map(|x| x * share);
+                __rt::closure::walk(start, |q| {
+                    let q = __rt::closure::follow(q, |q| self.tree_velocity(q, &part), moved);
+                    __rt::closure::close_along(q, &DEPENDENTS, |q| self.closing_step(q), moved)
+                })
             }
         }
+        "difference" => independent_way(&of_tree),
         _ => body(&[("q", &q, true)], true),
     }
 }
 
-/// Returns the lines of documentation about the constraints.
+/// Returns the independent velocities of the way in the open tree from `q0` to `q1`.
+fn independent_way(of_tree: &[JointSegment]) -> TokenStream {
+    let [q, _] = argument_types();
+    let arguments = [("q1", &q, true), ("q0", &q, true)];
+    let body = joint_by_joint(of_tree, "difference", &arguments, false);
+    quote! {
+        let moved = { #body };
+        let mut own = __na::SVector::<T, NV>::from_element(T::from_f64(0.0));
+        for (own, &j) in own.iter_mut().zip(INDEPENDENTS.iter()) {
+            if let ::core::option::Option::Some(&moved) = moved.get(j) {
+                *own = moved;
+            }
+        }
+        own
+    }
+}
+
+/// Returns the lines of documentation about the constraints, or the loops through joints of several velocities.
 pub(super) fn contact_docs(closed: &ClosedTree) -> Vec<String> {
-    let mut docs = row_docs(closed, "Constraints");
+    let what = match closed.closure.nonholonomic() {
+        true => "Constraints",
+        false => "Loops",
+    };
+    let mut docs = row_docs(closed, what);
     docs.extend(
         [
             "",

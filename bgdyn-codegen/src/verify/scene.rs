@@ -165,8 +165,14 @@ impl CheckedScene<'_> {
         let mut opened = at.clone();
         let mut random = Random(23);
         let layout = &self.system.scene.layout;
+        // Each component of a quaternion turns by twice its change.
+        let turns = |p: usize| {
+            let mut joints = layout.quasi_joints.iter();
+            joints.any(|joint| joint.quaternion.is_some_and(|k| (k..k + 4).contains(&p)))
+        };
         for &(p, _) in &layout.closing {
-            opened.q[p] += signed(&mut random) * Dd::from_f64(OPENING);
+            let part = if turns(p) { 0.25 } else { 1.0 };
+            opened.q[p] += signed(&mut random) * Dd::from_f64(part * OPENING);
         }
         layout.normalize(&mut opened.q);
         let steps = function.evaluate(opened.clone()).0;

@@ -83,12 +83,12 @@ fn names_and_types() {
         "",
         &["`pin`", "one link"],
     );
-    changed(
-        "link: coupler",
-        "link: ball",
+    refused(
+        HINGE,
+        "constraints:\n  rates: { type: linear, row: { q1: 1, q2: -2 } }\n",
         "loop-through-joint",
-        "",
-        &["`pin`", "`ball_joint`", "spherical"],
+        "loops[0]",
+        &["`pin`", "`q2`", "continuous", "`linear`"],
     );
 }
 

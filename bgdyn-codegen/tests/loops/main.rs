@@ -39,6 +39,7 @@ mod rank;
 mod reactions;
 mod references;
 mod scenes;
+mod several_velocities;
 mod specs;
 mod starts;
 mod verified;

@@ -20,7 +20,7 @@ pub fn compare(text: &Text, what: &str) {
     for k in 0..3 {
         let mut random = Random(40 + k as u64);
         let mut state = robot.state(k as u64);
-        for p in closure.positions.iter().flatten() {
+        for p in closure.moved_positions() {
             state.q[p.0] = closure.samples[5 * k + 1][p.0];
         }
         let value = |method| -> Vec<Dd> { state.value(&robot.function(None, method)) };

@@ -129,6 +129,18 @@ impl Text {
         text
     }
 
+    /// Gives a joint, by its number, another type.
+    pub fn with_joint(mut self, number: usize, kind: &str) -> Self {
+        let from = self
+            .links
+            .find(&format!("name: j{number}, type: "))
+            .expect("a joint");
+        let to = from + self.links[from..].find(", origin").expect("an origin");
+        self.links
+            .replace_range(from..to, &format!("name: j{number}, type: {kind}"));
+        self
+    }
+
     /// Connects places of two links that are apart by `apart` in the axes of the world at zero.
     pub fn connect(
         &mut self,

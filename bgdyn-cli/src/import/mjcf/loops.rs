@@ -4,6 +4,7 @@ use super::builder::{BodyAxes, Builder};
 use super::pose::exact;
 use super::settings::one_of;
 use crate::import::attributes::numbers;
+use crate::import::joint_type::JointType;
 use crate::import::loops::joints_between;
 use crate::import::model::{Loop, LoopPlace};
 use crate::import::naming::{free_name, shown};
@@ -35,7 +36,7 @@ const EXACT: &str = "loops, exact here, while MuJoCo holds them by a soft constr
 const INACTIVE: &str = "equality constraints that are not active, not imported";
 const ON_ONE_LINK: &str =
     "equality constraints between bodies that no joint moves against each other, not imported";
-const BALLS: &str = "equality constraints across a ball, free or planar joint, not imported: write the joint as three hinges";
+const FREE: &str = "equality constraints across a free joint, not imported: write them as `loops` into the mechanism";
 
 impl Builder<'_> {
     /// Reads the elements `<connect>` and `<weld>` of all `<equality>` elements.
@@ -81,8 +82,8 @@ impl Builder<'_> {
         let way = joints_between(self.model, &a.link, &b.link);
         if way.is_empty() {
             self.report.groups.add(ON_ONE_LINK, label);
-        } else if way.iter().any(|joint| !joint.kind.is_scalar()) {
-            self.report.groups.add(BALLS, label);
+        } else if way.iter().any(|joint| joint.kind == JointType::Floating) {
+            self.report.groups.add(FREE, label);
         } else {
             self.report.groups.add(EXACT, label);
             self.model.loops.push(Loop {

@@ -36,21 +36,8 @@ pub(super) fn add(
         };
         let ends = [place(joint.parent), place(Some(joint.child))];
         let [a, b] = &ends;
-        let way = joints_between(model, &a.link, &b.link);
-        if way.is_empty() {
+        if joints_between(model, &a.link, &b.link).is_empty() {
             report.groups.add(ON_ONE_LINK, format!("`{label}`"));
-            continue;
-        }
-        let several = way.iter().filter(|joint| !joint.kind.is_scalar());
-        let several =
-            several.map(|joint| format!("`{}` ({})", shown(&joint.name), joint.kind.keyword()));
-        let several: Vec<String> = several.collect();
-        if !several.is_empty() {
-            let what = format!(
-                "joint `{label}` closes a loop through {}: write that joint as revolute and prismatic ones, or exchange the joints in the file, so that it closes the loop itself",
-                several.join(", ")
-            );
-            report.refuse(joint.element.at, what);
             continue;
         }
         let axes = joint.motion.axes();

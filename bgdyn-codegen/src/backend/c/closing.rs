@@ -53,12 +53,12 @@ pub(super) fn closing_functions(
     };
     let has = |method| context.model.function(method).is_some();
     let closes = has(Method::ClosingStep);
-    let slips = closed.closure.nonholonomic();
+    let along = closed.closure.closes_along();
     let is_along_tree = has(Method::TreeVelocity);
     let integrates = is_along_tree && (closes || closed.closure.position_rows().is_empty());
     let mut functions = Vec::new();
     let assembles = context.model.assembles;
-    if (closes && slips) || integrates || assembles {
+    if (closes && along) || integrates || assembles {
         functions.push(text.moved());
     }
     if assembles {
@@ -72,12 +72,16 @@ pub(super) fn closing_functions(
         functions.push(text.position_rates());
     }
     if integrates {
-        functions.push(match slips {
+        functions.push(match along {
             true => text.follow(closes),
             false => text.integrate(),
         });
     }
-    if closes || closed.closure.position_rows().is_empty() {
+    let samples = match along && !closed.closure.nonholonomic() {
+        true => integrates,
+        false => closes || closed.closure.position_rows().is_empty(),
+    };
+    if samples {
         functions.extend(closed_sample(closed, closes, context));
     }
     functions
@@ -148,7 +152,7 @@ impl ClosingText<'_> {
     fn newton(&self, name: &'static str, joints: &[Dependent], is_last: bool) -> PositionFunction {
         let style = self.style();
         let parameters = of_model(self.context.naming, style, true);
-        let slips = self.closed.closure.nonholonomic();
+        let along = self.closed.closure.closes_along();
         let newton = Newton {
             style,
             name,
@@ -159,7 +163,7 @@ impl ClosingText<'_> {
             size: style.constant("NQ"),
             step: self.call("closing_step", "q, change") + ";",
             steps: style.constant("NT"),
-            moved: slips.then(|| format!("{}(q, change, q);", style.global("moved"))),
+            moved: along.then(|| format!("{}(q, change, q);", style.global("moved"))),
             parameters: parameters.map_or(String::new(), |p| p.declaration + ", "),
         };
         newton.function()

@@ -42,7 +42,7 @@ pub(super) fn closed_sample(
 ) -> [PositionFunction; 2] {
     let (style, real) = (context.style, context.style.real());
     let slips = closed.closure.nonholonomic();
-    let (joints, count) = match slips {
+    let (joints, count) = match closed.closure.closes_along() {
         true => (joint_segments(&closed.tree), "NT"),
         false => (joint_segments(&context.model.bond_graph), "NV"),
     };
@@ -65,7 +65,10 @@ pub(super) fn closed_sample(
         ),
         false => (
             "With loops the closed positions next to them on the way from `neutral`.",
-            towards(closed, &newton, style),
+            match closed.closure.closes_along() {
+                true => along_velocities(closed, given, style),
+                false => towards(closed, &newton, style),
+            },
         ),
     };
     let whole = PositionFunction {
@@ -120,6 +123,48 @@ fn towards(closed: &ClosedTree, newton: &str, style: &Style) -> Vec<String> {
         "}".into(),
         "memcpy(result, last, sizeof last);".into(),
     ]
+}
+
+/// Returns the statements that go from the closed position of the start along the independent velocities that lead to
+/// sampled positions, in equal parts as far as the loops close.
+fn along_velocities(closed: &ClosedTree, given: &str, style: &Style) -> Vec<String> {
+    let (real, nq) = (style.real(), style.constant("NQ"));
+    let [nv, nt] = ["NV", "NT"].map(|size| style.constant(size));
+    let start = closed.closure.start.iter();
+    let start: Vec<String> = start.map(|x| style.number(x.hi())).collect();
+    let independents = closed.closure.independents.iter().enumerate();
+    let mut lines = vec![
+        format!("const {real} start[{nq}] = {{{}}};", start.join(", ")),
+        format!("{real} moved[{nt}];"),
+        format!("{real} way[{nv}];"),
+        format!("{real} found[{nq}];"),
+        format!("{real} last[{nq}];"),
+        format!("for (int j = 0; j < {nt}; ++j) {{"),
+        format!("    moved[j] = {};", style.number(0.5)),
+        "}".into(),
+    ];
+    lines.extend(independents.map(|(k, j)| format!("moved[{}] = u[{k}];", j.0)));
+    lines.extend([
+        format!("{}(moved, found);", style.global("sample_joints")),
+        format!("{}(found, start, way);", style.global("difference")),
+        format!("for (int j = 0; j < {nv}; ++j) {{"),
+        format!(
+            "    way[j] = way[j] * {};",
+            style.number(1.0 / PARTS as f64)
+        ),
+        "}".into(),
+        "memcpy(last, start, sizeof last);".into(),
+        format!("for (int part = 1; part <= {PARTS}; ++part) {{"),
+        format!(
+            "    if ({}({given}last, way, found) == 0) {{",
+            style.global("integrate")
+        ),
+        "        memcpy(last, found, sizeof last);".into(),
+        "    }".into(),
+        "}".into(),
+        "memcpy(result, last, sizeof last);".into(),
+    ]);
+    lines
 }
 
 /// Returns the statements that sample the independent velocities' joints, the others in the middle, and close.

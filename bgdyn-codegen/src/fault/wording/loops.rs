@@ -57,13 +57,12 @@ pub(crate) fn loop_through_joint(
     keyword: &str,
 ) -> Fault {
     let message = format!(
-        "the loop {} goes through {}, a {keyword} joint that is none of one degree of freedom with a position of its own",
+        "the loop {} goes through {}, a {keyword} joint whose velocity alone follows others by a constraint of type `linear`: its position is no function of theirs",
         quote(name),
         quote(joint)
     );
-    Fault::new(location, "loop-through-joint", message).with_help(
-        "loops go through revolute, continuous, prismatic and helical joints, joints with `mimic` or `gear`, and universal and cylindrical joints; write a ball as three revolute joints, or close the loop there with `type: point`",
-    )
+    Fault::new(location, "loop-through-joint", message)
+        .with_help("write `type: gear`, a relation of positions, or close the loop elsewhere")
 }
 
 pub(crate) fn rod_without_length(location: &Location) -> Fault {

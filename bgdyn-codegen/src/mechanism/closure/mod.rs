@@ -221,6 +221,12 @@ impl Closure {
         self.rows.iter().any(|row| !row.kind.has_positions())
     }
 
+    /// Returns whether positions close along velocities of the open tree, not each by its own: with rows on velocities,
+    /// and where joints in loops have several velocities.
+    pub fn closes_along(&self) -> bool {
+        self.nonholonomic() || !self.compounds.is_empty()
+    }
+
     /// Returns the rows that decide about positions.
     pub fn position_rows(&self) -> Vec<LoopRow> {
         let rows = self.rows.iter();

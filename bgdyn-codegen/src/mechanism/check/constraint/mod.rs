@@ -93,14 +93,14 @@ pub(super) fn apply(
             None => {}
         }
     }
-    let kept = independent(spec, links, !contacts.is_empty(), faults);
-    let others = (&*links, &rows[..], &kept[..]);
-    prescribed::check(&prescribed, others, parameters, faults);
     let closed = !contacts.is_empty()
         || spec
             .loops
             .value()
             .is_some_and(|l| l.iter().any(|one| !one.is_parallel()));
+    let kept = independent(spec, links, closed, faults);
+    let others = (&*links, &rows[..], &kept[..]);
+    prescribed::check(&prescribed, others, parameters, faults);
     prescribed::check_loops(&prescribed, closed, (links, faults));
     if faults.count() > before {
         return None;
@@ -170,12 +170,12 @@ fn is_taken(spec: &Spec, links: &[Link], name: &str) -> bool {
         || effects.any(|effect| effect.name.value == name)
 }
 
-/// Returns the links of the joints that the file lists as `independent`; none has `mimic`. With `contacts`
-/// velocities of joints with several may be listed.
-fn independent(spec: &Spec, links: &[Link], contacts: bool, faults: &mut Faults) -> Vec<LinkId> {
+/// Returns the links of the joints that the file lists as `independent`; none has `mimic`. With loops or contacts, where
+/// positions are `closed`, velocities of joints with several may be listed.
+fn independent(spec: &Spec, links: &[Link], closed: bool, faults: &mut Faults) -> Vec<LinkId> {
     let mut kept = Vec::new();
     for name in spec.independent.value().into_iter().flatten() {
-        if contacts && links.iter().any(|link| is_part(&link.joint, &name.value)) {
+        if closed && links.iter().any(|link| is_part(&link.joint, &name.value)) {
             continue;
         }
         let found = one_degree(links).find(|(_, link)| link.joint.name == name.value);

@@ -87,13 +87,13 @@ fn near(one: &LoopSpec, tree: Tree<'_>, faults: &mut Faults) -> Vec<(PositionId,
     found
 }
 
-/// Returns whether a loop can go through the joint: it has at most one velocity, which moves no joint whose
-/// position is not a function of its own.
+/// Returns whether a loop can go through the joint: its velocities move no joint whose position is not a function of
+/// its own.
 fn is_suitable(tree: Tree<'_>, link: LinkId) -> bool {
     let joint = &tree.links()[link.0].joint;
     let coupling = joint.degrees.coupling.as_ref();
     let by_velocity = coupling.is_some_and(|coupling| !coupling.of_positions());
-    joint.kind.motion.nv() <= 1 && joint.kind.motion.nq() <= 1 && !by_velocity
+    !by_velocity
 }
 
 /// Reports a joint that no loop can go through.
