@@ -1,9 +1,15 @@
 //! Loops through spherical, planar and floating joints against the open tree with multipliers.
 
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::random::Random;
+use bgdyn_codegen::selection::model;
+use bgdyn_codegen::{formulation, method};
 
 use super::multipliers::compare;
 use super::random_loops::Text;
+use super::references::{file, spec};
+use super::robot::{Robot, Way};
 
 #[test]
 fn loops_through_balls_planes_and_free_bodies_move_as_with_multipliers() {
@@ -28,4 +34,51 @@ fn loops_through_balls_planes_and_free_bodies_move_as_with_multipliers() {
             compare(&text, &format!("{kind}, {joints:?}, {root}"));
         }
     }
+}
+
+/// The generator's own check accepts every method, derivatives and those on request.
+#[test]
+fn every_method_is_accepted() {
+    let table = file(["tests/closed_loops", "held_table.yaml"]);
+    let table = table.replacen("format: 1", "format: 1\nname: held_table", 1);
+    for text in [spec("spatial_slider_crank"), table] {
+        let ways: [Way; 3] = [None, Some("subspaces"), Some("literal")];
+        for way in ways {
+            let options = Options {
+                derivatives: true,
+                formulation: way.map(|name| formulation::by_name(name).expect("a formulation")),
+                ..Options::default()
+            };
+            let accept = |options: &Options| {
+                let model = model(Robot::read(&text).mechanism, options).expect("a model");
+                assert_eq!(verify(&model, options), Ok(()), "{way:?}");
+                model.functions.len()
+            };
+            assert!(accept(&options) > 20);
+            let asked = method::Method::ON_REQUEST.map(|method| method.name(&[]));
+            let asked = asked.into_iter().chain(["joint_reactions".to_owned()]);
+            let asked = Options {
+                methods: Some(asked.collect()),
+                derivatives: false,
+                ..options
+            };
+            assert_eq!(accept(&asked), 5);
+        }
+    }
+}
+
+/// Drives at joints in such loops, the velocities of a ball among them: each velocity by its name.
+#[test]
+fn drives_may_be_at_velocities_of_balls() {
+    let text = spec("spatial_slider_crank");
+    let driven = format!("{text}actuated: [slider_position, rod_ball_rx]\n");
+    let options = Options::default();
+    let model = model(Robot::read(&driven).mechanism, &options).expect("a model");
+    assert_eq!(verify(&model, &options), Ok(()));
+    assert!(
+        model
+            .functions
+            .iter()
+            .any(|f| f.name == "reduced_inverse_dynamics")
+    );
 }
