@@ -1,5 +1,6 @@
 //! Loops through spherical, planar and floating joints against the open tree with multipliers.
 
+use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::random::Random;
@@ -9,6 +10,7 @@ use bgdyn_codegen::{formulation, method};
 use super::multipliers::compare;
 use super::random_loops::Text;
 use super::references::{file, spec};
+
 use super::robot::{Robot, Way};
 
 #[test]
@@ -81,4 +83,25 @@ fn drives_may_be_at_velocities_of_balls() {
             .iter()
             .any(|f| f.name == "reduced_inverse_dynamics")
     );
+}
+
+/// With the crank or the slide locked the rod still turns about itself, and nothing else moves.
+#[test]
+fn scenes_lock_joints_of_loops_through_balls() {
+    let text = spec("spatial_slider_crank").replace("name: spatial_slider_crank\n", "");
+    for lock in ["crank_angle: 0.3", "slider_position: 0.45"] {
+        let scene = format!(
+            "scene: 1\nmechanism: own.yaml\neffects: [gravity, inertia, velocity_products]\nlock: {{ {lock} }}\n"
+        );
+        let read = bgdyn_codegen::read_scene(&scene, "scene", |_| Ok(text.clone()));
+        let (system, _) = read.unwrap_or_else(|refusal| panic!("{lock}: {refusal:?}"));
+        let closure = system.scene.mechanism.closure().expect("a loop");
+        assert_eq!(closure.independents.len(), 1, "{lock}");
+        let map = closure
+            .velocity_map(&system.initial.q)
+            .expect("a regular start");
+        let moving = map.iter().filter(|row| row[0].to_f64().abs() > 1e-20);
+        assert_eq!(moving.count(), 1, "{lock}: {map:?}");
+        assert!(!system.function(SceneFunction::Derivative).blocks.is_empty());
+    }
 }
