@@ -137,8 +137,9 @@ impl<'a> LockedTree<'a> {
 /// Returns the positions that the loops hold where these joints are locked: those whose rate is zero in every solution
 /// of B q̇ = 0.
 fn held(of: &Mechanism, q: &[Dd], locks: &[(LinkId, Dd)]) -> Vec<PositionId> {
-    // Wheels on planes roll on, whatever is locked.
-    let Some(closure) = of.closure().filter(|closure| !closure.nonholonomic()) else {
+    // Wheels on planes roll on, whatever is locked. Of a ball single velocities may be held, which no lock is for: the
+    // loops hold the joints then.
+    let Some(closure) = of.closure().filter(|closure| !closure.closes_along()) else {
         return Vec::new();
     };
     let is_locked = |p: &PositionId| locks.iter().any(|(link, _)| *link == of.positions()[p.0]);

@@ -59,7 +59,7 @@ impl<T: CNumber> Reference<'_, T> {
         let dependents = self.dependents(closed);
         let step = |q: &Vector<T>| self.function(Method::ClosingStep, q, &vector(&[]));
         let polygons = close_polygons(closed, &q, from);
-        let closing = match (closed.closure.nonholonomic(), polygons) {
+        let closing = match (closed.closure.closes_along(), polygons) {
             (_, Some(polygons)) if polygons.others.is_empty() => polygons.closing,
             (_, Some(polygons)) => polygons.closing.then(&polygons.others, ROOM, step),
             (false, None) => closure::close(q, &dependents, step),
@@ -86,7 +86,7 @@ impl<T: CNumber> Reference<'_, T> {
         let joints = joint_segments(&closed.tree);
         let rates = |q: &Vector<T>| self.function(Method::TreeVelocity, q, dv);
         let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
-        let (found, others) = match closed.closure.nonholonomic() {
+        let (found, others) = match closed.closure.closes_along() {
             false => (moved(q, &rates(q)), independent_positions(closed)),
             true => (closure::follow(q, rates, moved), Vec::new()),
         };
@@ -157,7 +157,7 @@ impl<T: CNumber> Reference<'_, T> {
         };
         let dependents = self.dependents(closed);
         let step = |q: &Vector<T>| self.function(Method::ClosingStep, q, &vector(&[]));
-        if !closed.closure.nonholonomic() {
+        if !closed.closure.closes_along() {
             let target = sampled(&joint_segments(graph), u);
             let independents = independent_positions(closed);
             let start = self.neutral();
@@ -169,6 +169,17 @@ impl<T: CNumber> Reference<'_, T> {
             moved[j.0] = u;
         }
         let q = sampled(&joints, &moved);
+        if !closed.closure.nonholonomic() {
+            let start = self.neutral();
+            let share = T::from_f64(1.0 / closure::PARTS as f64);
+            let part = self.difference(&q, &start).map(|x| x * share);
+            let rates = |q: &Vector<T>| self.function(Method::TreeVelocity, q, &part);
+            let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
+            return closure::walk(start, |q| {
+                let q = closure::follow(q, rates, moved);
+                closure::close_along(q, &dependents, step, moved)
+            });
+        }
         if self.model.function(Method::ClosingStep).is_none() {
             return q;
         }
