@@ -2,15 +2,14 @@
 
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline::verify;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::selection::model;
+use bgdyn_codegen::verify::check_model;
 use bgdyn_codegen::{formulation, method};
 
 use super::multipliers::compare;
 use super::random_loops::Text;
 use super::references::{file, spec};
-
 use super::robot::{Robot, Way};
 
 #[test]
@@ -53,7 +52,7 @@ fn every_method_is_accepted() {
             };
             let accept = |options: &Options| {
                 let model = model(Robot::read(&text).mechanism, options).expect("a model");
-                assert_eq!(verify(&model, options), Ok(()), "{way:?}");
+                assert_eq!(check_model(&model), [], "{way:?}");
                 model.functions.len()
             };
             assert!(accept(&options) > 20);
@@ -76,7 +75,7 @@ fn drives_may_be_at_velocities_of_balls() {
     let driven = format!("{text}actuated: [slider_position, rod_ball_rx]\n");
     let options = Options::default();
     let model = model(Robot::read(&driven).mechanism, &options).expect("a model");
-    assert_eq!(verify(&model, &options), Ok(()));
+    assert_eq!(check_model(&model), []);
     assert!(
         model
             .functions
