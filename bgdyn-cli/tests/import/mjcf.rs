@@ -76,7 +76,10 @@ fn every_notation_has_the_values_of_mujoco() {
         ),
     ];
     for (name, text) in models {
-        let mechanism = mechanism(&made(&text).yaml);
+        // The values are those of the tree, without constraints.
+        let connect = r#"<connect body1="toe" body2="trunk" anchor="0 0 0"/>"#;
+        assert!(text.contains(connect), "{name}");
+        let mechanism = mechanism(&made(&text.replace(connect, "")).yaml);
         for state in golden["models"][name].as_array().expect("states") {
             let (q, v) = (numbers(&state["q"]), numbers(&state["v"]));
             let at = |method| value(&mechanism, method, [&q, &v, &[]]);
