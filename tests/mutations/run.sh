@@ -199,8 +199,8 @@ mutate "drives of dependent joints" bgdyn-codegen/src/effort_sums/mod.rs \
     'sums.push_drives_of_dependents();' '' "${codegen[@]}" loops scenes::
 mutate "rates of dependent joints" bgdyn-codegen/src/effort_sums/loops.rs \
     'sum + s * self.v[k]),' 'sum + self.v[k]),' "${codegen[@]}" loops scenes::
-mutate "velocities at the start" $closure/reach.rs \
-    'v - along(j, &u)' 'v' "${codegen[@]}" loops starts::
+mutate "velocities at the start" $closure/start_velocities.rs \
+    '(v - along(&map[j], &u))' 'v' "${codegen[@]}" loops starts::
 mutate "closing of a step" bgdyn-sim/src/scene_positions.rs \
     'Ok(scene.close(y)? || normalized)' 'Ok(normalized)' -p bgdyn --test closed_loops scenes::
 mutate "closing in a coarse scalar" bgdyn-runtime/src/closure.rs \
