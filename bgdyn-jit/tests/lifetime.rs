@@ -1,4 +1,4 @@
-//! Memory of prepared functions, calls by several threads, and what is refused.
+//! Calls of prepared functions by several threads, and what is refused.
 
 use std::path::Path;
 
@@ -39,61 +39,6 @@ fn small(of: impl for<'g> Fn(&'g Builder, Expr<'g>, Expr<'g>) -> Expr<'g>) -> Fu
         products: vec![],
     }];
     function
-}
-
-/// Returns the numbers of this process in a file of the kernel.
-#[cfg(target_os = "linux")]
-fn of_process(file: &str) -> String {
-    std::fs::read_to_string(format!("/proc/self/{file}")).expect("a file of the kernel")
-}
-
-/// Returns the number of mappings with code that are of no file.
-#[cfg(target_os = "linux")]
-fn mappings() -> usize {
-    let maps = of_process("maps");
-    let own = |line: &&str| line.contains(" r-xp ") && line.split_whitespace().count() == 5;
-    maps.lines().filter(own).count()
-}
-
-/// Returns the memory that the process uses, in pages.
-#[cfg(target_os = "linux")]
-fn pages() -> i64 {
-    let numbers = of_process("statm");
-    let mut numbers = numbers.split_whitespace().map(str::parse);
-    numbers.nth(1).expect("the resident set").expect("a number")
-}
-
-/// The memory for code is there while a function is, and other memory does not grow.
-#[cfg(target_os = "linux")]
-#[test]
-fn dropped_functions_leave_nothing() {
-    let (jit, function) = (jit(), function(&scara(), Method::ForwardDynamics));
-    let at = CallArguments {
-        q: &[0.1, 0.2, 0.3, 0.4],
-        v: &[1.0; 4],
-        u: &[2.0; 4],
-        ..CallArguments::default()
-    };
-    let mut wanted = None;
-    let mut prepare = |count: usize| {
-        for _ in 0..count {
-            let prepared = jit.prepare(&function);
-            assert_eq!(prepared.engine(), jit.name());
-            let found = prepared.value(&at);
-            assert_eq!(&found, wanted.get_or_insert(found.clone()));
-        }
-    };
-    prepare(50);
-    let (before, pages_before) = (mappings(), pages());
-    prepare(400);
-    let grown = pages() - pages_before;
-    // A leak of the code alone would be 400 pages, and one of the lists far more.
-    assert!(grown < 200, "{grown} pages more");
-    let alive: Vec<_> = (0..20).map(|_| jit.prepare(&function)).collect();
-    assert!(mappings() > before, "code is in mappings of its own");
-    assert!(alive.iter().all(|f| f.value(&at) == alive[0].value(&at)));
-    drop(alive);
-    assert_eq!(mappings(), before);
 }
 
 #[test]

@@ -255,6 +255,19 @@ impl<Y: StateVector> Closing<Y> {
         }
         q
     }
+
+    /// Returns the positions; all are NaN where a loop does not close: a function may read any of them, and shall not take
+    /// them for closed ones.
+    #[inline]
+    pub fn or_all_nan(self) -> Y {
+        let mut q = self.q;
+        let number = <Y::Scalar as Scalar>::from_f64;
+        let closed = self.last.less(closed());
+        for q in q.entries_mut() {
+            *q = Y::Scalar::select(closed, *q, number(f64::NAN));
+        }
+        q
+    }
 }
 
 /// Returns the position after one second along velocities of the open tree that depend on the position: `rates` returns

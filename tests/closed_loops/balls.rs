@@ -140,6 +140,22 @@ fn samples_are_closed_and_positions_out_of_reach_refused() {
     );
 }
 
+/// A way out of reach ends at no position at all: no function takes a turn that is not closed for a closed one.
+#[test]
+fn positions_out_of_reach_are_no_numbers() {
+    let model = crate::planar_rod::PlanarRod::<f64>::default();
+    let start = model.neutral();
+    let near = model.integrate(&start, &vector![0.4]);
+    assert!(model.constraint_residual(&near).amax() < 1e-15, "{near}");
+    // The crank's reach ends at asin(0.15 / 0.2) = 0.848 rad.
+    for way in [0.86, 1.0, 1.5, -1.2] {
+        let far = model.integrate(&start, &vector![way]);
+        assert!(far.iter().all(|x| x.is_nan()), "{way}: {far}");
+        let nothing = vector![0.0];
+        assert!(model.forward_dynamics(&far, &nothing, &nothing).is_err());
+    }
+}
+
 /// From a rough guess the same closed position, with the crank kept.
 #[test]
 fn positions_are_assembled() {

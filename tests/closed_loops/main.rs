@@ -25,6 +25,7 @@ bgdyn::bgdyn!(
 bgdyn::bgdyn!("excavator_bucket.yaml");
 bgdyn::bgdyn!("held_table.yaml");
 bgdyn::bgdyn!("linkages.yaml");
+bgdyn::bgdyn!("planar_rod.yaml");
 bgdyn::bgdyn!("short_rod.yaml", module = test_rod);
 bgdyn::bgdyn!("short_strut.yaml");
 bgdyn::bgdyn!("spatial_run.scene.yaml");

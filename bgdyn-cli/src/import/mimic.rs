@@ -110,6 +110,11 @@ fn judge(model: &Model, joint: &Joint, mimic: &Mimic) -> Option<String> {
         ));
     }
     let offset = &mimic.offset.text;
+    if model.loops.iter().any(|it| it.name == mimic.joint) {
+        return Some(format!(
+            "joint `{name}` follows `{leader}`, which closes a loop and has no coordinate: exchange the joints in the file, so that another one closes it"
+        ));
+    }
     let Some(found) = model.joints.iter().find(|it| it.name == mimic.joint) else {
         return Some(format!(
             "joint `{name}` follows `{leader}`, and there is no such joint here: correct the name, or fix the follower with `--lock {name}`"

@@ -33,6 +33,17 @@ impl Num {
         [(); N].map(|()| Num::zero())
     }
 
+    /// Returns the number with the opposite sign; 0 has none.
+    pub(super) fn negated(&self) -> Self {
+        let text = match self.text.strip_prefix('-') {
+            _ if self.is_zero() => "0".into(),
+            Some(size) => size.to_owned(),
+            None => format!("-{}", self.text),
+        };
+        let value = if self.is_zero() { 0.0 } else { -self.value };
+        Num { text, value }
+    }
+
     /// Returns a computed value, in the shortest form that parses to the same value.
     pub(super) fn computed(value: f64) -> Self {
         let text = Digits::shortest(value).plain(-5..17).to_string();

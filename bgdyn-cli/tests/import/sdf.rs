@@ -298,6 +298,112 @@ fn defaults_and_older_versions() {
     );
 }
 
+/// SDF prescribes no tree: joints in any order and direction are the same mechanism, and no link floats.
+#[test]
+fn joints_in_any_direction_carry_their_links() {
+    let bodies = "<link name='a'><inertial><mass>2</mass><pose>0.1 0 0.3 0 0 0</pose></inertial></link>
+        <link name='b'><pose>0 0 1 0.3 0 0</pose><inertial><mass>3</mass><pose>0 0.2 0 0 0 0</pose></inertial></link>";
+    let chain = |joints: String| mechanism(&made(&model(&format!("{bodies}{joints}"))).yaml);
+    let limited = "<axis><xyz>0 1 0</xyz><limit><lower>-1</lower><upper>2</upper></limit></axis>";
+    // The joint's frame is that of its child: of link b in both.
+    let at_b = "<pose relative_to='b'>0 0 0 0 0 0</pose>";
+    let opposite = limited.replace("0 1 0", "0 -1 0");
+    let right = chain(
+        joint("on", "fixed", ["world", "a"], "") + &joint("hinge", "revolute", ["a", "b"], limited),
+    );
+    let inside = format!("{at_b}{opposite}");
+    let reversed = joint("hinge", "revolute", ["b", "a"], &inside);
+    for joints in [
+        joint("on", "fixed", ["world", "a"], "") + &reversed,
+        reversed.clone() + &joint("on", "fixed", ["world", "a"], ""),
+    ] {
+        let found = chain(joints);
+        assert_eq!(found.joint_names(), ["hinge"]);
+        for q in [-0.7, 0.0, 1.3] {
+            for method in [Method::InverseDynamics, Method::MassMatrix] {
+                let [x, y] = [&found, &right].map(|m| value(m, method, [&[q], &[0.8], &[-1.1]]));
+                near(&x, &y, 1e-14);
+            }
+        }
+    }
+    // The world's joint comes last, to the middle of a chain.
+    let last = chain(
+        joint("hinge", "revolute", ["a", "b"], limited) + &joint("on", "fixed", ["world", "b"], ""),
+    );
+    assert_eq!(last.nv(), 1);
+    // Two links fixed to the same one.
+    let bodies = link("a") + &link("b") + &link("c");
+    let fixed = joint("j1", "fixed", ["a", "c"], "") + &joint("j2", "fixed", ["b", "c"], "");
+    let welded = made(&model(&(bodies + &fixed)));
+    assert_eq!(mechanism(&welded.yaml).nv(), 6, "{}", welded.yaml);
+    let words = "joints that carry their parent here";
+    let told = welded.warnings.iter().any(|line| line.starts_with(words));
+    assert!(told, "{:#?}", welded.warnings);
+}
+
+/// A universal joint from its child to its parent is the same cross the other way round.
+#[test]
+fn a_reversed_universal_joint_has_its_axes_in_the_opposite_order() {
+    let bodies = link("a")
+        + "<link name='b'><pose>0 0 0.5 0 0 0</pose><inertial><mass>1</mass><pose>0 0 0.2 0 0 0</pose></inertial></link>";
+    let axes = |first: &str, second: &str| {
+        format!(
+            "<pose relative_to='b'/><axis><xyz>{first}</xyz></axis><axis2><xyz>{second}</xyz></axis2>"
+        )
+    };
+    let on = joint("on", "fixed", ["world", "a"], "");
+    let right = joint("cross", "universal", ["a", "b"], &axes("1 0 0", "0 1 0"));
+    let other = joint("cross", "universal", ["b", "a"], &axes("0 -1 0", "-1 0 0"));
+    let [right, other] =
+        [right, other].map(|cross| mechanism(&made(&model(&format!("{bodies}{on}{cross}"))).yaml));
+    assert_eq!(right.joint_names(), ["cross", "cross_axis2"]);
+    assert_eq!(other.joint_names(), ["cross_axis2", "cross"]);
+    let state: [&[f64]; 3] = [&[0.4, -0.9], &[1.1, 0.7], &[-0.3, 0.2]];
+    let [x, y] = [&right, &other].map(|m| value(m, Method::InverseDynamics, state));
+    near(&x, &y, 1e-14);
+}
+
+/// Before 1.6 gravity is in the physics, before 1.7 poses name their frame by `frame`, and a joint may have a link's name.
+#[test]
+fn older_files_keep_their_meaning() {
+    let world = |version: &str, inside: &str| {
+        let fixed = joint("on", "fixed", ["world", "a"], "");
+        format!(
+            "<sdf version='{version}'><world name='w'>{inside}<model name='m'>{}{fixed}</model></world></sdf>",
+            link("a")
+        )
+    };
+    let of_physics = "<physics type='ode'><gravity>0 0 -1.62</gravity></physics>";
+    for (version, inside, gravity) in [
+        ("1.5", of_physics, -1.62),
+        ("1.6", of_physics, -9.8),
+        ("1.6", "<gravity>0 0 -3.7</gravity>", -3.7),
+    ] {
+        let found = mechanism(&made(&world(version, inside)).yaml);
+        assert_eq!(found.gravity().0[2].to_f64(), gravity, "{version}");
+    }
+    // Lights and grounds from other files do not move.
+    let sun = "<include><uri>model://sun</uri></include>";
+    let with_sun = made(&world("1.6", sun));
+    let words = "models and lights from other files beside the model, not imported: `model://sun`";
+    assert!(
+        with_sun.warnings.iter().any(|line| line == words),
+        "{:#?}",
+        with_sun.warnings
+    );
+    let old = "<sdf version='1.6'><model name='m'>
+        <link name='wheel'><pose>0 0 1 0 0 0</pose></link>
+        <link name='b'><pose frame='wheel'>1 0 0 0 0 0</pose></link>
+        <joint name='on' type='fixed'><parent>world</parent><child>wheel</child></joint>
+        <joint name='wheel' type='Revolute'><parent>wheel</parent><child>b</child><axis><xyz>0 1 0</xyz><use_parent_model_frame>False</use_parent_model_frame></axis></joint>
+        </model></sdf>";
+    let yaml = made(old).yaml;
+    assert!(yaml.contains("xyz: [1, 0, 0]"), "{yaml}");
+    assert_eq!(mechanism(&yaml).joint_names(), ["wheel"]);
+    let newer = changed(old, "version='1.6'", "version='1.7'");
+    assert!(refused(&newer).contains("a second link, joint or frame called `wheel`"));
+}
+
 /// Followers, with a reference, and of the second axis of a universal joint.
 #[test]
 fn followers_are_written_with_their_relation() {

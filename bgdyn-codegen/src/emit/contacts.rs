@@ -106,7 +106,7 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
     let closed_again = closes(closed).then(|| {
         quote! {
             let q = __rt::closure::close_along(q, &DEPENDENTS, |q| self.closing_step(q), moved)
-                .or_nan(&DEPENDENTS, &[]);
+                .or_all_nan();
         }
     });
     match name {

@@ -29,7 +29,10 @@ pub fn leaves_of(function: &Function) -> BTreeSet<Leaf> {
 /// Returns whether a function reads a position of a dependent joint; one in closed form does not.
 pub fn reads_dependents(function: &Function, closure: &Closure) -> bool {
     let read = leaves_of(function);
-    let mut positions = closure.dependents().filter_map(|j| closure.positions[j.0]);
+    let own = closure.dependents().filter_map(|j| closure.positions[j.0]);
+    let compounds = closure.compounds.iter();
+    let mut positions =
+        own.chain(compounds.flat_map(|joint| joint.degrees.positions.iter().copied()));
     positions.any(|p| read.contains(&Leaf::Position(p.0)))
 }
 

@@ -86,15 +86,19 @@ impl<T: CNumber> Reference<'_, T> {
         let joints = joint_segments(&closed.tree);
         let rates = |q: &Vector<T>| self.function(Method::TreeVelocity, q, dv);
         let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
-        let (found, others) = match closed.closure.closes_along() {
-            false => (moved(q, &rates(q)), independent_positions(closed)),
-            true => (closure::follow(q, rates, moved), Vec::new()),
+        let along = closed.closure.closes_along();
+        let found = match along {
+            false => moved(q, &rates(q)),
+            true => closure::follow(q, rates, moved),
         };
         if self.model.function(Method::ClosingStep).is_none() {
             return (found, 0);
         }
         let (closing, cause) = self.close(closed, found, Some(q));
-        let q = closing.or_nan(&self.dependents(closed), &others);
+        let q = match along {
+            true => closing.or_all_nan(),
+            false => closing.or_nan(&self.dependents(closed), &independent_positions(closed)),
+        };
         let is_wild = q.iter().any(|x| !x.is_finite());
         (
             q,
@@ -184,7 +188,7 @@ impl<T: CNumber> Reference<'_, T> {
             return q;
         }
         let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
-        closure::close_along(q, &dependents, step, moved).or_nan(&dependents, &[])
+        closure::close_along(q, &dependents, step, moved).or_all_nan()
     }
 
     /// Returns the neutral position, or with loops one at which all close.

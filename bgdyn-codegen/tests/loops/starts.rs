@@ -109,6 +109,25 @@ fn positions_that_are_not_given_do_not_move() {
 }
 
 /// Velocities of dependent joints determine those of independent ones that are not given.
+/// A pose of a ball is that of the closed start, or none: with three digits it is closed to the last one.
+#[test]
+fn poses_in_loops_are_those_of_the_closed_start() {
+    let start = started("spatial_slider_crank", "crank_angle: 0.4");
+    let part = |name: &str| at(&start, &format!("rod_ball_{name}"));
+    let pose = ["qx", "qy", "qz", "qw"].map(|name| format!("{:.4}", part(name)));
+    let pose = pose.join(", ");
+    let given = format!("crank_angle: 0.4, rod_ball: {{ quaternion: [{pose}] }}");
+    let found = started("spatial_slider_crank", &given);
+    assert!(open(&found) < 1e-15);
+    for name in ["qx", "qy", "qz", "qw"] {
+        let name = format!("rod_ball_{name}");
+        assert!(
+            (at(&found, &name) - at(&start, &name)).abs() < 1e-3,
+            "{name}"
+        );
+    }
+}
+
 #[test]
 fn given_velocities_are_kept() {
     let positions = "proximal1_angle: 2, proximal2_angle: 1.1";
@@ -146,6 +165,11 @@ fn starts_that_do_not_exist_are_refused() {
         (
             "five_bar",
             "proximal1_angle: 2, proximal2_angle: 1.1, distal1_angle: 0.5",
+            "contradicting-start",
+        ),
+        (
+            "spatial_slider_crank",
+            "rod_ball: { rpy: [0, 30 deg, 0] }",
             "contradicting-start",
         ),
         (

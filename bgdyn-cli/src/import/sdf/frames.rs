@@ -40,8 +40,10 @@ struct Named<'e> {
 }
 
 impl Frames {
-    /// Reads the frames of a model.
-    pub(super) fn read(model: &Element) -> Result<Self> {
+    /// Reads the frames of a model. Before version 1.7 poses name the frame that they are relative to by `frame`, and a
+    /// joint or a frame may have the name of a link.
+    pub(super) fn read(model: &Element, version: (u32, u32)) -> Result<Self> {
+        let old = version < (1, 7);
         let mut named = Vec::new();
         for element in &model.children {
             let (base, attached) = match element.name.as_str() {
@@ -60,9 +62,10 @@ impl Frames {
                 _ => continue,
             };
             let own = name(element)?;
-            let stated = element
-                .child("pose")
-                .and_then(|pose| pose.get("relative_to"));
+            let stated = element.child("pose").and_then(|pose| {
+                let older = pose.get("frame").filter(|_| old);
+                pose.get("relative_to").or(older)
+            });
             named.push(Named {
                 name: own,
                 element,
@@ -81,12 +84,19 @@ impl Frames {
         };
         for (k, one) in named.iter().enumerate() {
             let (at, own) = (one.element.at, one.name);
-            if frames.index.insert(own.to_owned(), k + 1).is_some() {
+            let alike = |other: &&Named<'_>| {
+                other.name == own && (!old || other.element.name == one.element.name)
+            };
+            if own == MODEL || named[..k].iter().any(|other| alike(&other)) {
                 let message = format!(
                     "there is a second link, joint or frame called `{}` in this model",
                     shown(own)
                 );
                 return Err(fault(at, message));
+            }
+            let is_link = one.element.name == "link";
+            if is_link || !frames.index.contains_key(own) {
+                frames.index.insert(own.to_owned(), k + 1);
             }
         }
         let canonical = canonical(model, &frames)?;
@@ -108,7 +118,13 @@ impl Frames {
         Ok(frames)
     }
 
-    /// Returns the index of a frame.
+    /// Returns the index of the frame of a link, a joint or a frame of this model.
+    pub(super) fn own(&self, element: &Element) -> usize {
+        let own = self.all.iter().position(|frame| frame.at == element.at);
+        own.unwrap_or(OWN)
+    }
+
+    /// Returns the index of a frame by its name.
     ///
     /// # Errors
     /// If there is none of this name; `what` of the element refers to it.
@@ -138,8 +154,7 @@ impl Frames {
 
     /// Returns the index of the link with this frame.
     pub(super) fn position(&self, frame: usize, links: &[&Element]) -> Option<usize> {
-        let own = |link: &&Element| self.index.get(link.get("name")?).copied();
-        links.iter().position(|link| own(link) == Some(frame))
+        links.iter().position(|link| self.own(link) == frame)
     }
 
     /// Returns the pose of a frame in the axes of another one, at the positions of the file. The text of numbers stays

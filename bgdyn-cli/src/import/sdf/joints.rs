@@ -24,6 +24,18 @@ pub(super) enum Motion {
 }
 
 impl Motion {
+    /// Converts it to that of the parent relative to the child: the same coordinates about the opposite axes.
+    pub(super) fn reverse(&mut self) {
+        match self {
+            Motion::Fixed | Motion::Ball => {}
+            Motion::Single(_, axis, _) => axis.negate(),
+            Motion::Double(axes) => {
+                axes.swap(0, 1);
+                axes.iter_mut().for_each(JointAxis::negate);
+            }
+        }
+    }
+
     /// Returns its axes.
     pub(super) fn axes(&self) -> &[JointAxis] {
         match self {
@@ -43,11 +55,21 @@ pub(super) struct JointAxis {
     pub(super) mimic: Option<Mimic>,
 }
 
+impl JointAxis {
+    fn negate(&mut self) {
+        for x in &mut self.direction {
+            *x = x.negated();
+        }
+    }
+}
+
 /// Limits of this size mean that there is none.
 const NO_LIMIT: f64 = 1e16;
 
 const INITIAL: &str =
     "`<initial_position>`, which a mechanism does not have (a scene has `initial`)";
+const OLD_FRAME: &str =
+    "`<use_parent_model_frame>`, which has no effect since version 1.7 (write `expressed_in`)";
 const NEGATIVE: &str = "of `<dynamics>`, not imported";
 
 /// Reads the motion of a joint with this frame; `None` for a type that a mechanism does not have, which the report
@@ -59,10 +81,11 @@ pub(super) fn motion(
     report: &mut SdfReport,
 ) -> Result<Option<Motion>> {
     let mut axis = |name: &str| read_axis(element, name, (frames, frame), version, report);
-    let kind = element.get("type").unwrap_or_default();
+    let stated = element.get("type").unwrap_or_default();
+    let kind = stated.to_ascii_lowercase();
     let label = shown(element.get("name").unwrap_or_default());
     let single = |kind, axis, lead| Ok(Some(Motion::Single(kind, Box::new(axis), lead)));
-    match kind {
+    match kind.as_str() {
         "fixed" => Ok(Some(Motion::Fixed)),
         "ball" => Ok(Some(Motion::Ball)),
         "revolute" => single(JointType::Revolute, axis("axis")?, None),
@@ -90,10 +113,10 @@ pub(super) fn motion(
             report.refuse(element.at, what);
             Ok(None)
         }
-        other => {
+        _ => {
             let what = format!(
                 "joint `{label}` is `{}`: the types are revolute, continuous, prismatic, screw, universal, revolute2, ball and fixed",
-                shown(other)
+                shown(stated)
             );
             report.refuse(element.at, what);
             Ok(None)
@@ -139,6 +162,9 @@ fn read_axis(
     if direction.iter().all(Num::is_zero) {
         let message = format!("the axis of joint {label} is zero");
         return Err(fault(element.at, message));
+    }
+    if version >= (1, 7) && flag(element, "use_parent_model_frame")? == Some(true) {
+        report.groups.add(OLD_FRAME, label.clone());
     }
     if number(element, "initial_position")?.is_some_and(|x| !x.is_zero()) {
         report.groups.add(INITIAL, label.clone());

@@ -23,6 +23,22 @@ pub(super) struct ReadJoint<'e> {
     /// The indices of its links; `None` for the world.
     pub(super) parent: Option<usize>,
     pub(super) child: usize,
+    /// Whether parent and child are those of the file in exchange.
+    pub(super) reversed: bool,
+}
+
+impl ReadJoint<'_> {
+    /// Exchanges parent and child: the same motion with opposite axes, in the opposite order. A joint on the world
+    /// stays as it is.
+    pub(super) fn reverse(&mut self) {
+        if let Some(parent) = self.parent.replace(self.child) {
+            self.child = parent;
+            self.motion.reverse();
+            self.reversed = !self.reversed;
+        } else {
+            self.parent = None;
+        }
+    }
 }
 
 /// The frames with the links and their joints.
@@ -81,7 +97,7 @@ pub(super) fn read_joint<'e>(
         let found = frames.position(link, links);
         found.ok_or_else(|| fault(element.at, "a joint connects two links"))
     };
-    let frame = frames.named(name, element, "the joint")?;
+    let frame = frames.own(element);
     let Some(motion) = joints::motion(element, (frames, frame), version, report)? else {
         return Ok(None);
     };
@@ -102,33 +118,24 @@ pub(super) fn read_joint<'e>(
         motion,
         parent,
         child,
+        reversed: false,
     }))
 }
 
 impl<'e> ModelLayout<'e> {
-    /// Decides which joints carry links: the first one of each link in the order of the file, unless the link carries
-    /// that joint.
+    /// Decides where the frames of links are; `carrier` is the joint that carries each.
     pub(super) fn new(
         (model, frames, links): (&Element, Frames, Vec<&'e Element>),
         joints: &[ReadJoint<'_>],
+        carrier: Vec<Option<usize>>,
     ) -> Result<Self> {
-        let mut carrier: Vec<Option<usize>> = vec![None; links.len()];
-        for (j, joint) in joints.iter().enumerate() {
-            let mut at = joint.parent;
-            while let Some(link) = at.filter(|link| *link != joint.child) {
-                at = carrier[link].and_then(|j: usize| joints[j].parent);
-            }
-            if carrier[joint.child].is_none() && at.is_none() {
-                carrier[joint.child] = Some(j);
-            }
-        }
         let mut own = Vec::new();
         for (link, carrier) in links.iter().zip(&carrier) {
             let moving = carrier.map(|j| &joints[j]);
             let moving = moving.filter(|joint| !matches!(joint.motion, Motion::Fixed));
             own.push(match moving {
                 Some(joint) => joint.frame,
-                None => frames.named(link.get("name").unwrap_or_default(), link, "the link")?,
+                None => frames.own(link),
             });
         }
         let given = model.child("pose").map(values::pose).transpose()?;
@@ -164,7 +171,7 @@ impl<'e> ModelLayout<'e> {
     /// Returns a named frame of the file.
     pub(super) fn named(&self, element: &Element) -> Result<Frame> {
         let name = name(element)?;
-        let frame = self.frames.named(name, element, "the frame")?;
+        let frame = self.frames.own(element);
         let link = self
             .frames
             .position(self.frames.link_of(frame), &self.links);

@@ -13,6 +13,8 @@ use anyhow::Result;
 
 const NO_INERTIAL: &str =
     "links without `<inertial>`, to which the format gives 1 kg and 1 kg·m² about each axis";
+const NO_INERTIA: &str =
+    "links without `<inertia>`, to which the format gives 1 kg·m² about each axis";
 const NO_GRAVITY: &str =
     "links on which no gravity acts in the file (`<gravity>`); it acts on them here";
 
@@ -26,10 +28,14 @@ pub(super) fn read(layout: &ModelLayout<'_>, report: &mut SdfReport) -> Result<V
         if flag(element, "gravity")? == Some(false) {
             report.groups.add(NO_GRAVITY, label.clone());
         }
-        if element.child("inertial").is_none() {
-            report.groups.add(NO_INERTIAL, label);
+        match element.child("inertial") {
+            None => report.groups.add(NO_INERTIAL, label),
+            Some(inertial) if inertial.child("inertia").is_none() => {
+                report.groups.add(NO_INERTIA, label);
+            }
+            Some(_) => {}
         }
-        let frame = layout.frames.named(own, element, "the link")?;
+        let frame = layout.frames.own(element);
         let inertial = inertial(element, report)?;
         let place = layout.carrier[index]
             .is_none()

@@ -13,6 +13,7 @@ pub(super) struct Selected<'e> {
     pub(super) gravity: Option<[Num; 3]>,
 }
 
+const INCLUDED: &str = "models and lights from other files beside the model, not imported";
 const STATIC: &str = "models that are static, not imported";
 
 /// Returns the version of the format.
@@ -52,7 +53,7 @@ pub(super) fn select<'e>(root: &'e Element, report: &mut SdfReport) -> Result<Se
     let is_own = |it: &Element| std::ptr::eq(it, model);
     let mut worlds = root.all("world");
     let world = worlds.find(|world| world.all("model").any(is_own));
-    let gravity = world.map(|world| gravity(world, model, report));
+    let gravity = world.map(|world| gravity(world, model, version(root), report));
     let gravity = gravity.transpose()?;
     report.check()?;
     Ok(Selected { model, gravity })
@@ -61,14 +62,14 @@ pub(super) fn select<'e>(root: &'e Element, report: &mut SdfReport) -> Result<Se
 /// Returns the only model that is not static, and refuses what connects it with others.
 fn moving<'e>(root: &'e Element, report: &mut SdfReport) -> Result<&'e Element> {
     let inside = root.all("world").flat_map(|world| &world.children);
-    let mut moving = Vec::new();
+    let (mut moving, mut included) = (Vec::new(), Vec::new());
     for element in root.children.iter().chain(inside) {
         match element.name.as_str() {
             "model" => match flag(element, "static")? {
                 Some(true) => report.groups.add(STATIC, format!("`{}`", name(element))),
                 _ => moving.push(element),
             },
-            "include" => refuse_include(element, report),
+            "include" => included.push(element),
             "joint" => report.refuse(
                 element.at,
                 format!(
@@ -77,6 +78,12 @@ fn moving<'e>(root: &'e Element, report: &mut SdfReport) -> Result<&'e Element> 
                 ),
             ),
             _ => {}
+        }
+    }
+    for element in included {
+        match moving.is_empty() {
+            true => refuse_include(element, report),
+            false => report.groups.add(INCLUDED, format!("`{}`", uri(element))),
         }
     }
     match moving.as_slice() {
@@ -99,7 +106,12 @@ fn moving<'e>(root: &'e Element, report: &mut SdfReport) -> Result<&'e Element> 
 }
 
 /// Returns the gravity of the world of a model, whose pose must be relative to the world.
-fn gravity(world: &Element, model: &Element, report: &mut SdfReport) -> Result<[Num; 3]> {
+fn gravity(
+    world: &Element,
+    model: &Element,
+    version: (u32, u32),
+    report: &mut SdfReport,
+) -> Result<[Num; 3]> {
     report.children(world, &["model", "include", "joint", "gravity"]);
     let relative = model.child("pose").and_then(|pose| pose.get("relative_to"));
     if let Some(other) = relative.filter(|other| !other.is_empty() && *other != "world") {
@@ -110,7 +122,10 @@ fn gravity(world: &Element, model: &Element, report: &mut SdfReport) -> Result<[
         );
         report.refuse(model.at, what);
     }
-    match world.child("gravity") {
+    // It moved from the physics to the world with version 1.6.
+    let physics = world.child("physics").filter(|_| version < (1, 6));
+    let older = physics.and_then(|physics| physics.child("gravity"));
+    match older.or(world.child("gravity")) {
         Some(stated) => numbers::<3>(stated),
         // The default of the format.
         None => Ok([0.0, 0.0, -9.8].map(Num::computed)),
@@ -118,12 +133,16 @@ fn gravity(world: &Element, model: &Element, report: &mut SdfReport) -> Result<[
 }
 
 fn refuse_include(element: &Element, report: &mut SdfReport) {
-    let uri = element.child("uri").map_or("", |uri| uri.text.as_str());
     let what = format!(
         "`{}` is included from another file: write its links and joints into this model",
-        shown(uri)
+        uri(element)
     );
     report.refuse(element.at, what);
+}
+
+fn uri(include: &Element) -> String {
+    let uri = include.child("uri").map_or("", |uri| uri.text.as_str());
+    shown(uri)
 }
 
 fn name(model: &Element) -> String {

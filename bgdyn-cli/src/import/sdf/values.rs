@@ -53,7 +53,7 @@ pub(super) fn flag(parent: &Element, name: &str) -> Result<Option<bool>> {
 }
 
 fn truth(text: &str) -> Option<bool> {
-    match text {
+    match text.to_ascii_lowercase().as_str() {
         "true" | "1" => Some(true),
         "false" | "0" => Some(false),
         _ => None,

@@ -11,7 +11,7 @@ use super::newton::Newton;
 use super::parameters::of_model;
 use super::polygon::polygon_function;
 use super::position_function::{PositionFunction, joint_by_joint, signature};
-use super::sample::closed_sample;
+use super::sample::{all_nan, closed_sample};
 use super::style::Style;
 use crate::bond_graph::{ClosedTree, joint_segments};
 use crate::mechanism::closure::{Polygon, closing_polygons};
@@ -339,10 +339,9 @@ impl ClosingText<'_> {
             };
         }
         body.extend(self.closed("NULL"));
-        body.extend(self.not_closed(&[]));
+        body.extend(all_nan("refused != 0", style));
         body.extend(self.returned());
-        let closed =
-            ["Then it closes; positions that close are NaN where a wheel or loop does not."];
+        let closed = ["Then it closes; all positions are NaN where a wheel or loop does not."];
         PositionFunction {
             about: about.chain(closed).chain(CAUSES).collect(),
             signature: signature(self.context, "int", "integrate", "q dv", "NQ"),

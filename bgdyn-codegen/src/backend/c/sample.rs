@@ -167,6 +167,18 @@ fn along_velocities(closed: &ClosedTree, given: &str, style: &Style) -> Vec<Stri
     lines
 }
 
+/// Returns the statements that make all positions `found` NaN on a condition.
+pub(super) fn all_nan(condition: &str, style: &Style) -> [String; 5] {
+    let (real, nq) = (style.real(), style.constant("NQ"));
+    [
+        format!("if ({condition}) {{"),
+        format!("    for (int p = 0; p < {nq}; ++p) {{"),
+        format!("        found[p] = ({real})NAN;"),
+        "    }".into(),
+        "}".into(),
+    ]
+}
+
 /// Returns the statements that sample the independent velocities' joints, the others in the middle, and close.
 fn along_constraints(closed: &ClosedTree, newton: Option<String>, style: &Style) -> Vec<String> {
     let (real, nq, nt) = (style.real(), style.constant("NQ"), style.constant("NT"));
@@ -181,20 +193,7 @@ fn along_constraints(closed: &ClosedTree, newton: Option<String>, style: &Style)
     lines.extend(independents.map(|(k, j)| format!("moved[{}] = u[{k}];", j.0)));
     lines.push(format!("{}(moved, found);", style.global("sample_joints")));
     if let Some(newton) = newton {
-        let mut positions: Vec<usize> = closed
-            .closure
-            .closing()
-            .map(|j| dependent_joint(closed, j).position)
-            .collect();
-        positions.sort_unstable();
-        positions.dedup();
-        lines.push(format!("if ({newton} != 0) {{"));
-        lines.extend(
-            positions
-                .iter()
-                .map(|p| format!("    found[{p}] = ({real})NAN;")),
-        );
-        lines.push("}".into());
+        lines.extend(all_nan(&format!("{newton} != 0"), style));
     }
     lines.push("memcpy(result, found, sizeof found);".into());
     lines

@@ -110,8 +110,12 @@ impl Closure {
         if self.signs_at(q) != self.signs {
             return Err(Unreached::OtherBranch);
         }
-        let given = moving.iter().filter(|j| is_given(j) && !kept.contains(j));
-        for p in given.map(|&j| position(j)) {
+        let further = moving.iter().filter(|j| is_given(j) && !kept.contains(j));
+        let further = further.map(|&j| position(j));
+        // A pose is no choice: all of it must be that of the closed start. Wheels bring it to their planes.
+        let poses = self.compounds.iter().filter(|_| !self.nonholonomic());
+        let poses = poses.flat_map(|joint| joint.degrees.positions.iter().map(|p| p.0));
+        for p in further.chain(poses.filter(|p| given.contains(p))) {
             agrees(p, false, (target[p], q[p]))?;
         }
         Ok(())
