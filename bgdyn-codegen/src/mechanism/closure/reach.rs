@@ -95,6 +95,13 @@ impl Closure {
         for &j in &moving {
             q[position(j)] = self.start[position(j)];
         }
+        // A given pose of a joint in loops depends on the way there: it is set at the end. Wheels bring it to their planes.
+        let poses = self.compounds.iter().filter(|_| !self.nonholonomic());
+        let poses = poses.flat_map(|joint| joint.degrees.positions.iter().map(|p| p.0));
+        let poses: Vec<usize> = poses.filter(|p| given.contains(p)).collect();
+        for &p in &poses {
+            q[p] = self.start[p];
+        }
         for part in 1..=PARTS {
             let share = Dd::from_f64(f64::from(part) / f64::from(PARTS));
             for &j in &kept {
@@ -107,15 +114,21 @@ impl Closure {
                 return Err(open(self, q, gap, f64::from(part - 1) / f64::from(PARTS)));
             }
         }
+        if !poses.is_empty() {
+            for &p in &poses {
+                q[p] = target[p];
+            }
+            let gap = self.assemble(&rows, q, &free);
+            if gap > CLOSED {
+                return Err(open(self, q, gap, 1.0));
+            }
+        }
         if self.signs_at(q) != self.signs {
             return Err(Unreached::OtherBranch);
         }
         let further = moving.iter().filter(|j| is_given(j) && !kept.contains(j));
         let further = further.map(|&j| position(j));
-        // A pose is no choice: all of it must be that of the closed start. Wheels bring it to their planes.
-        let poses = self.compounds.iter().filter(|_| !self.nonholonomic());
-        let poses = poses.flat_map(|joint| joint.degrees.positions.iter().map(|p| p.0));
-        for p in further.chain(poses.filter(|p| given.contains(p))) {
+        for p in further.chain(poses) {
             agrees(p, false, (target[p], q[p]))?;
         }
         Ok(())
