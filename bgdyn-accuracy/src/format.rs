@@ -38,8 +38,7 @@ pub(crate) fn step(h: f64) -> String {
 }
 
 /// Escapes text for HTML and SVG.
-#[cfg(feature = "plot")]
-pub(crate) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")

@@ -59,6 +59,7 @@ pub use configuration::{Configuration, Grid, RunError, Runner, Samples, StepCont
 pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 #[cfg(feature = "plot")]
 pub use figures::{Figure, figures};
+pub use format::escaped;
 pub use integrate::{Integrate, Measured};
 pub use order_check::{Finding, Verdict, verdicts};
 #[cfg(feature = "plot")]

@@ -159,20 +159,17 @@ impl<'a> Positions<'a> {
         let Some(loops) = &self.loops else {
             return Ok(self.own.sample(u));
         };
-        if loops.closure.nonholonomic() {
-            let mut all = vec![0.5; loops.closure.positions.len()];
-            for (j, &u) in loops.closure.independents.iter().zip(u) {
-                all[j.0] = u;
-            }
-            return closed(loops.closure, &loops.tree.sample(&all));
-        }
         if loops.closure.closes_along() {
             let mut all = vec![0.5; loops.closure.positions.len()];
             for (j, &u) in loops.closure.independents.iter().zip(u) {
                 all[j.0] = u;
             }
+            let target = loops.tree.sample(&all);
+            if loops.closure.nonholonomic() {
+                return closed(loops.closure, &target);
+            }
             let mut q = self.neutral();
-            let mut part = loops.way(&loops.tree.sample(&all), &q);
+            let mut part = loops.way(&target, &q);
             part.iter_mut().for_each(|x| *x /= PARTS as f64);
             for _ in 0..PARTS {
                 match self.integrate(&q, &part) {

@@ -290,10 +290,10 @@ mod tests {
             }
             let texts: std::collections::BTreeSet<_> = axis.ticks.iter().map(|t| &t.1).collect();
             assert_eq!(texts.len(), count, "{axis:?}");
-            for (value, part) in [(low, 0), (high, 1000)] {
-                let place = axis.map(&value, (0, 1000));
-                assert!((0..=1000).contains(&place), "{part}: {place}");
-            }
+            // The margins leave both values inside, in their order.
+            let [from, to] = [low, high].map(|value| axis.map(&value, (0, 1000)));
+            assert!(0 < from && to < 1000, "{axis:?}: {from}, {to}");
+            assert_eq!(from < to, low < high, "{axis:?}: {from}, {to}");
         }
     }
 

@@ -6,7 +6,7 @@ use super::{
     Area, Chart, Drawn, INK, Marker, RGBColor, Stroke, at, curve, mark, place_in, text, write,
 };
 
-/// What stands for a series of a plot in its legend.
+/// The sign of a series in the legend of a plot.
 #[derive(Clone, Copy, Debug)]
 pub enum Sign {
     /// A curve.

@@ -1,7 +1,7 @@
 //! Floating and planar joints, followers and `--base` of URDFs.
 
-use super::{many, mechanism, near, value};
-use bgdyn_cli::import::{Base, Import, Lock, Options, import, import_with};
+use super::{made, many, mechanism, near, value};
+use bgdyn_cli::import::{Base, Lock, Options, import_with};
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
 
@@ -39,10 +39,6 @@ fn chain([second, third]: [&str; 2]) -> String {
             + &joint("second", "prismatic", ["a", "b"], &second)
             + &joint("third", "revolute", ["b", "c"], &third)),
     )
-}
-
-fn made(urdf: &str) -> Import {
-    import(urdf).expect("an import")
 }
 
 fn error(urdf: &str, options: &Options) -> String {

@@ -7,16 +7,37 @@ mod mjcf_loops;
 mod mjcf_report;
 mod options;
 mod sdf;
+mod sdf_corners;
 mod sdf_writer;
 mod table;
 mod urdf;
 
+use bgdyn_cli::import::{Import, import};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::selection::function;
+
+/// Returns the import of a valid file.
+fn made(text: &str) -> Import {
+    import(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// Returns why a file is refused.
+fn refused(text: &str) -> String {
+    match import(text) {
+        Ok(made) => panic!("imported:\n{}", made.yaml),
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Replaces a text that must be there.
+fn changed(text: &str, old: &str, new: &str) -> String {
+    assert!(text.contains(old), "{old}");
+    text.replacen(old, new, 1)
+}
 
 /// Returns the mechanism of a valid text.
 fn mechanism(yaml: &str) -> Mechanism {

@@ -1,7 +1,6 @@
 //! MJCFs: values of MuJoCo, closed forms, equivalent files.
 
-use super::{effects, many, mechanism, near, pose, value};
-use bgdyn_cli::import::{Import, import};
+use super::{effects, made, many, mechanism, near, pose, value};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::random::Random;
@@ -14,10 +13,6 @@ const COMPILER: &str = r#"<compiler angle="degree" eulerseq="xYz" inertiagroupra
 /// An MJCF with this inside its root.
 fn mjcf(inside: &str) -> String {
     format!("<mujoco model='m'>\n{inside}\n</mujoco>")
-}
-
-fn made(text: &str) -> Import {
-    import(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 fn efforts(yaml: &str, state: [&[f64]; 3]) -> Vec<f64> {

@@ -1,7 +1,7 @@
 //! Loops of MJCFs: accelerations with MuJoCo's matrices, equivalent files, what is reported and refused.
 
-use super::{mechanism, near, value};
-use bgdyn_cli::import::{Import, Options, import, import_with};
+use super::{changed, made, mechanism, near, refused, value};
+use bgdyn_cli::import::{Import, Options, import_with};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
@@ -13,23 +13,6 @@ const PLANAR: &str = include_str!("../mjcf/loop_planar.xml");
 const SPATIAL: &str = include_str!("../mjcf/loop_spatial.xml");
 const WELDED: &str = include_str!("../mjcf/loop_weld.xml");
 const GOLDEN: &str = include_str!("../mjcf/loops.json");
-
-fn made(text: &str) -> Import {
-    import(text).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-fn refused(text: &str) -> String {
-    match import(text) {
-        Ok(made) => panic!("imported:\n{}", made.yaml),
-        Err(error) => error.to_string(),
-    }
-}
-
-/// Replaces a text that must be there.
-fn changed(text: &str, old: &str, new: &str) -> String {
-    assert!(text.contains(old), "{old}");
-    text.replacen(old, new, 1)
-}
 
 /// Returns the accelerations of the independent joints without efforts.
 fn free_accelerations(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Vec<f64> {

@@ -2,13 +2,11 @@
 //! alone, under the loads of its joints and loops; forces and motions of references with multipliers.
 
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
 use super::actuated::{counted, parallel_robots};
-use super::drawn::{NORMAL, at, connect, four_bar, spherical, xyz};
 use super::free_bodies::{Load, Placed, assert_free_bodies, plus, three};
-use super::random_loops::Text;
+use super::free_body_cases::{FreeBodyCase, of_other_types, spatial, with_rows_left_out};
 use super::references::{joints, numbers, reference, spec};
 use super::robot::{Robot, State, Way, close, largest};
 
@@ -52,7 +50,8 @@ fn loads(robot: &Robot, way: Way, state: &State<Dd>) -> (State<Dd>, Vec<Dd>, Vec
 }
 
 /// Asserts that each link of a mechanism is a free body, with drives at several sets of joints.
-fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
+fn compare(case: &FreeBodyCase) {
+    let text = &case.text;
     let (tree, free) = (Robot::read(&text.open()), Robot::read(&text.closed()));
     let names = tree.mechanism.joint_names();
     let own = free.mechanism.closure().expect("loops");
@@ -83,18 +82,8 @@ fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
             }
             for way in WAYS {
                 let (motion, reactions, through_joints) = loads(&robot, way, &state);
-                let mut given = Vec::new();
-                for (l, [a, b]) in links.iter().enumerate() {
-                    let at = |end: &str| Placed::frame(&tree, &format!("{end}{l}"), &motion);
-                    let place = Placed {
-                        origin: at("b").origin,
-                        ..at("a")
-                    };
-                    let load = place.load(&reactions[6 * l..6 * l + 6]);
-                    given.push((*b, load));
-                    given.push((*a, load.opposite()));
-                }
-                let what = format!("{what}, drives {driven:?}, state {seed}, {way:?}");
+                let given = case.loads(&tree, &motion, &reactions);
+                let what = format!("{}, drives {driven:?}, state {seed}, {way:?}", case.what);
                 let all = (&through_joints[..], &given[..], &efforts[..]);
                 assert_free_bodies(&tree, &motion, all, 1e-17, &what);
             }
@@ -104,43 +93,17 @@ fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
 
 #[test]
 fn links_of_spatial_loops_are_free_bodies() {
-    for (seed, root) in ["fixed", "prismatic, axis: [0.6, 0.8, 0]"]
-        .into_iter()
-        .enumerate()
-    {
-        let mut random = Random(1400 + seed as u64);
-        let text = Text::point_and_rod(&mut random, root);
-        compare(&text, &[[4, 8], [3, 6]], &format!("point and rod, {root}"));
-    }
+    spatial().iter().for_each(compare);
 }
 
 #[test]
 fn links_of_loops_of_other_types_are_free_bodies() {
-    for (seed, kind) in ["hinge", "slider", "weld", "universal"]
-        .into_iter()
-        .enumerate()
-    {
-        let mut random = Random(1500 + seed as u64);
-        let text = Text::of_type(&mut random, "continuous, axis: [1, -2, 3]", kind);
-        compare(&text, &[[4, 8]], kind);
-    }
+    of_other_types().iter().for_each(compare);
 }
 
-/// Rows are left out: a plane along no axis of a link, the same pin written twice, axes through one point.
 #[test]
 fn links_of_loops_with_rows_left_out_are_free_bodies() {
-    let ends = [at(0.4, 0.0), at(0.3, 0.0)].map(xyz);
-    let pins = [("coupler", ends[0].as_str()), ("rocker", ends[1].as_str())];
-    let mut text = four_bar("continuous, axis: [1, -2, 3]", [0.12, 0.35]);
-    connect(&mut text, "hinge", pins, (NORMAL, "    redundant: allow\n"));
-    connect(&mut text, "hinge", pins, (NORMAL, "    redundant: allow\n"));
-    compare(&text, &[[2, 3], [2, 3]], "the same pin twice");
-    let text = spherical("continuous, axis: [1, -2, 3]", 0.25);
-    compare(&text, &[[2, 3]], "spherical");
-    let mut random = Random(1600);
-    let mut text = Text::planar(&mut random, "fixed", 3);
-    text.connect(&mut random, "hinge", [3, 6], ([0, 0, 1000], [0; 3]));
-    compare(&text, &[[3, 6]], "planar");
+    with_rows_left_out().iter().for_each(compare);
 }
 
 /// The Delta robot driven at its arms with the platform's velocities as v, the Stewart platform driven at its legs:

@@ -8,6 +8,7 @@ use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::{bond_graph, random::Random};
 use bgdyn_runtime::Dd;
 
+use super::free_bodies::extrapolated;
 use super::random_loops::Text;
 use super::references::spec;
 use super::robot::{dot, largest};
@@ -59,17 +60,7 @@ fn rate(of: impl Fn(Dd) -> Vec<Dd>) -> Vec<Dd> {
         );
         h *= Dd::from_f64(0.5);
     }
-    let mut factor = Dd::ONE;
-    for _ in 1..LEVELS {
-        factor *= Dd::from_f64(4.0);
-        let better = table.windows(2).map(|pair| {
-            let both = pair[0].iter().zip(&pair[1]);
-            both.map(|(&x, &y)| y + (y - x) / (factor - Dd::ONE))
-                .collect()
-        });
-        table = better.collect();
-    }
-    table.remove(0)
+    extrapolated(table)
 }
 
 /// Asserts at random states that the followed joints have the accelerations of the law. Their velocities are S u; their

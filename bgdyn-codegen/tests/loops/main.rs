@@ -28,6 +28,7 @@ mod driven_loads;
 mod faults;
 mod followed;
 mod frame_rows;
+mod free_body_cases;
 mod locks;
 mod multipliers;
 mod open_tree;

@@ -2,13 +2,11 @@
 //! poses alone; references with multipliers; a four-bar by hand.
 
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::random::Random;
 use bgdyn_runtime::Dd;
 
-use super::drawn::{NORMAL, at, connect, four_bar, spherical, xyz};
-use super::free_bodies::{Placed, assert_free_bodies, three};
+use super::free_bodies::{assert_free_bodies, three};
+use super::free_body_cases::{FreeBodyCase, of_other_types, spatial, with_rows_left_out};
 use super::motion_of_tree::motion_of_tree;
-use super::random_loops::Text;
 use super::references::{joints, names, numbers, reference, spec};
 use super::robot::{Robot, State, Way, close, dot, largest};
 
@@ -39,7 +37,8 @@ fn loads(robot: &Robot, way: Way, state: &State<Dd>) -> Loads {
     }
 }
 
-fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
+fn compare(case: &FreeBodyCase) {
+    let text = &case.text;
     let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.closed()));
     let closure = robot.mechanism.closure().expect("loops");
     for seed in 0..2 {
@@ -49,18 +48,8 @@ fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
         }
         for way in WAYS {
             let found = loads(&robot, way, &state);
-            let mut given = Vec::new();
-            for (l, [a, b]) in links.iter().enumerate() {
-                let at = |end: &str| Placed::frame(&tree, &format!("{end}{l}"), &found.motion);
-                let place = Placed {
-                    origin: at("b").origin,
-                    ..at("a")
-                };
-                let load = place.load(&found.reactions[6 * l..6 * l + 6]);
-                given.push((*b, load));
-                given.push((*a, load.opposite()));
-            }
-            let what = format!("{what}, state {seed}, {way:?}");
+            let given = case.loads(&tree, &found.motion, &found.reactions);
+            let what = format!("{}, state {seed}, {way:?}", case.what);
             let all = (&found.joints[..], &given[..], &found.efforts[..]);
             assert_free_bodies(&tree, &found.motion, all, 1e-17, &what);
         }
@@ -69,49 +58,17 @@ fn compare(text: &Text, links: &[[usize; 2]], what: &str) {
 
 #[test]
 fn links_of_spatial_loops_are_free_bodies() {
-    for (seed, root) in ["fixed", "prismatic, axis: [0.6, 0.8, 0]"]
-        .into_iter()
-        .enumerate()
-    {
-        let mut random = Random(1100 + seed as u64);
-        let text = Text::point_and_rod(&mut random, root);
-        compare(&text, &[[4, 8], [3, 6]], &format!("point and rod, {root}"));
-    }
+    spatial().iter().for_each(compare);
 }
 
-/// In a plane along no axis of a link; with the pin written twice, of which only one carries; about one point.
 #[test]
 fn links_of_loops_with_rows_left_out_are_free_bodies() {
-    let ends = [at(0.4, 0.0), at(0.3, 0.0)].map(xyz);
-    let pins = [("coupler", ends[0].as_str()), ("rocker", ends[1].as_str())];
-    let mut text = four_bar("continuous, axis: [1, -2, 3]", [0.12, 0.35]);
-    connect(&mut text, "hinge", pins, (NORMAL, ""));
-    compare(&text, &[[2, 3]], "planar");
-    connect(&mut text, "hinge", pins, (NORMAL, "    redundant: allow\n"));
-    compare(&text, &[[2, 3], [2, 3]], "the same pin twice");
-    let text = spherical("continuous, axis: [1, -2, 3]", 0.25);
-    compare(&text, &[[2, 3]], "spherical");
+    with_rows_left_out().iter().for_each(compare);
 }
 
 #[test]
 fn links_of_loops_of_other_types_are_free_bodies() {
-    for (seed, kind) in ["hinge", "slider", "weld", "universal"]
-        .into_iter()
-        .enumerate()
-    {
-        let mut random = Random(1200 + seed as u64);
-        let text = Text::of_type(&mut random, "continuous, axis: [1, -2, 3]", kind);
-        compare(&text, &[[4, 8]], kind);
-    }
-}
-
-/// Three rows of the hinge are left out: the links are in balance without their loads.
-#[test]
-fn links_of_planar_loops_are_free_bodies() {
-    let mut random = Random(1300);
-    let mut text = Text::planar(&mut random, "fixed", 3);
-    text.connect(&mut random, "hinge", [3, 6], ([0, 0, 1000], [0; 3]));
-    compare(&text, &[[3, 6]], "planar");
+    of_other_types().iter().for_each(compare);
 }
 
 /// The multipliers of the references are forces on the link of place a in fixed axes.

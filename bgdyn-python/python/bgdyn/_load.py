@@ -25,8 +25,8 @@ def load(
     """Returns the model of a mechanism, from one of three sources.
 
     ``path`` is a file in bgdyn's YAML; its stem is the name of the mechanism. ``text`` is such a file's text,
-    with ``name``. ``urdf`` is a URDF, an MJCF or a table of Denavit–Hartenberg parameters (``.csv``), converted
-    as ``bgdyn import`` does.
+    with ``name``. ``urdf`` is a URDF, an MJCF, an SDF or a table of Denavit–Hartenberg parameters (``.csv``),
+    converted as ``bgdyn import`` does.
 
     ``formulation`` selects one formulation for every method, ``prefer`` is "operations" or "accuracy".
     ``parameters`` are values of run-time parameters, SI units.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use bgdyn_accuracy::dark::with_dark_mode;
+use bgdyn_accuracy::escaped;
 
 /// Colour of bonds and texts.
 pub(super) const INK: &str = "#282828";
@@ -125,11 +126,4 @@ impl Drawing {
         );
         with_dark_mode(&svg)
     }
-}
-
-/// Escapes text for SVG.
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
 }

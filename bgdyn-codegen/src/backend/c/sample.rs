@@ -129,23 +129,14 @@ fn towards(closed: &ClosedTree, newton: &str, style: &Style) -> Vec<String> {
 /// sampled positions, in equal parts as far as the loops close.
 fn along_velocities(closed: &ClosedTree, given: &str, style: &Style) -> Vec<String> {
     let (real, nq) = (style.real(), style.constant("NQ"));
-    let [nv, nt] = ["NV", "NT"].map(|size| style.constant(size));
+    let nv = style.constant("NV");
     let start = closed.closure.start.iter();
     let start: Vec<String> = start.map(|x| style.number(x.hi())).collect();
-    let independents = closed.closure.independents.iter().enumerate();
-    let mut lines = vec![
-        format!("const {real} start[{nq}] = {{{}}};", start.join(", ")),
-        format!("{real} moved[{nt}];"),
-        format!("{real} way[{nv}];"),
-        format!("{real} found[{nq}];"),
-        format!("{real} last[{nq}];"),
-        format!("for (int j = 0; j < {nt}; ++j) {{"),
-        format!("    moved[j] = {};", style.number(0.5)),
-        "}".into(),
-    ];
-    lines.extend(independents.map(|(k, j)| format!("moved[{}] = u[{k}];", j.0)));
+    let mut lines = sampled_tree(closed, style);
     lines.extend([
-        format!("{}(moved, found);", style.global("sample_joints")),
+        format!("const {real} start[{nq}] = {{{}}};", start.join(", ")),
+        format!("{real} way[{nv}];"),
+        format!("{real} last[{nq}];"),
         format!("{}(found, start, way);", style.global("difference")),
         format!("for (int j = 0; j < {nv}; ++j) {{"),
         format!(
@@ -167,6 +158,23 @@ fn along_velocities(closed: &ClosedTree, given: &str, style: &Style) -> Vec<Stri
     lines
 }
 
+/// Returns the statements that sample the positions `found` of the open tree: at the numbers `u` of the independent
+/// velocities, and in the middle for the others.
+fn sampled_tree(closed: &ClosedTree, style: &Style) -> Vec<String> {
+    let (real, nq, nt) = (style.real(), style.constant("NQ"), style.constant("NT"));
+    let independents = closed.closure.independents.iter().enumerate();
+    let mut lines = vec![
+        format!("{real} moved[{nt}];"),
+        format!("{real} found[{nq}];"),
+        format!("for (int j = 0; j < {nt}; ++j) {{"),
+        format!("    moved[j] = {};", style.number(0.5)),
+        "}".into(),
+    ];
+    lines.extend(independents.map(|(k, j)| format!("moved[{}] = u[{k}];", j.0)));
+    lines.push(format!("{}(moved, found);", style.global("sample_joints")));
+    lines
+}
+
 /// Returns the statements that make all positions `found` NaN on a condition.
 pub(super) fn all_nan(condition: &str, style: &Style) -> [String; 5] {
     let (real, nq) = (style.real(), style.constant("NQ"));
@@ -181,17 +189,7 @@ pub(super) fn all_nan(condition: &str, style: &Style) -> [String; 5] {
 
 /// Returns the statements that sample the independent velocities' joints, the others in the middle, and close.
 fn along_constraints(closed: &ClosedTree, newton: Option<String>, style: &Style) -> Vec<String> {
-    let (real, nq, nt) = (style.real(), style.constant("NQ"), style.constant("NT"));
-    let independents = closed.closure.independents.iter().enumerate();
-    let mut lines = vec![
-        format!("{real} moved[{nt}];"),
-        format!("{real} found[{nq}];"),
-        format!("for (int j = 0; j < {nt}; ++j) {{"),
-        format!("    moved[j] = {};", style.number(0.5)),
-        "}".into(),
-    ];
-    lines.extend(independents.map(|(k, j)| format!("moved[{}] = u[{k}];", j.0)));
-    lines.push(format!("{}(moved, found);", style.global("sample_joints")));
+    let mut lines = sampled_tree(closed, style);
     if let Some(newton) = newton {
         lines.extend(all_nan(&format!("{newton} != 0"), style));
     }

@@ -95,10 +95,7 @@ impl Closure {
         for &j in &moving {
             q[position(j)] = self.start[position(j)];
         }
-        // A given pose of a joint in loops depends on the way there: it is set at the end. Wheels bring it to their planes.
-        let poses = self.compounds.iter().filter(|_| !self.nonholonomic());
-        let poses = poses.flat_map(|joint| joint.degrees.positions.iter().map(|p| p.0));
-        let poses: Vec<usize> = poses.filter(|p| given.contains(p)).collect();
+        let poses = self.given_poses(given);
         for &p in &poses {
             q[p] = self.start[p];
         }
@@ -115,9 +112,7 @@ impl Closure {
             }
         }
         if !poses.is_empty() {
-            for &p in &poses {
-                q[p] = target[p];
-            }
+            poses.iter().for_each(|&p| q[p] = target[p]);
             let gap = self.assemble(&rows, q, &free);
             if gap > CLOSED {
                 return Err(open(self, q, gap, 1.0));
@@ -132,6 +127,19 @@ impl Closure {
             agrees(p, false, (target[p], q[p]))?;
         }
         Ok(())
+    }
+
+    /// Returns the given positions of joints in loops with several velocities. Where they end depends on the way, so that
+    /// they are set after the others. Wheels bring theirs to the planes, from the first part on.
+    fn given_poses(&self, given: &[usize]) -> Vec<usize> {
+        if self.nonholonomic() {
+            return Vec::new();
+        }
+        let all = self
+            .compounds
+            .iter()
+            .flat_map(|joint| &joint.degrees.positions);
+        all.map(|p| p.0).filter(|p| given.contains(p)).collect()
     }
 }
 
