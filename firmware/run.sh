@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")"
 . ./toolchain.sh
-. ../.ci/skip.sh
+. ../tests/skip.sh
 programs=(scara puma560 payload)
 
 # run CPU FLAGS…: runs the controllers.

@@ -10,6 +10,6 @@ int main(int, char** argv) {
     for (const auto& part : {s.q, s.v, generated.efforts ? s.tau : s.a}) all.insert(all.end(), part.begin(), part.end());
     x.push_back(all);
   }
-  measure_outputs([&](int k) { generated.call(x[size_t(k)].data()); },
-                  [&](std::vector<double>& all) { generated.outputs([&](double x) { all.push_back(x); }); });
+  measure_outputs([&](int k) { generated.compute(x[size_t(k)].data()); },
+                  [&](std::vector<double>& all) { generated.for_each_result([&](double x) { all.push_back(x); }); });
 }

@@ -37,7 +37,7 @@ struct Generated {
   }
 
   // One call; x: q, v, and a or tau.
-  void call(const Number* x) {
+  void compute(const Number* x) {
     const Number* arguments[8] = {x, x + nq, x + nq + n};
     Number* results[8] = {result.data(), result.data() + n * n, result.data() + 2 * n * n};
     function(arguments, results, integers.data(), work.data(), 0);
@@ -45,7 +45,7 @@ struct Generated {
 
   // Calls each(x) with each result; of M with the upper triangle, of the inverse of M with nothing.
   template <class Each>
-  void outputs(Each&& each) const {
+  void for_each_result(Each&& each) const {
     if (symmetric) {
       for (int j = 0; j < n; ++j)
         for (int i = 0; i <= j; ++i) each(result[size_t(j * n + i)]);

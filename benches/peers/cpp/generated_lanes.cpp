@@ -19,12 +19,12 @@ int main(int, char** argv) {
     for (const auto& part : {s.q, s.v, generated.efforts ? s.tau : s.a})
       for (double number : part) (*at++)[k % LANES] = number;
   }
-  auto call = [&](int k) { generated.call(&x[size_t(numbers * k)]); };
+  auto call = [&](int k) { generated.compute(&x[size_t(numbers * k)]); };
   double sum = 0;
   for (int k = 0; k < calls; ++k) {
     call(k);
     Lanes some{};
-    generated.outputs([&](Lanes x) { some += x; });
+    generated.for_each_result([&](Lanes x) { some += x; });
     for (int lane = 0; lane < LANES; ++lane) sum += some[lane];
   }
   std::printf("%.3f %.12e\n", time(call, calls) / LANES, sum);

@@ -37,7 +37,7 @@ impl Interface {
             return None;
         }
         let (spec, _) = crate::format::parse(text);
-        let (_, faults) = crate::read(text, Some(stem));
+        let (_, faults) = crate::read::read(text, Some(stem));
         let links = spec.as_ref().and_then(links);
         let Some(links) = links else {
             return Some(Interface {

@@ -57,7 +57,7 @@ impl SceneInterface {
         }
         let (spec, _) = parse_scene(text);
         let (written, of) = mechanism.unwrap_or_default();
-        let machine = crate::read_machine(written, Some(of)).0;
+        let machine = crate::read::read_machine(written, Some(of)).0;
         let mut guess = match (&spec, &machine) {
             (Some(spec), Some(machine)) => sketched(spec, machine),
             _ => joints(written),

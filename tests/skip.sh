@@ -1,4 +1,4 @@
-# Sourced by the steps. A step that cannot be made says so in one line, `SKIPPED: what: why; what to install`, and
+# Sourced by the steps of .ci and by firmware/run.sh. A step that cannot be made says so in one line, `SKIPPED: what: why; what to install`, and
 # .ci/run lists all of these lines at its end. With CI_STRICT=1 each is a failure.
 
 # skip WHAT WHY HOW: goes on, or ends the script with 1.
