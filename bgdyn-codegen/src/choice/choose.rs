@@ -93,6 +93,13 @@ impl<'a> Choice<'a> {
         all.map(|candidate| candidate.plain.clone()).collect()
     }
 
+    /// Returns the functions of the method that were compared and meet the error bounds, in the form of their formulations.
+    pub fn accepted(&self, method: Method) -> Vec<Function> {
+        let candidates = self.choose_once(method).0;
+        let accepted = candidates.accepted.iter();
+        accepted.map(|candidate| candidate.plain.clone()).collect()
+    }
+
     /// Returns the functions for forward dynamics that meet the error bounds, the cheapest first, in the
     /// form of their formulations.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod block;
+mod bundle;
 mod closing;
 mod context;
 mod difference;
