@@ -72,7 +72,11 @@ pub fn bundle(
 /// one after the other is replaced by the one with which the whole costs least, until none is.
 fn most_sharing(choice: &Choice<'_>, methods: &[Method]) -> Vec<Function> {
     let candidates: Vec<Vec<Function>> = (methods.iter())
-        .map(|&method| choice.accepted(method).iter().map(unrolled).collect())
+        .map(|&method| {
+            let own = choice.accepted(method).into_iter();
+            let all = own.chain(choice.sharing(method, methods));
+            all.map(|function| unrolled(&function)).collect()
+        })
         .collect();
     let mut taken = vec![0; methods.len()];
     let at = |taken: &[usize]| -> Vec<Function> {
