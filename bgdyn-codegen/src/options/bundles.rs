@@ -17,7 +17,13 @@ pub struct BundleOption {
 }
 
 /// Names that other functions of a generated struct have.
-const TAKEN: [&str; 4] = ["assemble", "close", "default", "joint_pose"];
+const TAKEN: [&str; 5] = [
+    "assemble",
+    "close",
+    "close_polygons",
+    "default",
+    "set_base_motion",
+];
 
 /// Returns the name and the methods of each bundle; adds what is wrong with them to `unknown`.
 pub(super) fn selected(

@@ -201,7 +201,11 @@ impl Options {
             (self.methods.is_some(), "methods", "a scene has its own"),
             (self.frames.is_some(), "frames", "see the key `outputs`"),
             (self.derivatives, "derivatives", "see `jacobian`"),
-            (!self.bundles.is_empty(), "bundle", "a scene has its own"),
+            (
+                !self.bundles.is_empty(),
+                "bundle",
+                "a scene has its own functions",
+            ),
             (
                 self.formulation.is_some(),
                 "formulation",

@@ -49,7 +49,9 @@ impl Formulation for Recursion {
 
     fn sharing(&self, prepared: &Prepared<'_>, method: Method, others: &[Method]) -> Vec<Function> {
         let (graph, geometry) = (prepared.graph, prepared.geometry());
-        let plans = others.iter().filter(|other| of_one_motion(**other) && makes(graph, **other));
+        let plans = others
+            .iter()
+            .filter(|other| of_one_motion(**other) && makes(graph, **other));
         let plans = plans.filter_map(|&other| best_plans(prepared, other));
         plans
             .flat_map(|best| match method {
