@@ -15,6 +15,7 @@ mod loops;
 mod reading;
 mod scene;
 mod values;
+mod without_motion;
 
 use bgdyn_runtime::Digits;
 
@@ -34,6 +35,7 @@ pub(crate) use loops::*;
 pub(crate) use reading::*;
 pub(crate) use scene::*;
 pub(crate) use values::*;
+pub(crate) use without_motion::*;
 
 /// Prints a computed number with six digits.
 fn six_digits(x: f64) -> String {
