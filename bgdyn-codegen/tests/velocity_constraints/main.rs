@@ -37,4 +37,5 @@ mod rattleback;
 mod reactions;
 mod slip_rows;
 mod spatial_references;
+mod starts;
 mod verified;

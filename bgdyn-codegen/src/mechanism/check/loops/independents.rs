@@ -12,7 +12,10 @@ use crate::mechanism::{CoordinateId, Mechanism};
 /// a choice meets counts.
 const RATIOS: [f64; 6] = [0.1, 0.03, 0.01, 1e-3, 1e-6, 1e-9];
 
-/// The smallest ratio at the start with which a choice stays, if another one is better there.
+/// Ratios that are tried before, where the first choice is singular at the start.
+const BETTER_RATIOS: [f64; 2] = [0.5, 0.3];
+
+/// The smallest ratio at the start with which the first choice stays, if another one is better there.
 const LEAST_AT_START: f64 = 1e-3;
 
 /// B at one position, row by row.
@@ -138,22 +141,24 @@ fn displacements(joint: &ChainStep) -> Vec<usize> {
 
 /// Returns `count` velocities that can be independent at all sampled positions: the first ones that are so at the start
 /// as well, if there are any. The samples are closed positions at random, which may all be regular where the start is
-/// singular: a ball at its neutral attitude.
+/// singular: those of a ball, which starts at its neutral attitude.
 fn regular_choice(
     free: &[usize],
     count: usize,
     (mut jacobians, at_start): (Vec<Jacobian>, Jacobian),
 ) -> Option<Vec<usize>> {
-    let first = |jacobians: &[Jacobian]| {
-        let mut ratios = RATIOS.iter();
+    let first = |jacobians: &[Jacobian], ratios: &[f64]| {
+        let mut ratios = ratios.iter();
         ratios.find_map(|&ratio| first_choice(free, count, (jacobians, ratio)))
     };
-    let usual = first(&jacobians)?;
+    let usual = first(&jacobians, &RATIOS)?;
     if smallest_pivot(&at_start, &without(free, &usual)) >= LEAST_AT_START {
         return Some(usual);
     }
     jacobians.push(at_start);
-    Some(first(&jacobians).unwrap_or(usual))
+    let better = first(&jacobians, &BETTER_RATIOS);
+    let other = better.or_else(|| first(&jacobians, &RATIOS));
+    Some(other.unwrap_or(usual))
 }
 
 fn without(all: &[usize], some: &[usize]) -> Vec<usize> {

@@ -9,7 +9,7 @@ use bgdyn_runtime::Dd;
 use crate::fault::{Faults, wording};
 use crate::mechanism::closure::{Closure, LoopRow, eliminate};
 
-/// Rows depend on each other if the ratio of their pivots is less.
+/// Rows depend on each other if a pivot is less, relative to their rates where they are open.
 const SINGULAR: f64 = 1e-10;
 
 /// Reports the row that depends on others, or has no rates, at the start and at all closed positions. `None` if there
@@ -33,7 +33,8 @@ pub(super) fn refuse(closure: &Closure, faults: &mut Faults) -> Option<()> {
     None
 }
 
-/// Returns the largest rate of each row where the loops are open.
+/// Returns the largest rate of each row where the loops are open, at most the size of the mechanism or 1: that of a rod
+/// is longer than the rod by any factor.
 fn sizes(closure: &Closure, rows: &[LoopRow]) -> Vec<f64> {
     let mut sizes = vec![0.0; rows.len()];
     for q in closure.open_positions() {
@@ -43,7 +44,8 @@ fn sizes(closure: &Closure, rows: &[LoopRow]) -> Vec<f64> {
             *size = all.fold(*size, f64::max);
         }
     }
-    sizes
+    let most = closure.size().max(1.0);
+    sizes.into_iter().map(|size| size.min(most)).collect()
 }
 
 /// Returns the row with the smallest pivot at a position, if it is a rounding error.
@@ -56,8 +58,11 @@ fn dependent_row(
     for (row, size) in rates.iter_mut().zip(sizes) {
         row.iter_mut().for_each(|x| *x /= Dd::from_f64(*size));
     }
-    let (pivots, ratio) = eliminate(&mut rates, closure.positions.len());
+    let (pivots, _) = eliminate(&mut rates, closure.positions.len());
     let left = (0..rows.len()).find(|r| pivots.iter().all(|(row, _)| row != r));
-    let smallest = pivots.last().map(|(row, _)| *row);
-    left.or(smallest.filter(|_| ratio < SINGULAR))
+    let smallest = pivots.last().filter(|&&(row, column)| {
+        let pivot = rates[row][column];
+        pivot.to_f64().abs() < SINGULAR
+    });
+    left.or(smallest.map(|(row, _)| *row))
 }
