@@ -12,10 +12,10 @@ mod inertia;
 mod inputs;
 mod joints;
 mod loops;
+mod motionless;
 mod reading;
 mod scene;
 mod values;
-mod without_motion;
 
 use bgdyn_runtime::Digits;
 
@@ -32,10 +32,10 @@ pub(crate) use inertia::*;
 pub(crate) use inputs::*;
 pub(crate) use joints::*;
 pub(crate) use loops::*;
+pub(crate) use motionless::*;
 pub(crate) use reading::*;
 pub(crate) use scene::*;
 pub(crate) use values::*;
-pub(crate) use without_motion::*;
 
 /// Prints a computed number with six digits.
 fn six_digits(x: f64) -> String {

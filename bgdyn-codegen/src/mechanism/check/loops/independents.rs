@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::rank::Jacobian;
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
 use crate::math::Vec3;
@@ -17,9 +18,6 @@ const BETTER_RATIOS: [f64; 2] = [0.5, 0.3];
 
 /// The smallest ratio at the start with which the first choice stays, if another one is better there.
 const LEAST_AT_START: f64 = 1e-3;
-
-/// B at one position, row by row.
-type Jacobian = Vec<Vec<Dd>>;
 
 /// Returns the velocities that the file names as independent. `None` if a rule is broken.
 pub(super) fn named(
