@@ -345,6 +345,7 @@ fn loops_that_always_hold_are_refused() {
     let again = "{ name: again, type: hinge, axis: z, redundant: allow, a: { link: crank, origin: { xyz: [0.3, 0, 0] } }, \
                  b: { link: rod } }";
     let links = "format: 1
+name: twice
 links:
   - { name: crank, joint: { name: q1, type: continuous, axis: z }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
   - { name: rod, parent: crank, joint: { name: q2, type: continuous, axis: z, origin: { xyz: [0.3, 0, 0] } }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
