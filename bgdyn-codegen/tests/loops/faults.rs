@@ -363,3 +363,12 @@ loops:
     refused_text(&with(&[pin, &unsaid]), "closes-nothing", "loops[1]", &words);
     assert_eq!(found(&with(&[pin, again])).0, []);
 }
+
+/// The rate of a rod's row is one of lengths, relative to the rod's own: it has no size from which one is a rounding
+/// error.
+#[test]
+fn rods_may_be_short() {
+    let rod = HINGE.replace("type: hinge", "type: distance, length: 1e-12");
+    let text = format!("{LINKS}loops:\n  - {rod}\n");
+    assert_eq!(found(&text).0, []);
+}

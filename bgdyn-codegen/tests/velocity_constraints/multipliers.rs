@@ -15,6 +15,9 @@ const WAYS: [Way; 2] = [None, Some("subspaces")];
 /// A row of B, and γ.
 pub type Row = (Vec<Dd>, Dd);
 
+/// Returns the rows of the open tree in a state.
+type RowsOfTree<'a> = &'a dyn Fn(&State<Dd>) -> Vec<Row>;
+
 /// Compares in three states.
 fn compare(text: &Text, what: &str) {
     let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.constrained()));
@@ -38,7 +41,7 @@ fn compare(text: &Text, what: &str) {
 /// Compares at one state; `rows` are B and γ of the open tree, in the directions of the generated rows or in others.
 pub fn compare_at(
     (tree, robot): (&Robot, &Robot),
-    (rows, same_directions): (&dyn Fn(&State<Dd>) -> Vec<Row>, bool),
+    (rows, same_directions): (RowsOfTree<'_>, bool),
     mut state: State<Dd>,
     what: &str,
 ) {
