@@ -338,3 +338,37 @@ frames:",
         &["`wheel_joint`", "`q1`"],
     );
 }
+
+/// A hinge where a joint is already; with `redundant: allow` it may stand beside another loop.
+#[test]
+fn loops_that_always_hold_are_refused() {
+    let again = "{ name: again, type: hinge, axis: z, redundant: allow, a: { link: crank, origin: { xyz: [0.3, 0, 0] } }, \
+                 b: { link: rod } }";
+    let links = "format: 1
+name: twice
+links:
+  - { name: crank, joint: { name: q1, type: continuous, axis: z }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
+  - { name: rod, parent: crank, joint: { name: q2, type: continuous, axis: z, origin: { xyz: [0.3, 0, 0] } }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
+  - { name: slider, joint: { name: q3, type: prismatic, axis: x }, mass: 1, inertia: { xx: 1, yy: 1, zz: 1 } }
+loops:
+";
+    let pin = "{ name: pin, type: hinge, axis: z, a: { link: rod, origin: { xyz: [0.5, 0, 0] } }, b: { link: slider } }";
+    let words = ["`again`", "constrains nothing", "`tilt x`"];
+    let with = |loops: &[&str]| {
+        let list: String = loops.iter().map(|one| format!("  - {one}\n")).collect();
+        format!("{links}{list}")
+    };
+    refused_text(&with(&[again]), "closes-nothing", "loops[0]", &words);
+    let unsaid = again.replace("redundant: allow, ", "");
+    refused_text(&with(&[pin, &unsaid]), "closes-nothing", "loops[1]", &words);
+    assert_eq!(found(&with(&[pin, again])).0, []);
+}
+
+/// The rate of a rod's row is one of lengths, relative to the rod's own: it has no size from which one is a rounding
+/// error.
+#[test]
+fn rods_may_be_short() {
+    let rod = HINGE.replace("type: hinge", "type: distance, length: 1e-12");
+    let text = format!("{LINKS}loops:\n  - {rod}\n");
+    assert_eq!(found(&text).0, []);
+}

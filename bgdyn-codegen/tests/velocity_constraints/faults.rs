@@ -75,6 +75,27 @@ fn places_and_planes_need_known_names() {
     );
 }
 
+/// The cart never moves along z: the edge would take no velocity.
+#[test]
+fn constraints_that_always_hold_are_refused() {
+    changed(
+        EDGE,
+        ("direction: y", "direction: z"),
+        "contact-moves-nothing",
+        "",
+        &["`edge`", "constrains nothing", "row `slip`"],
+    );
+}
+
+/// The axle is across the wheel's joint: the wheel is upright, and touches, at two angles of the joint only.
+#[test]
+fn wheels_that_touch_at_single_positions_are_refused() {
+    let across = WHEEL.replace("axis: y", "axis: z");
+    let path = "constraints.rim";
+    let words = ["`rim`", "single positions"];
+    refused(&[&across], "", "loop-at-single-position", path, &words);
+}
+
 #[test]
 fn radii_are_positive_lengths() {
     let radius = |text: &'static str| ("100 mm", text);

@@ -1,9 +1,12 @@
 //! Tests wheels, balls and knife edges: reference solutions, random mechanisms against the open tree with
-//! multipliers, the generator's own check, counts, faults.
+//! multipliers, also with loops beside them, the generator's own check, counts, faults.
 
 #[path = "../joints/findings.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod findings;
+#[path = "../loops/frame_rows.rs"]
+#[allow(dead_code, reason = "shared with the tests of loops")]
+mod frame_rows;
 #[path = "../joints/free_bodies.rs"]
 mod free_bodies;
 #[path = "../joints/maker.rs"]
@@ -12,12 +15,16 @@ mod maker;
 mod motion_of_tree;
 #[path = "../joints/multiplier_system.rs"]
 mod multiplier_system;
+#[path = "../loops/random_loops.rs"]
+#[allow(dead_code, reason = "shared with the tests of loops")]
+mod random_loops;
 #[path = "../joints/robot.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod robot;
 #[path = "../joints/turned_signs.rs"]
 mod turned_signs;
 
+mod beside_loops;
 mod counts;
 mod derivatives;
 mod faults;
@@ -30,4 +37,5 @@ mod rattleback;
 mod reactions;
 mod slip_rows;
 mod spatial_references;
+mod starts;
 mod verified;

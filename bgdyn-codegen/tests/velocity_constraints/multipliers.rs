@@ -12,6 +12,12 @@ use super::slip_rows::rows;
 
 const WAYS: [Way; 2] = [None, Some("subspaces")];
 
+/// A row of B, and γ.
+pub type Row = (Vec<Dd>, Dd);
+
+/// Returns the rows of the open tree in a state.
+type RowsOfTree<'a> = &'a dyn Fn(&State<Dd>) -> Vec<Row>;
+
 /// Compares in three states.
 fn compare(text: &Text, what: &str) {
     let (tree, robot) = (Robot::read(&text.open()), Robot::read(&text.constrained()));
@@ -20,11 +26,25 @@ fn compare(text: &Text, what: &str) {
     for k in 0..3 {
         let mut state = robot.state(k as u64);
         state.q.clone_from(&closure.samples[4 * k + 1]);
-        compare_at((&tree, &robot), text, state, &format!("{what}, state {k}"));
+        let all = || text.all.iter().enumerate();
+        let of_tree = |state: &State<Dd>| -> Vec<Row> {
+            all()
+                .flat_map(|one| rows(&tree, one, text.normal, state))
+                .collect()
+        };
+        let same_directions = text.all.iter().all(|one| !one.touch.without_axle());
+        let what = format!("{what}, state {k}");
+        compare_at((&tree, &robot), (&of_tree, same_directions), state, &what);
     }
 }
 
-fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>, what: &str) {
+/// Compares at one state; `rows` are B and γ of the open tree, in the directions of the generated rows or in others.
+pub fn compare_at(
+    (tree, robot): (&Robot, &Robot),
+    (rows, same_directions): (RowsOfTree<'_>, bool),
+    mut state: State<Dd>,
+    what: &str,
+) {
     let closure = robot.mechanism.closure().expect("constraints");
     let value = |method| -> Vec<Dd> { state.value(&robot.function(None, method)) };
     let rates = value(Method::TreeVelocity);
@@ -38,10 +58,7 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
         a: vec![Dd::ZERO; tree.nv()],
         u: efforts.clone(),
     };
-    let all = text.all.iter().enumerate();
-    let rows: Vec<(Vec<Dd>, Dd)> = all
-        .flat_map(|one| rows(tree, one, text.normal, &of_tree))
-        .collect();
+    let rows = rows(&of_tree);
     for (row, _) in &rows {
         let off = dot(row, &rates).to_f64().abs();
         assert!(
@@ -96,7 +113,7 @@ fn compare_at((tree, robot): (&Robot, &Robot), text: &Text, mut state: State<Dd>
         let (found, wanted) = (on_joints(&own, &own_forces), on_joints(&theirs, lambda));
         close(&found, &wanted, 1e-21, forces, &what);
         // Rows of wheels and edges have the same directions as here; those of balls and ellipsoids are along the plane's axes.
-        if text.all.iter().all(|one| !one.touch.without_axle()) {
+        if same_directions {
             close(&own_forces, lambda, 1e-21, forces, &what);
         }
     }

@@ -71,10 +71,10 @@ fn noisy(random: &mut Random) -> [i64; 3] {
 
 /// A mechanism with its constraints.
 pub struct Text {
-    head: String,
-    links: String,
-    frames: String,
-    constraints: String,
+    pub head: String,
+    pub links: String,
+    pub frames: String,
+    pub constraints: String,
     pub all: Vec<Constraint>,
     /// The normal of the plane.
     pub normal: [Dd; 3],

@@ -162,10 +162,10 @@ pub struct Closure {
     /// otherwise all dependent ones do.
     pub closers: Vec<CoordinateId>,
     /// With rows on velocities: the rows that are solved, as sums of [`Closure::rows`] with these constant factors;
-    /// otherwise empty.
+    /// otherwise empty. Rows of loops are themselves.
     pub combined: Vec<Vec<Dd>>,
-    /// For each row that is solved and each velocity of the open tree its rate, if it is the same at every position;
-    /// empty like [`Closure::combined`].
+    /// For each row of contacts that is solved and each velocity of the open tree its rate, if it is the same at every
+    /// position; empty like [`Closure::combined`].
     pub constants: Vec<Vec<Option<Dd>>>,
     /// Whether rows of contacts are solved along their planes, not in axes of wheels.
     pub of_plane: bool,

@@ -1,6 +1,7 @@
 //! Combines rows of contacts with constant factors, so that fewer velocities appear in each.
 //!
-//! The sum of two knife edges that are steered by opposite angles moves a board sideways only.
+//! The sum of two knife edges that are steered by opposite angles moves a board sideways only. Rows of loops stay as
+//! they are: they may be written in the axes of their other place, where other factors and other constants hold.
 
 use bgdyn_runtime::Dd;
 
@@ -21,7 +22,8 @@ pub(super) fn combine(closure: &mut Closure) {
     let n = closure.rows.len();
     let mut combined: Vec<Vec<Dd>> = (0..n).map(|r| unit(n, r)).collect();
     let mut rest = n * n;
-    while let Some((row, other, factor)) = better(&sampled, n)
+    let of_contacts: Vec<usize> = (0..n).filter(|&r| is_of_contact(closure, r)).collect();
+    while let Some((row, other, factor)) = better(&sampled, &of_contacts)
         && rest > 0
     {
         rest -= 1;
@@ -31,9 +33,17 @@ pub(super) fn combine(closure: &mut Closure) {
         subtract(&mut combined, row, other, factor);
     }
     let all = 0..closure.positions.len();
-    let of_row = |r: usize| all.clone().map(|j| constant(&sampled, r, j)).collect();
+    let of_row = |r: usize| {
+        let entry = |j: usize| constant(&sampled, r, j).filter(|_| is_of_contact(closure, r));
+        all.clone().map(entry).collect()
+    };
     closure.constants = (0..n).map(of_row).collect();
     closure.combined = combined;
+}
+
+fn is_of_contact(closure: &Closure, r: usize) -> bool {
+    let one = &closure.loops[closure.rows[r].closes];
+    one.contact.is_some()
 }
 
 fn unit(n: usize, r: usize) -> Vec<Dd> {
@@ -55,12 +65,12 @@ fn constant(sampled: &[Vec<Vec<Dd>>], row: usize, j: usize) -> Option<Dd> {
     same.then_some(first)
 }
 
-/// Returns a row that has fewer entries after a multiple of another one is subtracted.
-fn better(sampled: &[Vec<Vec<Dd>>], n: usize) -> Option<(usize, usize, Dd)> {
+/// Returns a row that has fewer entries after a multiple of another one is subtracted, both of these rows.
+fn better(sampled: &[Vec<Vec<Dd>>], rows: &[usize]) -> Option<(usize, usize, Dd)> {
     let width = sampled.first()?.first()?.len();
     let entries = |row: usize| (0..width).filter(|&j| !is_zero(sampled, row, j)).count();
-    for row in 0..n {
-        for other in (0..n).filter(|&other| other != row) {
+    for &row in rows {
+        for other in rows.iter().copied().filter(|&other| other != row) {
             for j in 0..width {
                 let Some(factor) = constant_ratio(sampled, (row, other), j) else {
                     continue;

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::rank::Jacobian;
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
 use crate::math::Vec3;
@@ -11,6 +12,12 @@ use crate::mechanism::{CoordinateId, Mechanism};
 /// Smallest ratios of pivots of the dependent columns, at all sampled positions, that are tried: the first one that
 /// a choice meets counts.
 const RATIOS: [f64; 6] = [0.1, 0.03, 0.01, 1e-3, 1e-6, 1e-9];
+
+/// Ratios that are tried before, where the first choice is singular at the start.
+const BETTER_RATIOS: [f64; 2] = [0.5, 0.3];
+
+/// The smallest ratio at the start with which the first choice stays, if another one is better there.
+const LEAST_AT_START: f64 = 1e-3;
 
 /// Returns the velocities that the file names as independent. `None` if a rule is broken.
 pub(super) fn named(
@@ -53,7 +60,7 @@ pub(super) fn choose(
         faults.push(wording::nothing_left_to_move(location, rows, moving.len()));
         return None;
     }
-    let jacobians: Vec<Vec<Vec<Dd>>> = closure
+    let jacobians: Vec<Jacobian> = closure
         .samples
         .iter()
         .map(|q| scaled(closure.solved_rates(q)))
@@ -77,19 +84,13 @@ pub(super) fn choose(
         ));
         return None;
     };
-    let choice = RATIOS
-        .iter()
-        .find_map(|&ratio| first_choice(&free, more, (&jacobians, ratio)));
-    let Some(chosen) = choice else {
+    let at_start = scaled(closure.solved_rates(&closure.start));
+    let Some(chosen) = regular_choice(&free, more, (jacobians, at_start)) else {
         let listed: Vec<&str> = fixed.iter().map(|&j| names[j].as_str()).collect();
         faults.push(wording::independents_do_not_determine(location, &listed));
         return None;
     };
-    let dependents: Vec<usize> = free
-        .iter()
-        .copied()
-        .filter(|j| !chosen.contains(j))
-        .collect();
+    let dependents = without(&free, &chosen);
     closure.independents = (0..closure.positions.len())
         .filter(|j| !dependents.contains(j))
         .map(CoordinateId)
@@ -136,12 +137,39 @@ fn displacements(joint: &ChainStep) -> Vec<usize> {
     along.map(|(j, _)| j.0).collect()
 }
 
+/// Returns `count` velocities that can be independent at all sampled positions: the first ones that are so at the start
+/// as well, if there are any. The samples are closed positions at random, which may all be regular where the start is
+/// singular: those of a ball, which starts at its neutral attitude.
+fn regular_choice(
+    free: &[usize],
+    count: usize,
+    (mut jacobians, at_start): (Vec<Jacobian>, Jacobian),
+) -> Option<Vec<usize>> {
+    let first = |jacobians: &[Jacobian], ratios: &[f64]| {
+        let mut ratios = ratios.iter();
+        ratios.find_map(|&ratio| first_choice(free, count, (jacobians, ratio)))
+    };
+    let usual = first(&jacobians, &RATIOS)?;
+    if smallest_pivot(&at_start, &without(free, &usual)) >= LEAST_AT_START {
+        return Some(usual);
+    }
+    jacobians.push(at_start);
+    let better = first(&jacobians, &BETTER_RATIOS);
+    let other = better.or_else(|| first(&jacobians, &RATIOS));
+    Some(other.unwrap_or(usual))
+}
+
+fn without(all: &[usize], some: &[usize]) -> Vec<usize> {
+    let others = all.iter().filter(|j| !some.contains(j));
+    others.copied().collect()
+}
+
 /// Returns the first `count` velocities that can be independent: each, in the order of the links, whose removal leaves
 /// columns with this ratio of pivots at all positions. `None` if there are fewer.
 fn first_choice(
     free: &[usize],
     count: usize,
-    (jacobians, ratio): (&[Vec<Vec<Dd>>], f64),
+    (jacobians, ratio): (&[Jacobian], f64),
 ) -> Option<Vec<usize>> {
     let mut chosen: Vec<usize> = Vec::new();
     for &j in free {
@@ -161,14 +189,9 @@ fn first_choice(
         }
     }
     (chosen.len() == count
-        && jacobians.iter().all(|jacobian| {
-            let left: Vec<usize> = free
-                .iter()
-                .copied()
-                .filter(|k| !chosen.contains(k))
-                .collect();
-            smallest_pivot(jacobian, &left) >= ratio
-        }))
+        && jacobians
+            .iter()
+            .all(|jacobian| smallest_pivot(jacobian, &without(free, &chosen)) >= ratio))
     .then_some(chosen)
 }
 

@@ -5,10 +5,11 @@
 //!    `branch.rs`: their branch. `parallel.rs`, `sides.rs`: parallelograms on the branch `parallel` are closed by joints
 //!    that follow, before the tree is numbered; the steps below are those of other loops.
 //! 2. `axes.rs`: the axes of a loop's rows. `structure.rs`: a row that holds at every position of the tree is dropped;
-//!    one that holds at none is a fault.
+//!    one that holds at none is a fault, and so is a loop or a contact without other rows.
 //! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; `samples.rs`: closed positions
 //!    at random from there.
-//! 4. `rank.rs`: rows that follow from others are left out, or are a fault.
+//! 4. `rank.rs`: rows that follow from others are left out, or are a fault. `single_positions.rs`: so is a loop or a
+//!    contact that closes only where it cannot move.
 //!    `combine.rs`: rows of contacts are combined so that fewer velocities appear in each.
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
@@ -31,6 +32,7 @@ mod rank;
 mod read;
 mod samples;
 mod sides;
+mod single_positions;
 mod structure;
 mod tree;
 
@@ -93,6 +95,7 @@ pub(super) fn close(
     let kept = independents::named(spec, mechanism, faults)?;
     let gap = assembly::assemble(&mut closure, &read, &kept, faults)?;
     rank::leave_out(&mut closure, (&read, gap), faults)?;
+    single_positions::refuse(&closure, faults)?;
     combine::combine(&mut closure);
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
     blocks::arrange(&mut closure);

@@ -26,7 +26,7 @@ const CLOSED: f64 = 1e-24;
 const NEARLY_BEST: f64 = 0.5;
 
 /// B at one position, row by row.
-type Jacobian = Vec<Vec<Dd>>;
+pub(super) type Jacobian = Vec<Vec<Dd>>;
 
 /// The rows by what they follow from.
 struct RowsByRank {

@@ -13,8 +13,8 @@ const ROUNDING: f64 = 1e-24;
 /// A constant value below this is a rounding error of lengths and angles with 16 digits, m or rad.
 const ROUNDED: f64 = 1e-14;
 
-/// Drops the rows that hold at every position; reports those with a constant value that is not zero: above the rounding of
-/// the numbers of the file, or above the loop's `tolerance`.
+/// Drops the rows that hold at every position; reports loops that have no others, and rows with a constant value that is
+/// not zero: above the rounding of the numbers of the file, or above the loop's `tolerance`.
 pub(super) fn drop_rows(closure: &mut Closure, read: &[ReadLoop], faults: &mut Faults) {
     let values: Vec<(Vec<Dd>, Vec<Vec<Dd>>)> = closure
         .open_positions()
@@ -70,10 +70,27 @@ pub(super) fn drop_rows(closure: &mut Closure, read: &[ReadLoop], faults: &mut F
         kept.push(*row);
     }
     (closure.rows, closure.dropped) = (kept, dropped);
+    report_empty(closure, read, faults);
     let reversible = (0..closure.loops.len()).map(|closes| is_reversible(closure, closes));
     let reversible: Vec<bool> = reversible.collect();
     for (one, reversible) in closure.loops.iter_mut().zip(reversible) {
         one.reversible = reversible;
+    }
+}
+
+/// Reports loops and contacts all of whose rows hold at every position; beside others a loop may have `redundant`.
+fn report_empty(closure: &Closure, read: &[ReadLoop], faults: &mut Faults) {
+    for (closes, one) in closure.loops.iter().enumerate() {
+        let allowed = read[closes].redundant && !closure.rows.is_empty();
+        if allowed || closure.rows.iter().any(|row| row.closes == closes) {
+            continue;
+        }
+        let own = closure.dropped.iter().filter(|row| row.closes == closes);
+        let names: Vec<&str> = own.map(|row| row.name).collect();
+        faults.push(match one.contact {
+            Some(_) => wording::contact_rows_always_hold(&one.location, &one.name, &names),
+            None => wording::loop_rows_always_hold(&one.location, &one.name, &names),
+        });
     }
 }
 
