@@ -126,7 +126,7 @@ fn acceleration<'g>(
     let placed = placed(b, geometry, poses);
     b.section(|| format!("{}: its acceleration in the world", site.name));
     // The origin and the axes of the plan.
-    p.0[2] = p.0[2] - plan.slides[body];
+    p.0[2] -= plan.slides[body];
     let (c, s) = frames.bodies[body].aim;
     let zero = Dd::ZERO;
     let aim = Mat3([[c, -s, zero], [s, c, zero], [zero, zero, Dd::ONE]]);
