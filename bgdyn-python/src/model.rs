@@ -12,6 +12,7 @@ use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::documentation;
 use crate::errors::{refused, spec_error};
 use crate::method::PyMethod;
 use crate::position_calls::{Way, each_state, random_numbers};
@@ -145,6 +146,24 @@ impl Model {
         PyTuple::new(py, rows.collect::<Vec<_>>())
     }
 
+    /// The links, parents before children: the order of `joint_reactions`.
+    #[getter]
+    fn link_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.link_names())
+    }
+
+    /// The loops and contacts, in the order of `reactions`.
+    #[getter]
+    fn reaction_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.reaction_names())
+    }
+
+    /// The joints of `actuated` in the file.
+    #[getter]
+    fn actuated_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.mechanism.actuated_names())
+    }
+
     /// The links and frames X of `pose_X`, `velocity_X`, `jacobian_world_X`, `jacobian_dot_v_world_X`.
     #[getter]
     fn frame_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
@@ -212,7 +231,7 @@ impl Model {
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
         on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         if self.data.spec.mechanism.closure().is_none() {
@@ -231,7 +250,7 @@ impl Model {
         q: &Bound<'py, PyAny>,
         dv: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
         on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let way = Way::new(out, threads, on_singular);
@@ -247,7 +266,7 @@ impl Model {
         q1: &Bound<'py, PyAny>,
         q0: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q1", q1, self.nq()), ("q0", q0, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.difference(x[0], x[1]));
@@ -262,7 +281,7 @@ impl Model {
         q: &Bound<'py, PyAny>,
         v: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq()), ("v", v, self.nv())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.position_rates(x[0], x[1]));
@@ -276,7 +295,7 @@ impl Model {
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.normalize(x[0]));
@@ -285,53 +304,49 @@ impl Model {
     }
 
     /// Random positions; with loops closed ones.
-    #[pyo3(signature = (n=None, seed=None, *, threads=1))]
+    #[pyo3(signature = (n=None, seed=None, *, threads=1, on_singular="raise"))]
     fn sample<'py>(
         &self,
         py: Python<'py>,
         n: Option<&Bound<'py, PyAny>>,
         seed: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
+        on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let u = random_numbers(py, n, self.nv(), seed)?;
         let given = [("u", &u, self.nv())];
-        let way = Way::plain(None, threads);
+        let way = Way::new(None, threads, on_singular);
         let one = |of: &Positions<'_>, x: &[&[f64]]| of.sample(x[0]);
         each_state(py, &self.data, &given, self.nq(), &way, one)
     }
 
     fn __getattr__(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
-        let data = &slf.get().data;
+        let (model, data) = (slf.as_any().clone().unbind(), &slf.get().data);
         let method = data.spec.method(name).map_err(PyAttributeError::new_err)?;
-        Ok(PyMethod::new(
-            slf.as_any().clone().unbind(),
-            data.clone(),
-            method,
-        ))
+        Ok(PyMethod::new(model, data.clone(), method))
+    }
+
+    /// The same for names that the class has.
+    fn _method(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
+        Self::__getattr__(slf, name)
     }
 
     fn __dir__(slf: &Bound<'_, Self>) -> PyResult<Vec<String>> {
         let object = slf.py().import("builtins")?.getattr("object")?;
         let own: Vec<String> = object.call_method1("__dir__", (slf,))?.extract()?;
-        Ok(own.into_iter().chain(slf.get().method_names()).collect())
+        // The class shows methods that this mechanism may not have.
+        let of_class = documentation::of_class();
+        let is_method = |name: &String| of_class.iter().any(|(method, ..)| method == name);
+        let own = own.into_iter().filter(|name| !is_method(name));
+        Ok(own.chain(slf.get().method_names()).collect())
     }
 
     fn __repr__(&self) -> String {
-        let joints: Vec<&str> = self
-            .data
-            .spec
-            .graph
-            .coordinates
-            .iter()
-            .map(|c| c.name.as_str())
-            .collect();
-        format!(
-            "<bgdyn.Model {}: NQ {}, NV {}: {}>",
-            self.data.spec.name,
-            self.nq(),
-            self.nv(),
-            joints.join(", ")
-        )
+        let spec = &self.data.spec;
+        let joints = spec.graph.coordinates.iter().map(|c| c.name.as_str());
+        let joints: Vec<&str> = joints.collect();
+        let (nq, nv, joints) = (self.nq(), self.nv(), joints.join(", "));
+        format!("<bgdyn.Model {}: NQ {nq}, NV {nv}: {joints}>", spec.name)
     }
 
     fn _repr_html_(&self) -> String {
@@ -365,12 +380,8 @@ impl Model {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        (
-            &self.data.spec.text,
-            &self.data.spec.name,
-            &self.data.spec.choice,
-        )
-            .hash(&mut hasher);
+        let spec = &self.data.spec;
+        (&spec.text, &spec.name, &spec.choice).hash(&mut hasher);
         hasher.finish()
     }
 }
