@@ -15,6 +15,11 @@ Mask = NDArray[np.bool_]
 Values = Array | Sequence[float] | Sequence[Sequence[float]]
 """An array of ``float64``, or numbers in lists. Other arrays are refused."""
 
+__version__: str
+
+def class_methods() -> list[tuple[str, list[str], str]]:
+    """Returns name, arguments and text of the methods that the class ``Model`` shows."""
+
 def import_file(path: str | os.PathLike[str]) -> tuple[str, str, list[str]]:
     """Returns text, name and losses of an imported robot."""
 
@@ -33,6 +38,11 @@ class Method:
     @property
     def name(self) -> str:
         """Its name."""
+    @property
+    def __name__(self) -> str:
+        """Its name, as functions have it."""
+    @property
+    def _documentation(self) -> str: ...
     @property
     def arguments(self) -> tuple[str, ...]:
         """The names of its arguments: q, v, a, tau, qd."""
@@ -99,6 +109,15 @@ class Model:
     @property
     def constraint_names(self) -> tuple[str, ...]:
         """A name for each row of loops, wheels and knife edges."""
+    @property
+    def link_names(self) -> tuple[str, ...]:
+        """The links, parents before children: the order of ``joint_reactions``."""
+    @property
+    def reaction_names(self) -> tuple[str, ...]:
+        """The loops and contacts, in the order of ``reactions``."""
+    @property
+    def actuated_names(self) -> tuple[str, ...]:
+        """The joints of ``actuated`` in the file."""
     @property
     def frame_names(self) -> tuple[str, ...]:
         """The links and frames that have a pose, a velocity and a Jacobian."""
@@ -176,19 +195,31 @@ class Model:
         """Returns q̇ = N(q) v, (..., nq): a displacement changes by R v, a quaternion by ½ q∘ω."""
     def normalize(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
         """Returns q, (..., nq), with every quaternion divided by its length."""
+    @overload
     def sample(
         self,
         n: int | tuple[int, ...] | None = None,
         seed: int | np.random.Generator | None = None,
         *,
         threads: int = 1,
+        on_singular: Literal["raise"] = "raise",
     ) -> Array:
         """Returns random positions, (n, nq); (nq,) without ``n``.
 
-        Angles are in [−π, π), displacements in [−1, 1) m, orientations evenly distributed. With loops the positions
-        are closed: each is the last closed one on the way from ``neutral()`` to such numbers. ``seed`` is what
-        ``numpy.random.default_rng`` takes.
+        Angles are in [−π, π), displacements in [−1, 1) m, orientations evenly distributed. With loops or wheels the
+        positions are closed: those for such numbers, or else the last closed ones on the way to them from ``neutral()``.
+        ``seed`` is what ``numpy.random.default_rng`` takes.
         """
+    @overload
+    def sample(
+        self,
+        n: int | tuple[int, ...] | None = None,
+        seed: int | np.random.Generator | None = None,
+        *,
+        threads: int = 1,
+        on_singular: Literal["nan"],
+    ) -> tuple[Array, Mask]:
+        """Returns the positions, NaN where loops do not close, and where that is."""
     def inverse_dynamics(
         self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
     ) -> Array:
@@ -324,7 +355,14 @@ class Model:
         threads: int = 1,
     ) -> Wrenches:
         """With loops or wheels: returns force and moment at each of them."""
-    def __getattr__(self, name: str) -> Method: ...
+    def __getattr__(self, name: str) -> Method:
+        """Returns a method that not every model has: those of sites, for each X of ``frame_names``.
+
+        ``pose_X(q)`` is a ``Pose``, ``velocity_X(q, v)`` and ``jacobian_dot_v_world_X(q, v)`` are arrays (..., 6),
+        ``jacobian_world_X(q)`` is (..., 6, nv), the angular part first. A checker cannot know X: what the call
+        returns is ``Any``.
+        """
+    def _method(self, name: str) -> Method: ...
     def __dir__(self) -> list[str]: ...
     def __hash__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -365,11 +403,8 @@ class Scene:
         settings: tuple[float | None, float | None, float | None, int],
     ) -> Mapping[str, Any]: ...
     def _check_runs(
-        self,
-        parameters: list[str],
-        initial: list[str],
-        settings: tuple[float | None, float | None, float | None, int],
-    ) -> None: ...
+        self, names: list[str], settings: tuple[float | None, float | None, float | None, int]
+    ) -> list[bool]: ...
     def _summaries(
         self,
         parameters: list[str],

@@ -24,10 +24,14 @@ assert_type(arm.with_parameters(payload=2.0), bgdyn.Model)
 assert_type(arm.integrate(q, q), Array)
 assert_type(arm.close(q, on_singular="nan"), tuple[Array, NDArray[np.bool_]])
 assert_type(arm.sample((2, 3), seed=1), Array)
+assert_type(arm.sample(2, on_singular="nan"), tuple[Array, NDArray[np.bool_]])
+assert_type(arm.link_names, tuple[str, ...])
+assert_type(bgdyn.__version__, str)
 
 swept = bgdyn.Scene("arm.scene.yaml").sweep({"payload": [1.0, 2.0]}, workers=2, progress=lambda done, total: None)
 assert_type(swept.end["shoulder"], Array)
 assert_type(swept.failures, dict[int, str])
+bgdyn.Scene("arm.scene.yaml").sweep({"payload": 1.0})
 
 run = bgdyn.Scene("arm.scene.yaml").simulate(duration=2.0, parameters={"payload": 2.0})
 assert_type(run["shoulder"], Array)
@@ -46,7 +50,7 @@ arm.gravity(single)  # mistake: arg-type
 arm.gravity(q, q)  # mistake: call-arg
 arm.gravity("zero")  # mistake: arg-type
 arm.forward_dynamics(q, q, q, on_singular="ignore")  # mistake: call-overload
-arm.sample("ten")  # mistake: arg-type
+arm.sample("ten")  # mistake: call-overload
 arm.nq = 5  # mistake: misc
 bgdyn.load(text=5)  # mistake: arg-type
 run.end  # mistake: attr-defined
