@@ -178,11 +178,11 @@ def test_arrays_that_are_no_states() -> None:
     arm = bgdyn.load(SPECS / "scara.yaml")
     for wrong in ("text", object(), {"q": 1}):
         with pytest.raises((TypeError, ValueError), match="`q`"):
-            arm.gravity(wrong)  # type: ignore[arg-type]
+            arm.gravity(wrong)  # type: ignore[call-overload]
     with pytest.raises((TypeError, ValueError)):
         arm.gravity([[0.0, 1.0], [0.0]])
     with pytest.raises(TypeError, match="`q` is a masked array, and bgdyn has no masks: `q.filled"):
-        arm.gravity(np.ma.array([0.0, np.nan, 2.0, 3.0], mask=[0, 1, 0, 0]))
+        arm.gravity(np.ma.array([0.0, np.nan, 2.0, 3.0], mask=[False, True, False, False]))
     with pytest.raises(TypeError, match="`dv` is a masked array"):
         arm.integrate(np.zeros(4), np.ma.zeros(4))
     with pytest.raises(TypeError, match="`out` is a masked array"):

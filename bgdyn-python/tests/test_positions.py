@@ -285,7 +285,7 @@ def test_wrong_arguments(quadrotor: bgdyn.Model) -> None:
     with pytest.raises(ValueError, match="shares memory"):
         quadrotor.normalize(q, out=q)
     with pytest.raises(TypeError):
-        quadrotor.sample(2.5)  # type: ignore[arg-type]
+        quadrotor.sample(2.5)  # type: ignore[call-overload]
 
 
 def test_not_a_number_stays_in_its_state() -> None:

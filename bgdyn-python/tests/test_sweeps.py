@@ -141,7 +141,7 @@ def test_wrong_settings(swing: bgdyn.Scene) -> None:
     with pytest.raises(ValueError, match="`duration` is a positive number"):
         swing.sweep({"load": [1.0]}, duration=-1.0)
     with pytest.raises(TypeError, match="`workers` is a number of processes, not 'two'"):
-        swing.sweep({"load": [1.0]}, workers="two")  # type: ignore[arg-type]
+        swing.sweep({"load": [1.0]}, workers="two")  # type: ignore[call-overload]
     assert len(swing.sweep({"load": []}, workers=2)) == 0
 
 

@@ -2,12 +2,15 @@
 
 import os
 from collections.abc import Mapping, Sequence
+from inspect import Signature
 from typing import Any, Literal, overload
 
 import numpy as np
 from typing_extensions import Self
 from numpy.typing import NDArray
 
+from ._method_types import _Q, _QQd, _QQdTau, _QV, _QVA, _QVATau, _QVTau
+from ._methods import MethodOfClass
 from ._results import ConstrainedDynamics, ForwardDerivatives, InverseDerivatives, Wrenches
 
 Array = NDArray[np.float64]
@@ -41,6 +44,9 @@ class Method:
     @property
     def __name__(self) -> str:
         """Its name, as functions have it."""
+    @property
+    def __signature__(self) -> Signature:
+        """Its arguments."""
     @property
     def _documentation(self) -> str: ...
     @property
@@ -220,141 +226,58 @@ class Model:
         on_singular: Literal["nan"],
     ) -> tuple[Array, Mask]:
         """Returns the positions, NaN where loops do not close, and where that is."""
-    def inverse_dynamics(
-        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """Returns the efforts, (..., nv), that produce the accelerations ``a``: N·m, N."""
-    @overload
-    def forward_dynamics(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: Array | None = None,
-        threads: int = 1,
-        on_singular: Literal["raise"] = "raise",
-    ) -> Array:
-        """Returns the accelerations, (..., nv), under the efforts ``tau``: rad/s², m/s²."""
-    @overload
-    def forward_dynamics(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: Array | None = None,
-        threads: int = 1,
-        on_singular: Literal["nan"],
-    ) -> tuple[Array, Mask]:
-        """Returns the accelerations, NaN at singular states, and where these are."""
-    def mass_matrix(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """Returns M(q), (..., nv, nv), exactly symmetric: kg·m², kg·m, kg."""
-    def bias(self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """Returns the efforts, (..., nv), without M a: N·m, N."""
-    def gravity(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """Returns the efforts, (..., nv), that hold the mechanism at rest: N·m, N."""
-    def coriolis_matrix(
-        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """Returns C(q, v), (..., nv, nv): bias = C v + gravity, and Ṁ − 2C is skew."""
-    def kinetic_energy(
-        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Any:
-        """Returns ½ vᵀ M v, an array (...), a number for a single state: J."""
-    def potential_energy(
-        self, q: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Any:
-        """Returns the potential energy of gravity, an array (...), a number for a single state: J.
+    inverse_dynamics: MethodOfClass[_QVA[Array, Array]]
+    """The efforts, (..., nv), that produce the accelerations ``a``: N·m, N."""
+    forward_dynamics: MethodOfClass[_QVTau[Array, Array]]
+    """The accelerations, (..., nv), under the efforts ``tau``: rad/s², m/s²."""
+    mass_matrix: MethodOfClass[_Q[Array, Array]]
+    """M(q), (..., nv, nv), exactly symmetric: kg·m², kg·m, kg."""
+    bias: MethodOfClass[_QV[Array, Array]]
+    """The efforts, (..., nv), without M a: N·m, N."""
+    gravity: MethodOfClass[_Q[Array, Array]]
+    """The efforts, (..., nv), that hold the mechanism at rest: N·m, N."""
+    coriolis_matrix: MethodOfClass[_QV[Array, Array]]
+    """C(q, v), (..., nv, nv): bias = C v + gravity, and Ṁ − 2C is skew."""
+    kinetic_energy: MethodOfClass[_QV[Any, Array]]
+    """½ vᵀ M v, an array (...), a number for a single state: J."""
+    potential_energy: MethodOfClass[_Q[Any, Array]]
+    """The potential energy of gravity, an array (...), a number for a single state: J.
 
-        It is zero with all centres of mass at the world's origin.
-        """
-    def inverse_dynamics_derivatives(
-        self,
-        q: Values,
-        v: Values,
-        a: Values,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> InverseDerivatives:
-        """Returns ∂τ/∂q (along the tangent) and ∂τ/∂v, (..., nv, nv) each."""
-    @overload
-    def forward_dynamics_derivatives(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array, Array] | None = None,
-        threads: int = 1,
-        on_singular: Literal["raise"] = "raise",
-    ) -> ForwardDerivatives:
-        """Returns ∂a/∂q (along the tangent), ∂a/∂v and ∂a/∂τ, (..., nv, nv) each."""
-    @overload
-    def forward_dynamics_derivatives(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array, Array] | None = None,
-        threads: int = 1,
-        on_singular: Literal["nan"],
-    ) -> tuple[ForwardDerivatives, Mask]:
-        """Returns the derivatives, NaN at singular states, and where these are."""
-    def joint_reactions(
-        self,
-        q: Values,
-        v: Values,
-        a: Values,
-        tau: Values = ...,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> Wrenches:
-        """Returns force and moment on each link through its joint, at the link's origin, in link axes.
+    It is zero with all centres of mass at the world's origin.
+    """
+    inverse_dynamics_derivatives: MethodOfClass[_QVA[InverseDerivatives, tuple[Array, Array]]]
+    """∂τ/∂q (along the tangent) and ∂τ/∂v, (..., nv, nv) each."""
+    forward_dynamics_derivatives: MethodOfClass[_QVTau[ForwardDerivatives, tuple[Array, Array, Array]]]
+    """∂a/∂q (along the tangent), ∂a/∂v and ∂a/∂τ, (..., nv, nv) each."""
+    joint_reactions: MethodOfClass[_QVATau[Wrenches, tuple[Array, Array]]]
+    """Force and moment on each link of ``link_names`` through its joint, at the link's origin, in link axes.
 
-        With `actuated` in the file, `tau` are the efforts of these joints; otherwise it is not an argument.
-        """
-    def velocity_map(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """With loops: returns S(q), (..., nt, nv); the velocities of the open tree are S v."""
-    def tree_velocity(
-        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """With loops: returns the velocities of the open tree, (..., nt)."""
-    def tree_acceleration(
-        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """With loops: returns the accelerations of the open tree, (..., nt)."""
-    def constraint_residual(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """With loops: returns by how much they are open, (..., nc): m, rad."""
-    def constraint_jacobian(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """With loops: returns B(q), (..., nc, nt); B S = 0."""
-    def multipliers(
-        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """With loops: returns the efforts of the rows, (..., nc): N, N·m."""
-    def constrained_dynamics(
-        self,
-        q: Values,
-        qd: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> ConstrainedDynamics:
-        """With loops: returns accelerations and multipliers under efforts on all joints of the open tree."""
-    def reactions(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> Wrenches:
-        """With loops or wheels: returns force and moment at each of them."""
+    With ``actuated`` in the file, ``tau`` are the efforts of these joints; otherwise it is not an argument.
+    """
+    drive_efforts: MethodOfClass[_QVA[Array, Array]]
+    """With prescribed joints: the efforts of their drives, N·m, N."""
+    velocity_map: MethodOfClass[_Q[Array, Array]]
+    """With loops: S(q), (..., nt, nv); the velocities of the open tree are S v."""
+    tree_velocity: MethodOfClass[_QV[Array, Array]]
+    """With loops: the velocities of the open tree, (..., nt)."""
+    tree_acceleration: MethodOfClass[_QVA[Array, Array]]
+    """With loops: the accelerations of the open tree, (..., nt)."""
+    constraint_residual: MethodOfClass[_Q[Array, Array]]
+    """With loops: by how much they are open, (..., nc): m, rad."""
+    constraint_jacobian: MethodOfClass[_Q[Array, Array]]
+    """With loops: B(q), (..., nc, nt); B S = 0."""
+    constraint_bias: MethodOfClass[_QQd[Array, Array]]
+    """With loops: Ḃ q̇, (..., nc), for velocities of the open tree: m/s², rad/s²."""
+    closing_step: MethodOfClass[_Q[Array, Array]]
+    """With loops: the step of Newton's method that closes them, (..., nt), with the opposite sign: rad, m."""
+    project_velocity: MethodOfClass[_QQd[Array, Array]]
+    """With loops: the nearest velocities of the open tree, (..., nt), that the rows allow."""
+    multipliers: MethodOfClass[_QVA[Array, Array]]
+    """With loops: the efforts of the rows, (..., nc): N, N·m."""
+    constrained_dynamics: MethodOfClass[_QQdTau[ConstrainedDynamics, tuple[Array, Array]]]
+    """With loops: accelerations and multipliers under efforts on all joints of the open tree."""
+    reactions: MethodOfClass[_QVTau[Wrenches, tuple[Array, Array]]]
+    """With loops or wheels: force and moment at each of ``reaction_names``."""
     def __getattr__(self, name: str) -> Method:
         """Returns a method that not every model has: those of sites, for each X of ``frame_names``.
 
@@ -363,6 +286,8 @@ class Model:
         returns is ``Any``.
         """
     def _method(self, name: str) -> Method: ...
+    def __copy__(self) -> Model: ...
+    def __deepcopy__(self, _memo: object) -> Model: ...
     def __dir__(self) -> list[str]: ...
     def __hash__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from inspect import Parameter, Signature
-from typing import Any
+from typing import Any, Generic, TypeVar, overload
 
 from ._bgdyn import Method, Model, class_methods
+
+M = TypeVar("M", covariant=True)
 
 
 def signature(arguments: Sequence[str], *before: str) -> Signature:
@@ -36,7 +38,7 @@ class _Signature:
         return signature(method.arguments)
 
 
-class MethodOfClass:
+class MethodOfClass(Generic[M]):
     """A method on the class `Model`, as ``help`` shows it; on a model it is the `Method` itself."""
 
     def __init__(self, name: str, arguments: Sequence[str], documentation: str) -> None:
@@ -44,6 +46,10 @@ class MethodOfClass:
         self.__doc__ = documentation
         self.__signature__ = signature(arguments, "self")
 
+    @overload
+    def __get__(self, model: None, owner: type | None = None) -> MethodOfClass[M]: ...
+    @overload
+    def __get__(self, model: Model, owner: type | None = None) -> M: ...
     def __get__(self, model: Model | None, owner: type | None = None) -> Any:
         return self if model is None else model._method(self.__name__)
 
@@ -61,4 +67,5 @@ def document() -> None:
     for name, found in of_instances.items():
         setattr(Method, name, found)
     for name, arguments, documentation in class_methods():
-        setattr(Model, name, MethodOfClass(name, arguments, documentation))
+        of_class: MethodOfClass[Method] = MethodOfClass(name, arguments, documentation)
+        setattr(Model, name, of_class)

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,6 +171,30 @@ class Scene(_bgdyn.Scene):
         )
         return Run(found)
 
+    @overload
+    def sweep(
+        self,
+        runs: Mapping[str, Iterable[float] | float],
+        *,
+        workers: int | None = None,
+        duration: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        points: int = 101,
+        progress: Progress | bool = True,
+    ) -> Sweep: ...
+    @overload
+    def sweep(
+        self,
+        runs: Iterable[Mapping[str, float]],
+        *,
+        workers: int | None = None,
+        duration: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        points: int = 101,
+        progress: Progress | bool = True,
+    ) -> Sweep: ...
     def sweep(
         self,
         runs: Mapping[str, Iterable[float] | float] | Iterable[Mapping[str, float]],
