@@ -137,6 +137,25 @@ pub fn checked_threads(threads: i64) -> PyResult<usize> {
     }
 }
 
+/// Reads numbers by name.
+///
+/// # Errors
+/// `TypeError` for a value that is no number.
+pub fn numbers_by_name(given: &Bound<'_, PyDict>) -> PyResult<Vec<(String, f64)>> {
+    let mut found = Vec::new();
+    for (name, value) in given {
+        let name: String = name.extract()?;
+        let Ok(number) = value.extract() else {
+            let shown = value.repr()?;
+            return Err(PyTypeError::new_err(format!(
+                "`{name}` is a number in SI units, not {shown}"
+            )));
+        };
+        found.push((name, number));
+    }
+    Ok(found)
+}
+
 /// Refuses an array with a mask: its masked numbers would be taken for values.
 ///
 /// # Errors

@@ -73,7 +73,10 @@ impl Batch<'_> {
         out: Vec<&mut [f64]>,
         interrupt: &Interrupt,
     ) -> Vec<Refusal> {
-        let threads = threads.min(count).max(1);
+        let threads = threads.min(count);
+        if threads < 2 {
+            return self.compute_from(0, count, out, &|| interrupt.ask());
+        }
         let (mut shares, mut rest, mut first) = (Vec::new(), out, 0);
         for k in 0..threads {
             let end = count * (k + 1) / threads;

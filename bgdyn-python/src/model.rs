@@ -12,6 +12,7 @@ use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::arrays::numbers_by_name;
 use crate::documentation;
 use crate::errors::{refused, spec_error};
 use crate::method::PyMethod;
@@ -91,9 +92,7 @@ impl Model {
     /// The model with these values of run-time parameters, SI units.
     #[pyo3(signature = (**parameters))]
     fn with_parameters(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let given = parameters.into_iter().flatten();
-        let given = given.map(|(name, value)| Ok((name.extract()?, value.extract()?)));
-        let given: Vec<(String, f64)> = given.collect::<PyResult<_>>()?;
+        let given = parameters.map_or(Ok(vec![]), numbers_by_name)?;
         let data = self.data.with_parameters(&given);
         Ok(Model {
             data: data.map_err(PyValueError::new_err)?,

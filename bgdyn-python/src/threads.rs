@@ -5,8 +5,11 @@ use std::time::Duration;
 
 use crate::interrupt::Interrupt;
 
-/// The longest time between two looks at threads that are not finished.
-const LOOK: Duration = Duration::from_millis(1);
+/// Number of looks at a thread that is not finished without a pause: most end soon after this one.
+const LOOKS: usize = 200;
+
+/// The pause between two later looks.
+const PAUSE: Duration = Duration::from_micros(200);
 
 /// Computes each part by `one`: the first in this thread, each other in a thread of its own. Returns the results in the
 /// order of the parts. The function that `one` receives returns whether the computation shall end.
@@ -25,11 +28,13 @@ pub fn in_threads<P: Send, R: Send>(
         let own = own.map(|part| one(part, &|| interrupt.ask()));
         let mut found: Vec<R> = own.into_iter().collect();
         for thread in others {
-            let mut pause = Duration::from_micros(10);
+            let mut looks = 0..LOOKS;
             while !thread.is_finished() {
                 interrupt.ask();
-                thread::sleep(pause);
-                pause = LOOK.min(2 * pause);
+                match looks.next() {
+                    Some(_) => thread::yield_now(),
+                    None => thread::sleep(PAUSE),
+                }
             }
             match thread.join() {
                 Ok(one) => found.push(one),

@@ -118,6 +118,8 @@ def test_arguments_of_load() -> None:
         bgdyn.load(text="", name=5)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="`payload` is a number in SI units, not '5 kg'"):
         bgdyn.load(SPECS / "scara.yaml", parameters={"payload": "5 kg"})  # type: ignore[dict-item]
+    with pytest.raises(TypeError, match="`payload` is a number in SI units, not '5 kg'"):
+        bgdyn.load(SPECS / "scara.yaml").with_parameters(payload="5 kg")  # type: ignore[arg-type]
     for load in (bgdyn.load, bgdyn.Scene, lambda path: bgdyn.load(urdf=path)):
         with pytest.raises(FileNotFoundError):
             load("")
