@@ -62,7 +62,9 @@ def test_functions_have_names_and_signatures() -> None:
 def test_the_class_shows_its_methods() -> None:
     shown = pydoc.plain(pydoc.render_doc(bgdyn.Model))
     for name, arguments in {"mass_matrix": "q", "forward_dynamics": "q, v, tau", "constrained_dynamics": "q, qd, tau"}.items():
-        assert f"{name}(self, {arguments}, *, out=None, threads=1, on_singular='raise')" in shown
+        # Newer versions of Python break long lines.
+        wanted = f"{name}(self, {arguments}, *, out=None, threads=1, on_singular='raise')"
+        assert wanted.replace(" ", "") in re.sub(r"[\s|]", "", shown)
     assert "(..., nv, nv): kg·m²" in shown
     arm = bgdyn.load(SPECS / "scara.yaml")
     of_class: Any = bgdyn.Model.bias
