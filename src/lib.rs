@@ -39,6 +39,9 @@ mod pages {
     #[doc = include_str!("../docs/methods.md")]
     struct Methods;
 
+    #[doc = include_str!("../docs/bundles.md")]
+    struct Bundles;
+
     #[doc = include_str!("../docs/spec.md")]
     struct Spec;
 

@@ -8,7 +8,9 @@ use bgdyn_codegen::fault::{Fault, Faults, Location};
 use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::format::{parse, parse_scene};
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::options::{Options, UnknownName, formulation_named, preference_named};
+use bgdyn_codegen::options::{
+    BundleOption, Options, UnknownName, formulation_named, preference_named,
+};
 use bgdyn_codegen::refusal::Refusal;
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_codegen::verify::explain;
@@ -258,6 +260,9 @@ pub(crate) struct GeneratorArgs {
     /// Generate pose, velocity, Jacobian and J̇ v of these links and frames only, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     frames: Option<Vec<String>>,
+    /// Generate several methods as one function that returns all of their results; as often as wanted
+    #[arg(long = "bundle", value_name = "NAME=METHOD,…", value_parser = bundle)]
+    bundles: Vec<BundleOption>,
     /// Generate the first derivatives as well
     #[arg(long)]
     derivatives: bool,
@@ -290,9 +295,23 @@ impl GeneratorArgs {
             canonical: self.canonical,
             methods: self.methods.clone(),
             frames: self.frames.clone(),
+            bundles: self.bundles.clone(),
             ..self.choice.options()?
         })
     }
+}
+
+/// Reads `control=mass_matrix,bias`.
+fn bundle(text: &str) -> Result<BundleOption, String> {
+    let Some((name, methods)) = text.split_once('=') else {
+        return Err("write a name and its methods: control=mass_matrix,bias".into());
+    };
+    let methods = methods.split(',').map(str::trim);
+    let methods = methods.filter(|method| !method.is_empty());
+    Ok(BundleOption {
+        name: name.trim().into(),
+        methods: methods.map(String::from).collect(),
+    })
 }
 
 impl Choice {

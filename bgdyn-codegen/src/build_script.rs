@@ -26,7 +26,7 @@ use std::path::{Path, PathBuf};
 use crate::emit::{OutputOptions, source_text};
 use crate::fault::{Faults, Severity};
 use crate::files::{beside, stem};
-use crate::options::Options;
+use crate::options::{BundleOption, Options};
 use crate::options::{formulation_named, preference_named};
 use crate::pipeline::generate_module;
 use crate::read::SpecText;
@@ -106,6 +106,19 @@ impl Build {
     /// Sets the links and frames instead of the default ones: [`Options::frames`].
     pub fn frames<S: Into<String>>(mut self, names: impl IntoIterator<Item = S>) -> Self {
         self.options.frames = Some(names.into_iter().map(Into::into).collect());
+        self
+    }
+
+    /// Adds a bundle, several methods in one call: [`Options::bundles`].
+    pub fn bundle<S: Into<String>>(
+        mut self,
+        name: &str,
+        methods: impl IntoIterator<Item = S>,
+    ) -> Self {
+        self.options.bundles.push(BundleOption {
+            name: name.into(),
+            methods: methods.into_iter().map(Into::into).collect(),
+        });
         self
     }
 

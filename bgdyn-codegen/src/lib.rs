@@ -13,6 +13,7 @@ pub mod backend;
 pub mod bond_graph;
 #[cfg(feature = "source")]
 pub mod build_script;
+pub mod bundle;
 pub mod choice;
 pub mod closed_form;
 pub mod column_loop;

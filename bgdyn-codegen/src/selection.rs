@@ -1,6 +1,7 @@
 //! The functions of a mechanism or of a scene that the options select, each by its cheapest formulation.
 
 use crate::bond_graph::{self, BondGraph};
+use crate::bundle::bundle;
 use crate::choice::{Choice, prefer};
 use crate::function::Function;
 use crate::mechanism::Mechanism;
@@ -22,12 +23,18 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
         .into_iter()
         .filter_map(|method| prefer(&choice, method, options.prefer));
     let functions = chosen.map(|f| named(f, &bond_graph)).collect();
+    let bundles = options.select_bundles(&bond_graph).into_iter();
+    let bundles = bundles.filter_map(|(name, methods)| {
+        bundle(&choice, &bond_graph, (&name, &methods), options.prefer)
+    });
+    let bundles = bundles.collect();
     drop(choice);
     Ok(Model {
         assembles: options.assembles(&bond_graph),
         mechanism,
         bond_graph,
         functions,
+        bundles,
     })
 }
 

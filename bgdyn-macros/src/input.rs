@@ -2,7 +2,7 @@
 
 use bgdyn_codegen::name::is_identifier;
 use bgdyn_codegen::options::{
-    OptionName, Options, UnknownName, formulation_named, preference_named,
+    BundleOption, OptionName, Options, UnknownName, formulation_named, preference_named,
 };
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::{ToTokens, quote};
@@ -11,7 +11,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// All options.
-const KNOWN: &str = "canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, verify, visibility";
+const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, verify, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -25,6 +25,8 @@ pub(crate) struct Input {
     /// Positions of the names in `methods` and `frames`.
     methods: Vec<Span>,
     frames: Vec<Span>,
+    /// Of each bundle the positions of its name and of its methods.
+    bundles: Vec<Vec<Span>>,
     /// The options in the call.
     given: Vec<Ident>,
     /// Errors of the options. The module is generated in spite of them.
@@ -40,6 +42,7 @@ impl Parse for Input {
             visibility: quote! { pub },
             methods: Vec::new(),
             frames: Vec::new(),
+            bundles: Vec::new(),
             given: Vec::new(),
             errors: Vec::new(),
         };
@@ -58,6 +61,10 @@ impl Input {
         let span = match unknown.option {
             OptionName::Methods => self.methods.get(unknown.index).copied(),
             OptionName::Frames => self.frames.get(unknown.index).copied(),
+            OptionName::Bundle(bundle) => {
+                let bundle = self.bundles.get(bundle);
+                bundle.and_then(|spans| spans.get(unknown.index)).copied()
+            }
             OptionName::Whole(name) => {
                 let option = self.given.iter().find(|option| *option == name);
                 option.map(Ident::span)
@@ -74,6 +81,11 @@ impl Input {
                 break;
             }
             let option: Ident = input.parse()?;
+            if option == "bundle" && input.peek(Ident) {
+                self.bundle(input)?;
+                self.given.push(option);
+                continue;
+            }
             if self.given.contains(&option) {
                 self.refuse(option.span(), format!("`{option}` is given twice"));
             }
@@ -81,6 +93,20 @@ impl Input {
             self.option(&option, input)?;
             self.given.push(option);
         }
+        Ok(())
+    }
+
+    /// Parses `control = [mass_matrix, bias]`, after the word `bundle`.
+    fn bundle(&mut self, input: ParseStream<'_>) -> syn::Result<()> {
+        let name: Ident = input.parse()?;
+        input.parse::<Token![=]>()?;
+        let (methods, names) = list(input)?;
+        self.bundles
+            .push([name.span()].into_iter().chain(methods).collect());
+        self.options.bundles.push(BundleOption {
+            name: name.to_string(),
+            methods: names,
+        });
         Ok(())
     }
 
@@ -129,6 +155,11 @@ impl Input {
             }
             "verify" => self.options.verify = input.parse::<LitBool>()?.value,
             "visibility" => self.visibility = visibility(input)?,
+            "bundle" => {
+                let message = "a bundle has a name: `bundle control = [mass_matrix, bias]`";
+                self.refuse(option.span(), message.into());
+                list(input)?;
+            }
             _ => {
                 let message = format!("unknown option `{option}`; known: {KNOWN}");
                 self.refuse(option.span(), message);

@@ -120,7 +120,9 @@ impl Parts {
             | Shape::CheckedTree
             | Shape::Drives(_)
             | Shape::Parts
-            | Shape::CheckedParts => (None, vec![Part::run(0, &[results])]),
+            | Shape::CheckedParts
+            | Shape::Bundle
+            | Shape::CheckedBundle => (None, vec![Part::run(0, &[results])]),
         };
         Parts { class, arrays }
     }

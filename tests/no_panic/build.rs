@@ -50,7 +50,8 @@ fn main() {
     let (mut models, mut names) = (String::new(), Vec::new());
     let mechanisms = SPECS
         .iter()
-        .map(|spec| Build::new(format!("../../{spec}")).derivatives(true));
+        .map(|spec| Build::new(format!("../../{spec}")).derivatives(true))
+        .map(|build| build.bundle("bundled", ["mass_matrix", "bias", "forward_dynamics"]));
     let others = [Build::new("../../specs/loops/four_bar.yaml").methods(ON_REQUEST)];
     let scenes = SCENES.iter().map(|name| {
         let scene = format!("../../specs/scenes/{name}.scene.yaml");

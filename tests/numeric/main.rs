@@ -4,6 +4,7 @@
 //! `specs` with and without run-time parameters; for `places`, also from the other specs of the
 //! repository.
 
+mod bundles;
 mod counted;
 mod counting;
 mod golden;

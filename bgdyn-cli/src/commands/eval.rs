@@ -225,6 +225,7 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::Vector | Shape::CheckedVector | Shape::Spatial | Shape::Drives(_) => json!(values),
         Shape::CheckedActuated(_) => json!(values),
         Shape::Parts | Shape::CheckedParts => json!(values),
+        Shape::Bundle | Shape::CheckedBundle => json!(values),
         Shape::Symmetric => {
             let entry = |i: usize, j: usize| values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
             let row = |i: usize| (0..nv).map(|j| entry(i, j)).collect::<Vec<_>>();

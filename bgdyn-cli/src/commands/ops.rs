@@ -57,7 +57,9 @@ impl Ops {
         let model =
             bgdyn_codegen::selection::model(mechanism.clone(), &options).map_err(unknown)?;
         let explained = self.explain.then(|| explained(&mechanism, &model));
-        self.report(&model.functions, explained)
+        let bundles = model.bundles.iter().map(|bundle| bundle.function.clone());
+        let functions: Vec<Function> = model.functions.iter().cloned().chain(bundles).collect();
+        self.report(&functions, explained)
     }
 
     fn report(&self, functions: &[Function], explained: Option<Explained>) -> Result<()> {

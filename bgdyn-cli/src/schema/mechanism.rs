@@ -183,7 +183,7 @@ fn joint() -> Value {
             (
                 "axis2",
                 described(
-                    "second axis of a universal joint, in link axes where the positions are zero",
+                    "second axis of a joint with two, in link axes where the positions are zero",
                     axis(),
                 ),
             ),

@@ -37,17 +37,24 @@ pub struct GivenOptions {
 }
 
 impl GivenOptions {
-    /// Returns these options; of two values for one option the last one counts.
+    /// Returns these options.
     ///
     /// # Errors
-    /// If one of them is not among `options`, those that the backend takes.
+    /// If one of them is not among `options`, those that the backend takes, or if one is given twice.
     pub fn new(
         source: String,
         backend: &str,
         options: &[BackendOption],
         pairs: impl IntoIterator<Item = (String, String)>,
     ) -> Result<Self, BackendError> {
-        let values: BTreeMap<String, String> = pairs.into_iter().collect();
+        let mut values: BTreeMap<String, String> = BTreeMap::new();
+        for (name, value) in pairs {
+            if let Some(first) = values.insert(name.clone(), value.clone()) {
+                return Err(BackendError::Option(format!(
+                    "the option `{name}` is given twice: `{first}` and `{value}`"
+                )));
+            }
+        }
         let is_known = |name: &String| options.iter().any(|option| option.name == name);
         if let Some(name) = values.keys().find(|name| !is_known(name)) {
             let names = options.iter().map(|option| format!("`{}`", option.name));

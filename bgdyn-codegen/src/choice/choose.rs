@@ -93,6 +93,30 @@ impl<'a> Choice<'a> {
         all.map(|candidate| candidate.plain.clone()).collect()
     }
 
+    /// Returns further functions of the method, which share expressions with functions of the `others`: those of
+    /// formulations that offer themselves, for trees without prescribed joints. Forward dynamics has none: their accuracy
+    /// would not be checked.
+    pub fn sharing(&self, method: Method, others: &[Method]) -> Vec<Function> {
+        let graph = self.prepared.graph;
+        let is_tree = graph.closed.is_none() && graph.released.is_none();
+        if !is_tree || self.asked.is_some() || method.shape().checked() {
+            return Vec::new();
+        }
+        let others: Vec<Method> = others.iter().copied().filter(|m| *m != method).collect();
+        let offered = self.offers(&FORMULATIONS, method).into_iter();
+        let candidates = offered.filter(|(_, offer)| *offer == Offer::Candidate);
+        candidates
+            .flat_map(|(formulation, _)| formulation.sharing(&self.prepared, method, &others))
+            .collect()
+    }
+
+    /// Returns the functions of the method that were compared and meet the error bounds, in the form of their formulations.
+    pub fn accepted(&self, method: Method) -> Vec<Function> {
+        let candidates = self.choose_once(method).0;
+        let accepted = candidates.accepted.iter();
+        accepted.map(|candidate| candidate.plain.clone()).collect()
+    }
+
     /// Returns the functions for forward dynamics that meet the error bounds, the cheapest first, in the
     /// form of their formulations.
     pub(crate) fn forward_dynamics(&self) -> impl Iterator<Item = &Function> {

@@ -291,6 +291,7 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
         Shape::TreeMatrix => matrix(nv, values),
         Shape::RowMatrix => matrix(sizes.of_tree.unwrap_or(nv), values),
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene makes its own results"),
+        Shape::Bundle | Shape::CheckedBundle => unreachable!("each part has its own result"),
     }
 }
 

@@ -108,7 +108,7 @@ pub(super) fn operations<'a>(
 }
 
 /// Returns the operation counts of a model's functions.
-pub(super) fn operation_counts(functions: &[Function]) -> TokenStream {
+pub(super) fn operation_counts(functions: &[&Function]) -> TokenStream {
     operations(functions.iter().map(|f| (f.name(), f.operations())))
 }
 

@@ -8,15 +8,17 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::tokens::{argument_type, ident};
-use crate::function::Function;
 use crate::layout::StateLayout;
 use crate::method::{Argument, Method, SceneFunction};
 use crate::plan::Naming;
 
 /// Returns the methods that the checked functions call, one for each list of arguments.
-pub(super) fn explainers(functions: &[Function], naming: &Naming<'_>) -> TokenStream {
-    let checked = functions.iter().filter(|f| f.shape().checked());
-    let by_name: BTreeMap<&str, Method> = checked.map(|f| (name(f.method), f.method)).collect();
+pub(super) fn explainers(
+    methods: impl Iterator<Item = Method>,
+    naming: &Naming<'_>,
+) -> TokenStream {
+    let checked = methods.filter(|method| method.shape().checked());
+    let by_name: BTreeMap<&str, Method> = checked.map(|method| (name(method), method)).collect();
     let methods = by_name.into_iter().map(|(name, method)| {
         let arguments = method.arguments();
         let (name, names) = (ident(name), arguments.iter().map(|a| ident(a.name())));

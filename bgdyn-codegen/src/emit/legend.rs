@@ -7,7 +7,7 @@ use crate::function::Function;
 use crate::legend::{AXES, LegendQuantity, QUANTITIES, SIGNS};
 
 /// Returns lines of documentation for the names and signs in the code; empty without names.
-pub(super) fn legend(functions: &[Function]) -> Vec<String> {
+pub(super) fn legend(functions: &[&Function]) -> Vec<String> {
     let (mut patterns, mut titles) = (BTreeSet::new(), BTreeSet::new());
     for function in functions {
         for id in nodes(function) {

@@ -4,6 +4,7 @@ mod actuated;
 mod assembly;
 mod base_access;
 mod body;
+mod bundles;
 mod closed_positions;
 mod closure;
 mod code;

@@ -11,7 +11,7 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::{joint_list, prescribed_docs};
 use super::reactions::reaction_docs;
 use super::tokens::{argument_type, ident, return_type, struct_ident, structure};
-use super::{assembly, body, closure, code, constants, explain, traits};
+use super::{assembly, body, bundles, closure, code, constants, explain, traits};
 use crate::bond_graph::{LinkFrame, PositionVariable, joint_segments};
 use crate::function::Function;
 use crate::mechanism::Motion;
@@ -26,13 +26,23 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
     let visibility = &output.visibility;
     let docs = module_docs(model, output);
     let constants = constants::constants(model);
-    let operations = constants::operation_counts(&model.functions);
+    let bundles = model.bundles.iter().map(|bundle| &bundle.function);
+    let functions: Vec<&Function> = model.functions.iter().chain(bundles).collect();
+    let operations = constants::operation_counts(&functions);
     let about = format!(" The mechanism `{}`.", model.mechanism.name());
     let structure = structure(&struct_name(model), &about, model.mechanism.parameters());
     let methods = model.functions.iter().map(|f| method(f, model, output));
     let naming = Naming::of_model(model);
-    let explainers = explain::explainers(&model.functions, &naming);
+    let parts = model.bundles.iter().flat_map(|bundle| &bundle.parts);
+    let parts = parts.map(|part| part.method);
+    let called = model.functions.iter().map(|f| f.method).chain(parts);
+    let explainers = explain::explainers(called, &naming);
     let struct_name = struct_name(model);
+    let of = struct_name.to_string();
+    let structs = model.bundles.iter();
+    let structs = structs.map(|bundle| bundles::bundle_struct(bundle, model, &of));
+    let bundled = model.bundles.iter();
+    let bundled = bundled.map(|bundle| bundles::bundle_function(bundle, model, output.plain));
     let present: Vec<Method> = model.functions.iter().map(|f| f.method).collect();
     let traits = traits::Traits {
         name: &struct_name,
@@ -72,8 +82,10 @@ pub fn module(model: &Model, output: &OutputOptions) -> TokenStream {
             #loop_constants
             #conditions
             #structure
+            #(#structs)*
             impl<T: __Scalar> #struct_name<T> {
                 #(#methods)*
+                #(#bundled)*
                 #poses
                 #base
                 #loop_functions
@@ -153,7 +165,9 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
     docs.push(String::new());
     docs.push(" | method | operations | formulation |".into());
     docs.push(" |---|---|---|".into());
-    for f in &model.functions {
+    let bundles = model.bundles.iter().map(|bundle| &bundle.function);
+    let functions: Vec<&Function> = model.functions.iter().chain(bundles).collect();
+    for f in &functions {
         docs.push(format!(
             " | `{}` | {} | {} |",
             f.name(),
@@ -161,7 +175,7 @@ fn module_docs(model: &Model, output: &OutputOptions) -> Vec<String> {
             f.formulation
         ));
     }
-    docs.extend(legend(&model.functions));
+    docs.extend(legend(&functions));
     docs
 }
 

@@ -102,49 +102,46 @@ pub(super) fn argument_type(argument: Argument) -> TokenStream {
     }
 }
 
-/// Returns the type of a result.
+/// Returns the type of a result: its values, or an error that names one of so many joints.
 pub(super) fn return_type(shape: Shape) -> TokenStream {
+    let value = value_type(shape);
+    let joints = match shape {
+        _ if !shape.checked() => return value,
+        Shape::CheckedActuated(_) => quote! { NA },
+        Shape::CheckedTree | Shape::CheckedTreeAndRows => quote! { NT },
+        _ => quote! { NV },
+    };
+    quote! { ::core::result::Result<#value, T::Singular<#joints>> }
+}
+
+/// Returns the type of the values of a result.
+pub(super) fn value_type(shape: Shape) -> TokenStream {
     match shape {
         Shape::Scalar => quote! { T },
-        Shape::Vector => quote! { __na::SVector<T, NV> },
-        Shape::CheckedVector => {
-            quote! { ::core::result::Result<__na::SVector<T, NV>, T::Singular<NV>> }
-        }
-        Shape::CheckedActuated(_) => {
-            quote! { ::core::result::Result<__na::SVector<T, NA>, T::Singular<NA>> }
-        }
+        Shape::Vector | Shape::CheckedVector => quote! { __na::SVector<T, NV> },
+        Shape::CheckedActuated(_) => quote! { __na::SVector<T, NA> },
         Shape::Symmetric | Shape::Square => quote! { __na::SMatrix<T, NV, NV> },
         Shape::SquarePair => quote! { [__na::SMatrix<T, NV, NV>; 2] },
-        Shape::CheckedSquares => {
-            quote! { ::core::result::Result<[__na::SMatrix<T, NV, NV>; 3], T::Singular<NV>> }
-        }
+        Shape::CheckedSquares => quote! { [__na::SMatrix<T, NV, NV>; 3] },
         Shape::SlopesByTree => {
             quote! { (__na::SMatrix<T, NV, NT>, __na::SMatrix<T, NV, NV>) }
         }
         Shape::CheckedSlopesByTree => {
-            let by_q = quote! { __na::SMatrix<T, NV, NT> };
             let square = quote! { __na::SMatrix<T, NV, NV> };
-            quote! { ::core::result::Result<(#by_q, #square, #square), T::Singular<NV>> }
+            quote! { (__na::SMatrix<T, NV, NT>, #square, #square) }
         }
         Shape::Pose => quote! { __rt::Pose<T> },
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Drives(_) => quote! { __na::SVector<T, NP> },
         Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
-        Shape::TreeVector => quote! { __na::SVector<T, NT> },
+        Shape::TreeVector | Shape::CheckedTree => quote! { __na::SVector<T, NT> },
         Shape::TreeMatrix => quote! { __na::SMatrix<T, NT, NV> },
         Shape::RowVector => quote! { __na::SVector<T, NC> },
         Shape::RowMatrix => quote! { __na::SMatrix<T, NC, NT> },
-        Shape::CheckedTree => {
-            quote! { ::core::result::Result<__na::SVector<T, NT>, T::Singular<NT>> }
-        }
-        Shape::CheckedTreeAndRows => {
-            let both = quote! { (__na::SVector<T, NT>, __na::SVector<T, NC>) };
-            quote! { ::core::result::Result<#both, T::Singular<NT>> }
-        }
-        Shape::CheckedWrenches => {
-            quote! { ::core::result::Result<[__rt::Wrench<T>; NR], T::Singular<NV>> }
-        }
+        Shape::CheckedTreeAndRows => quote! { (__na::SVector<T, NT>, __na::SVector<T, NC>) },
+        Shape::CheckedWrenches => quote! { [__rt::Wrench<T>; NR] },
         Shape::LinkWrenches => quote! { [__rt::Wrench<T>; LINK_NAMES.len()] },
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene names its own results"),
+        Shape::Bundle | Shape::CheckedBundle => unreachable!("a bundle has a struct of its own"),
     }
 }

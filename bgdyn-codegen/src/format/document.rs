@@ -78,7 +78,7 @@ pub struct JointSpec {
     pub kind: Field<String>,
     /// Direction of its axis, of any length; a letter denotes a unit vector.
     pub axis: Field<Vector>,
-    /// Direction of the second axis of a universal joint.
+    /// Direction of the second axis of a joint with two.
     pub axis2: Field<Vector>,
     /// Advance of a helical joint along its axis: a length per turn, or a length per turn or per radian.
     pub lead: Field<Number>,

@@ -66,6 +66,12 @@ pub trait Formulation: Sync {
         false
     }
 
+    /// Returns further functions of the method, for bundles: by themselves they may cost more, but they share expressions
+    /// with functions of the `others`.
+    fn sharing(&self, _: &Prepared<'_>, _: Method, _others: &[Method]) -> Vec<Function> {
+        Vec::new()
+    }
+
     /// Returns the method's function; `None` if this formulation cannot create it for this mechanism, which has no
     /// prescribed joints unless [`Formulation::reads`] names other methods.
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function>;

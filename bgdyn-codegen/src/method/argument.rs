@@ -1,7 +1,7 @@
 //! The arguments of methods.
 
 /// An argument of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Argument {
     /// Positions q: rad, m.
     Q,

@@ -4,6 +4,7 @@
 
 mod actuated;
 mod argument;
+mod bundled;
 mod derivatives;
 mod loads;
 mod scene_function;
@@ -89,6 +90,13 @@ pub enum Method {
     ActuatedJointReactions(usize),
     /// A function of a scene.
     Scene(SceneFunction),
+    /// Several methods in one call.
+    Bundle {
+        /// What any of them reads.
+        arguments: &'static [Argument],
+        /// Whether one of them may have no result.
+        checked: bool,
+    },
 }
 
 /// Returns the names of all methods that a generated struct may have, for any names of sites.
@@ -283,6 +291,7 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
             Method::JointReactions | Method::ActuatedJointReactions(_) => "joint_reactions".into(),
             Method::Scene(role) => role.name().into(),
+            Method::Bundle { .. } => "bundle".into(),
         }
     }
 
@@ -330,6 +339,7 @@ impl Method {
                 Argument::Time,
             ],
             Method::Scene(_) => &[Argument::State, Argument::Input, Argument::Time],
+            Method::Bundle { arguments, .. } => arguments,
         }
     }
 
@@ -375,6 +385,8 @@ impl Method {
                 | SceneFunction::ClosingStep,
             ) => Shape::Parts,
             Method::Scene(_) => Shape::CheckedParts,
+            Method::Bundle { checked: false, .. } => Shape::Bundle,
+            Method::Bundle { checked: true, .. } => Shape::CheckedBundle,
         }
     }
 }

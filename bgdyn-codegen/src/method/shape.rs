@@ -53,6 +53,10 @@ pub enum Shape {
     Parts,
     /// The same, or an error with a coordinate.
     CheckedParts,
+    /// The results of several methods, one after the other.
+    Bundle,
+    /// The same, or an error with a joint.
+    CheckedBundle,
 }
 
 impl Shape {
@@ -74,7 +78,7 @@ impl Shape {
             Shape::SlopesByTree | Shape::CheckedSlopesByTree => 0,
             Shape::Drives(np) => np,
             Shape::CheckedActuated(na) => na,
-            Shape::Parts | Shape::CheckedParts => 0,
+            Shape::Parts | Shape::CheckedParts | Shape::Bundle | Shape::CheckedBundle => 0,
         }
     }
 
@@ -90,6 +94,7 @@ impl Shape {
                 | Shape::CheckedTreeAndRows
                 | Shape::CheckedWrenches
                 | Shape::CheckedParts
+                | Shape::CheckedBundle
         )
     }
 }

@@ -109,6 +109,7 @@ impl Method {
                     .into()
             }
             Method::Scene(role) => role.summary().into(),
+            Method::Bundle { .. } => "The results of several methods, which share their computations.".into(),
         }
     }
 
@@ -150,7 +151,7 @@ impl Method {
             | Method::ActuatedReactions(_)
             | Method::JointReactions
             | Method::ActuatedJointReactions(_) => "N, N·m",
-            Method::Scene(_) => "as its parts say",
+            Method::Scene(_) | Method::Bundle { .. } => "as its parts say",
         }
     }
 }

@@ -20,7 +20,15 @@ use crate::random::Random;
 
 /// Compares the functions of a model with the literal sum, as [`check_functions`] does.
 pub fn check_model(model: &Model) -> Vec<Difference> {
-    check_functions(model.mechanism.name(), &model.bond_graph, &model.functions)
+    let of = |functions: &[Function]| {
+        check_functions(model.mechanism.name(), &model.bond_graph, functions)
+    };
+    let mut found = of(&model.functions);
+    for bundle in &model.bundles {
+        let parts = bundle.parts.iter().map(|part| bundle.function_of(part));
+        found.extend(of(&parts.collect::<Vec<_>>()));
+    }
+    found
 }
 
 /// Compares functions of a mechanism with the literal sum for its bond graph: at three states, or at one

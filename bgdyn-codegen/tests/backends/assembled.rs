@@ -95,6 +95,7 @@ fn check<T: CNumber, const NC: usize>(name: &str, model: &Model, counts: &mut [u
             reads_parameters: true,
             size: nq,
             is_checked: true,
+            is_struct: false,
         }],
     );
     program.arrays = vec![("q", nq), ("is_free", nt)];

@@ -128,6 +128,8 @@ pub struct CCall {
     pub size: usize,
     /// Whether it returns a number.
     pub is_checked: bool,
+    /// Whether its result is a struct of arrays, with its name.
+    pub is_struct: bool,
 }
 
 impl CCall {
@@ -152,6 +154,15 @@ impl CCall {
             reads_parameters: true,
             size,
             is_checked: function.shape().checked(),
+            is_struct: false,
+        }
+    }
+
+    /// Returns the call of a function whose result is a struct of arrays.
+    pub fn in_struct(self) -> Self {
+        CCall {
+            is_struct: true,
+            ..self
         }
     }
 }
@@ -276,6 +287,7 @@ int main(void)
             arguments,
             size,
             is_checked,
+            is_struct,
             ..
         } = call;
         let given = call.reads_parameters && !self.parameters.is_empty();
@@ -284,7 +296,7 @@ int main(void)
         let all: Vec<&str> = given
             .into_iter()
             .chain(arguments)
-            .chain(["result"])
+            .chain([if *is_struct { "&all" } else { "result" }])
             .collect();
         let called = format!("{}_{name}({})", self.file, all.join(", "));
         let called = match is_checked {
@@ -293,6 +305,12 @@ int main(void)
             ),
             false => format!("{called}; printf(\" 0\");"),
         };
+        if *is_struct {
+            let all = format!("struct {}_{name} all", self.file);
+            return format!(
+                "{{ {all}; {real} result[{size}]; {called} if (sizeof all != sizeof result) return 1; memcpy(result, &all, sizeof result); for (int k = 0; k < {size}; ++k) print(result[k]); }}"
+            );
+        }
         format!(
             "{{ {real} result[{size}]; {called} for (int k = 0; k < {size}; ++k) print(result[k]); }}"
         )

@@ -1,6 +1,7 @@
 //! The backends: what each of them says of itself, and that generated C has the evaluator's bits.
 
 mod assembled;
+mod bundles;
 mod c_program;
 mod closed_mechanisms;
 mod controller;

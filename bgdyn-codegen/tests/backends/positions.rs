@@ -33,6 +33,7 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
         reads_parameters: is_closed && !matches!(name, "neutral" | "normalize" | "difference"),
         size: if name == "difference" { nv } else { nq },
         is_checked,
+        is_struct: false,
     };
     let mut calls = vec![
         call("neutral", &[], false),

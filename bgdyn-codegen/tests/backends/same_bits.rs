@@ -242,3 +242,36 @@ fn sines_of_libm() {
         |found: f32, value: f32, size: f64| f64::from((found - value).abs()) <= 1e-4 * size;
     compare::<f32>("libm", &arm, &[("sincos", "libm")], &[3.0, 0.0], &is_near);
 }
+
+/// A broken encoder is no singular position.
+#[test]
+fn positions_that_are_not_numbers() {
+    for path in ["specs/scara.yaml", "specs/panda.yaml"] {
+        let model = model(path, &selected(&["forward_dynamics"]));
+        let [nq, nv] = [model.mechanism.nq(), model.mechanism.nv()];
+        let call = CCall::of(&model.functions[0], [nq, nv], nv);
+        let program = CProgram::of(&model, vec![call]);
+        let mut random = Random(20_261_130);
+        let broken = (0..nq).map(|k| {
+            let mut state = state::<f64>(&mut random, &model, 3.0);
+            state.q[k] = f64::NAN;
+            numbers(&state)
+        });
+        let rows: Vec<Vec<f64>> = broken.collect();
+        for compiler in compilers() {
+            let folder = format!("{}_broken", name(path));
+            let program = compile::<f64>(&compiler, &folder, &files(&model, &[]), &program);
+            for (k, found) in run(&program, &rows).iter().enumerate() {
+                // Neither of the SCARA's first angle nor of the height of its quill depends anything.
+                let is_read = found[1..]
+                    .iter()
+                    .any(|word| f64::from_bits(*word as u64).is_nan());
+                assert_eq!(
+                    found[0],
+                    -i128::from(is_read),
+                    "{compiler}: {path}: position {k}"
+                );
+            }
+        }
+    }
+}

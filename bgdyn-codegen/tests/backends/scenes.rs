@@ -144,6 +144,7 @@ fn call(function: &Function, layout: &StateLayout, size: usize) -> Option<CCall>
         reads_parameters: true,
         size,
         is_checked: function.shape().checked(),
+        is_struct: false,
     })
 }
 
@@ -259,6 +260,7 @@ fn check<T: CNumber>(path: &str, options: &Options) {
         reads_parameters: true,
         size: n + layout.modes.len(),
         is_checked: true,
+        is_struct: false,
     }));
     let program = program::<T>(&case, calls);
     let rows: Vec<Vec<T>> = states.iter().map(row).collect();

@@ -116,7 +116,12 @@ impl Robot {
 
     /// Returns a method's function by a formulation, in one block; `None` if it cannot create it for this mechanism.
     pub fn made(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
-        formulation.function(&self.prepared, method)
+        if formulation.reads(method).is_empty() {
+            return formulation.function(&self.prepared, method);
+        }
+        // It reads the functions of other methods, which a choice creates before.
+        let made = self.choice(Some(formulation.name())).function(method)?;
+        Some(made.as_ref().clone())
     }
 }
 

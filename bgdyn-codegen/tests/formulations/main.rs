@@ -1,5 +1,6 @@
 //! Tests that formulations equal each other and obey the laws of mechanics.
 
+mod bundles;
 #[path = "../common/mod.rs"]
 mod common;
 mod derivatives_vs_literal;

@@ -10,7 +10,7 @@ use bgdyn_runtime::{Dd, Scalar};
 
 use super::common::{read, scene, specs, state};
 use super::one::{BLOCK, text};
-use super::written::CIRCUIT;
+use super::written::{ALL, CIRCUIT, TENSOR, WRITTEN, mechanism, names};
 
 /// Number of segments between two states that are searched in each scene.
 const SEGMENTS: u64 = 60;
@@ -220,6 +220,17 @@ fn every_effect_that_has_a_kink_says_where() {
     ] {
         let found = kinks(&scene(&text(&[effect], more), BLOCK));
         assert!(found > 5, "{found} kinks found: {effect}");
+    }
+}
+
+/// Every effect as its example has it: a kink without an event fails here.
+#[test]
+fn no_effect_has_a_kink_without_an_event() {
+    for (_, written) in WRITTEN {
+        let declared = format!("effects:\n  extra: {written}\n");
+        let called = format!("velocity_products, {}]", names(written));
+        let called = ALL.replace("velocity_products]", &called);
+        kinks(&scene(&called, &mechanism("", TENSOR, &declared)));
     }
 }
 

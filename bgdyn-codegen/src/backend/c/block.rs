@@ -1,5 +1,6 @@
 //! The statements of a block in C.
 
+use super::result::{ResultField, element};
 use super::style::Style;
 use super::words::{RESERVED, in_comment};
 use crate::expr::Node;
@@ -18,6 +19,8 @@ pub(super) struct BlockText<'a> {
     pub(super) separate: bool,
     /// Statements after those that read the arguments.
     pub(super) others: &'a [String],
+    /// The fields of the result, if it is a struct.
+    pub(super) fields: &'a [ResultField],
     /// The arrays that a column of a loop reads.
     pub(super) arrays: Option<LoopArrays>,
 }
@@ -47,6 +50,7 @@ impl<'a> BlockText<'a> {
             naming,
             separate: false,
             others: &[],
+            fields: &[],
             arrays: None,
         }
     }
@@ -126,7 +130,7 @@ impl<'a> BlockText<'a> {
             .flat_map(|destinations| &destinations[output]);
         let value = self.value(block.outputs[output]);
         let store = |destination: &Destination| match destination {
-            Destination::Element(k) => format!("result[{k}] = {value};"),
+            Destination::Element(k) => format!("{} = {value};", element(self.fields, *k)),
             Destination::Entry { .. } => unreachable!("results of C are flat"),
         };
         destinations.map(store).collect()

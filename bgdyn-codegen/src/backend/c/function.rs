@@ -3,10 +3,11 @@
 use super::block::BlockText;
 use super::context::FunctionContext;
 use super::parameters::{CParameter, block_parameters, parameters};
-use super::result::{CheckedValues, FlatResult};
+use super::result::{CheckedValues, FlatResult, element};
 use super::style::Style;
 use super::tail::{self, BeforeLoops};
 use crate::function::Function;
+use crate::method::Method;
 use crate::plan::{BlockPlan, FunctionPlan, PlanLimits, Tail, block_name};
 
 /// What the plans of C functions keep to: results are a caller's array, so that every output is stored when it is
@@ -36,8 +37,13 @@ pub(super) fn signature(function: &Function, context: &FunctionContext<'_>) -> S
     };
     let name = style.global(function.name());
     let parameters = parameters(function, context.naming, style);
-    let size = FlatResult::new(function, context).size;
-    let result = format!("{} result[{size}]", style.real());
+    let result = match function.method {
+        Method::Bundle { .. } => format!("struct {name} *result"),
+        _ => {
+            let size = FlatResult::new(function, context).size;
+            format!("{} result[{size}]", style.real())
+        }
+    };
     let all = declarations(&parameters, [result]);
     format!("{kind} {name}({all})")
 }
@@ -52,8 +58,16 @@ pub(super) struct CFunction {
 
 /// Returns the definitions of a function and of its blocks.
 pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> CFunction {
+    definition_with(function, &FlatResult::new(function, context), context)
+}
+
+/// Returns the definitions of a function with this result and of its blocks.
+pub(super) fn definition_with(
+    function: &Function,
+    flat: &FlatResult,
+    context: &FunctionContext<'_>,
+) -> CFunction {
     let style = context.style;
-    let flat = FlatResult::new(function, context);
     let plan = FunctionPlan::new(function, Some(flat.elements()), &LIMITS);
     let mut blocks = String::new();
     let mut lines = Vec::new();
@@ -67,7 +81,8 @@ pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> 
         [block] if function.blocks.len() == 1 => {
             let mut block = BlockText::new(block, function, style, context.naming);
             block.others = &flat.others;
-            lines.extend(whole(&plan, block, &flat, context));
+            block.fields = &flat.fields;
+            lines.extend(whole(&plan, block, flat, context));
         }
         _ => {
             for b in 0..plan.blocks.len() {
@@ -76,11 +91,11 @@ pub(super) fn definition(function: &Function, context: &FunctionContext<'_>) -> 
                 lines.extend(call);
             }
             lines.extend(flat.others.iter().cloned());
-            lines.extend(after_blocks(&plan, &flat, context));
+            lines.extend(after_blocks(&plan, flat, context));
         }
     }
     if function.shape().checked() {
-        lines.push(returned(&plan, &flat, style));
+        lines.push(returned(&plan, flat, style));
     }
     let (signature, body) = (signature(function, context), indented(&lines));
     CFunction {
@@ -141,8 +156,13 @@ fn after_blocks(
 /// Returns the statement that returns 0, or why there is no result.
 fn returned(plan: &FunctionPlan<'_>, flat: &FlatResult, style: &Style) -> String {
     let (array, count) = match &flat.checked {
-        CheckedValues::Elements(range) if range.start == 0 => ("result".into(), range.len()),
-        CheckedValues::Elements(range) => (format!("&result[{}]", range.start), range.len()),
+        CheckedValues::Elements(range) if range.start == 0 && flat.fields.is_empty() => {
+            ("result".into(), range.len())
+        }
+        CheckedValues::Elements(range) => {
+            let first = element(&flat.fields, range.start);
+            (format!("&{first}"), range.len())
+        }
         CheckedValues::Outputs(range) => ("checked".to_string(), range.len()),
     };
     let refused = if plan.refuses() { "refused" } else { "0" };

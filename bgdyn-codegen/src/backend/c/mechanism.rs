@@ -24,6 +24,15 @@ pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a>
         let CFunction { blocks, whole } = definition(function, &context);
         functions += &(blocks + &lines_of(about) + &whole);
     }
+    let mut types = undetermined_type(&context);
+    for bundle in &model.bundles {
+        let Some(bundle) = super::bundle::bundle(bundle, &context) else {
+            continue;
+        };
+        types.extend(bundle.structure);
+        prototypes.extend(bundle.prototype);
+        functions += &bundle.definition;
+    }
     for function in position_functions(&context) {
         prototypes.extend(function.prototype());
         functions += &function.definition();
@@ -32,7 +41,7 @@ pub(super) fn mechanism_files<'a>(model: &'a Model, style: &Style) -> CFiles<'a>
         title: format!("Dynamics of `{}`", model.mechanism.name()),
         description: model.mechanism.description().unwrap_or_default(),
         sizes: sizes(&context),
-        types: undetermined_type(&context),
+        types,
         tables: tables(&context),
         parameters: model.mechanism.parameters(),
         prototypes,

@@ -2,6 +2,7 @@
 
 mod assembly;
 mod block;
+mod bundle;
 mod closing;
 mod context;
 mod difference;
@@ -46,7 +47,7 @@ impl Backend for C99 {
     }
 
     fn options(&self) -> &'static [BackendOption] {
-        const OPTIONS: [BackendOption; 3] = [
+        const OPTIONS: [BackendOption; 4] = [
             BackendOption {
                 name: "prefix",
                 summary: "beginning of all names; by default the name of the mechanism",
@@ -58,6 +59,10 @@ impl Backend for C99 {
             BackendOption {
                 name: "sincos",
                 summary: "sines of the file itself (`own`), with the bits of Rust's, or those of libm (`libm`); by default `own`",
+            },
+            BackendOption {
+                name: "cmake",
+                summary: "`yes` for a file NAME.cmake with the library and its flags; by default `no`",
             },
         ];
         &OPTIONS
@@ -87,9 +92,22 @@ impl Backend for C99 {
             name: format!("{}.{ending}", style.file),
             text,
         };
-        Ok(vec![
+        let library = given.choice("cmake", &["no", "yes"])? == 1;
+        let library = library.then(|| file("cmake", cmake(&style.file)));
+        let both = [
             file("h", files.header(&style)),
             file("c", files.source(&style)),
-        ])
+        ];
+        Ok(both.into_iter().chain(library).collect())
     }
+}
+
+/// Returns the CMake file of a library of the source file with this stem, with the flags of its bits.
+fn cmake(stem: &str) -> String {
+    format!(
+        "add_library({stem} STATIC ${{CMAKE_CURRENT_LIST_DIR}}/{stem}.c)\n\
+         target_include_directories({stem} PUBLIC ${{CMAKE_CURRENT_LIST_DIR}})\n\
+         target_compile_options({stem} PRIVATE -std=c99 -ffp-contract=off)\n\
+         target_link_libraries({stem} PUBLIC m)\n"
+    )
 }

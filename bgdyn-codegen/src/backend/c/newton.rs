@@ -42,7 +42,7 @@ impl Newton<'_> {
         };
         let rows: Vec<String> = self.joints.iter().map(row).collect();
         let (count, absolute) = (rows.len(), style.of_library("fabs"));
-        let [larger, pivot] = ["larger", "checked_pivot"].map(|name| style.global(name));
+        let [larger, held] = ["larger", "is_held"].map(|name| style.global(name));
         let mut body = vec![
             "/* velocity, position and cause of each joint that closes */".into(),
             format!("const int joints[{count}][3] = {{{}}};", rows.join(", ")),
@@ -58,7 +58,7 @@ impl Newton<'_> {
             format!("    for (int i = 0; i < {count}; ++i) {{"),
             format!("        const {real} size = {absolute}(change[joints[i][0]]);"),
             format!("        last = {larger}(last, size);"),
-            format!("        (void){pivot}({closed} - size, {zero}, joints[i][2], &refused);"),
+            format!("        (void){held}({closed} - size, joints[i][2], &refused);"),
             "    }".into(),
             format!("    const {real} scale = ({largest} < last) ? {largest} / last : {one};"),
         ];

@@ -5,9 +5,11 @@ use std::ops::Range;
 use super::context::FunctionContext;
 use super::scene_result::SceneResult;
 use super::style::Style;
+use super::words::field;
 use crate::function::Function;
 use crate::layout::StateLayout;
 use crate::method::{Method, SceneFunction, Shape};
+use crate::model::Bundle;
 use crate::plan::{Destination, matrix_destinations};
 
 /// The flat result of a function.
@@ -22,6 +24,27 @@ pub(super) struct FlatResult {
     pub(super) checked: CheckedValues,
     /// Statements that store the elements that are no outputs.
     pub(super) others: Vec<String>,
+    /// The fields with the elements, if the result is a struct.
+    pub(super) fields: Vec<ResultField>,
+}
+
+/// An array in a struct of results.
+pub(super) struct ResultField {
+    /// Its name.
+    pub(super) name: String,
+    /// Its elements.
+    pub(super) elements: Range<usize>,
+    /// Their number in C.
+    pub(super) size: String,
+}
+
+/// Returns an element of a result in C: of the array, or of one of the fields of a struct.
+pub(super) fn element(fields: &[ResultField], k: usize) -> String {
+    let field = fields.iter().find(|field| field.elements.contains(&k));
+    match field {
+        Some(field) => format!("result->{}[{}]", field.name, k - field.elements.start),
+        None => format!("result[{k}]"),
+    }
 }
 
 /// The values that must be finite.
@@ -75,6 +98,7 @@ impl FlatResult {
             elements,
             checked,
             others: Vec::new(),
+            fields: Vec::new(),
         }
     }
 
@@ -97,7 +121,52 @@ impl FlatResult {
             size: style.sized(result.size),
             checked: CheckedValues::Elements(result.checked),
             others: result.others.iter().map(store).collect(),
+            fields: Vec::new(),
         }
+    }
+
+    /// Returns the result of a bundle: that of each part as a field of a struct. Parts that may have no result all check
+    /// the accelerations, so that one of them tells for all.
+    pub(super) fn of_bundle(bundle: &Bundle, context: &FunctionContext<'_>) -> Self {
+        let mut whole = FlatResult {
+            destinations: Vec::new(),
+            elements: 0,
+            size: String::new(),
+            checked: CheckedValues::Outputs(0..0),
+            others: Vec::new(),
+            fields: Vec::new(),
+        };
+        let shifted = |range: &Range<usize>, by: usize| range.start + by..range.end + by;
+        let mut is_checked = false;
+        for part in &bundle.parts {
+            let one = FlatResult::new(&bundle.function_of(part), context);
+            let begin = whole.elements;
+            if part.method.shape().checked() && !is_checked {
+                is_checked = true;
+                whole.checked = match &one.checked {
+                    CheckedValues::Elements(range) => {
+                        CheckedValues::Elements(shifted(range, begin))
+                    }
+                    CheckedValues::Outputs(range) => {
+                        CheckedValues::Outputs(shifted(range, part.outputs.start))
+                    }
+                };
+            }
+            let shift =
+                |destinations: &Vec<usize>| destinations.iter().map(|k| k + begin).collect();
+            whole
+                .destinations
+                .extend(one.destinations.iter().map(shift));
+            whole.elements += one.elements;
+            if !one.is_empty() {
+                whole.fields.push(ResultField {
+                    name: field(&part.name),
+                    elements: begin..whole.elements,
+                    size: one.size,
+                });
+            }
+        }
+        whole
     }
 
     /// Returns whether the function has no result, so that C does not have it.
@@ -140,6 +209,7 @@ fn size(shape: Shape) -> Option<&'static str> {
         Shape::Drives(_) => "NP",
         Shape::Scalar | Shape::Pose | Shape::Spatial => return None,
         Shape::Parts | Shape::CheckedParts => return None,
+        Shape::Bundle | Shape::CheckedBundle => return None,
     })
 }
 

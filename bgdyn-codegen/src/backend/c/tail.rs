@@ -2,7 +2,7 @@
 
 use super::block::BlockText;
 use super::context::FunctionContext;
-use super::result::{CheckedValues, FlatResult};
+use super::result::{CheckedValues, FlatResult, element};
 use super::style::Style;
 use crate::column_loop::ResultSource;
 use crate::expr::Signed;
@@ -23,7 +23,7 @@ pub(super) fn stores(values: &[String], flat: &FlatResult) -> Vec<String> {
     let store = |(value, destinations): (&String, &Vec<usize>)| {
         let lines = destinations
             .iter()
-            .map(|k| format!("result[{k}] = {value};"));
+            .map(|&k| format!("{} = {value};", element(&flat.fields, k)));
         lines.collect::<Vec<_>>()
     };
     values

@@ -22,9 +22,15 @@ pub(super) const RESERVED: [&str; 24] = [
     "FP_NAN", "FP_NORMAL",
 ];
 
-/// Returns the name of a field or parameter: with `_` behind it, if it is a keyword.
+/// Macros in lower case: of compilers (`gcc` without `-std`), and of headers of the C library.
+const MACROS: [&str; 12] = [
+    "linux", "unix", "i386", "arm", "errno", "noreturn", "stdin", "stdout", "stderr", "assert",
+    "offsetof", "signbit",
+];
+
+/// Returns the name of a field or parameter: with `_` behind it, if it is a keyword or a macro.
 pub(super) fn field(name: &str) -> String {
-    match KEYWORDS.contains(&name) {
+    match KEYWORDS.contains(&name) || MACROS.contains(&name) {
         true => format!("{name}_"),
         false => name.to_string(),
     }

@@ -42,13 +42,14 @@ pub fn scene_module(
         .iter()
         .map(|f| method::method(f, &interface, output.plain));
     let naming = Naming::of_scene(&interface);
-    let explainers = explainers(functions, &naming);
+    let explainers = explainers(functions.iter().map(|f| f.method), &naming);
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
     let slope = has(SceneFunction::Jacobian).then(|| system::slope_trait(&struct_name));
     let canonical = SceneFunction::CANONICAL.into_iter().all(has);
     let canonical = canonical.then(|| system::canonical_trait(&struct_name));
-    let operations = operation_counts(functions);
+    let all: Vec<&Function> = functions.iter().collect();
+    let operations = operation_counts(&all);
     let rebuild = rebuild(output);
     quote! {
         #(#[doc = #docs])*
@@ -110,6 +111,6 @@ fn docs(system: &SceneEquations, functions: &[Function], output: &OutputOptions)
         let (name, operations) = (f.name(), f.operations());
         docs.push(format!(" | `{name}` | {operations} | {} |", f.formulation));
     }
-    docs.extend(legend(functions));
+    docs.extend(legend(&functions.iter().collect::<Vec<_>>()));
     docs
 }

@@ -10,22 +10,25 @@ pub(crate) fn axis_of_joint(location: &Location, keyword: &str) -> Fault {
         .with_help("leave `axis` out; `origin: { rpy: … }` rotates the joint's axes")
 }
 
-pub(crate) fn no_second_axis(location: &Location) -> Fault {
-    Fault::new(
-        location,
-        "no-second-axis",
-        "a universal joint needs its second axis",
-    )
-    .with_help("add `axis2: y`, in link axes at zero; the first rotation carries it along")
+pub(crate) fn no_second_axis(location: &Location, keyword: &str) -> Fault {
+    let article = match keyword {
+        "universal" => "a",
+        _ if keyword.starts_with(['a', 'e', 'i', 'o', 'u']) => "an",
+        _ => "a",
+    };
+    let message = format!("{article} {keyword} joint needs its second axis");
+    Fault::new(location, "no-second-axis", message)
+        .with_help("add `axis2: y`, in link axes at zero; the first motion carries it along")
 }
 
-pub(crate) fn parallel_axes(location: &Location) -> Fault {
-    Fault::new(
-        location,
-        "parallel-axes",
-        "`axis2` is parallel to `axis`: the two rotations are one",
-    )
-    .with_help("choose another `axis2`, or write `type: revolute`")
+pub(crate) fn parallel_axes(location: &Location, both_rotate: bool) -> Fault {
+    let (motions, one) = match both_rotate {
+        true => ("rotations", "revolute"),
+        false => ("translations", "prismatic"),
+    };
+    let message = format!("`axis2` is parallel to `axis`: the two {motions} are one");
+    Fault::new(location, "parallel-axes", message)
+        .with_help(format!("choose another `axis2`, or write `type: {one}`"))
 }
 
 pub(crate) fn key_of_other_joint(
@@ -119,7 +122,7 @@ pub(crate) fn oblique_axes(location: &Location, degrees: f64) -> Fault {
         six_digits(degrees)
     );
     Fault::new(location, "oblique-axes", message)
-        .with_help("the two axes of a universal joint are usually perpendicular; if these are not, ignore this")
+        .with_help("the axes of two rotations in a joint are usually perpendicular; if these are not, ignore this")
         .into_warning()
 }
 

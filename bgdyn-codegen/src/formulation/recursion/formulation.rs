@@ -46,6 +46,31 @@ impl Formulation for Recursion {
         let best = best_plans(prepared, method)?;
         Some(with_plan(graph, geometry, method, &best))
     }
+
+    fn sharing(&self, prepared: &Prepared<'_>, method: Method, others: &[Method]) -> Vec<Function> {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        let plans = others
+            .iter()
+            .filter(|other| of_one_motion(**other) && makes(graph, **other));
+        let plans = plans.filter_map(|&other| best_plans(prepared, other));
+        plans
+            .flat_map(|best| match method {
+                Method::JacobianDotV(site) => {
+                    kinematics::sharing(graph, geometry, site, best.taken())
+                }
+                method if of_one_motion(method) => vec![with_plan(graph, geometry, method, &best)],
+                _ => Vec::new(),
+            })
+            .collect()
+    }
+}
+
+/// Returns whether a method is computed from the motion of the bodies, or their inertia, under a plan.
+fn of_one_motion(method: Method) -> bool {
+    matches!(
+        method,
+        Method::InverseDynamics | Method::Bias | Method::ForwardDynamics | Method::MassMatrix
+    )
 }
 
 /// Returns whether the recursion has the method: its derivatives are those of joints with q̇ = v. Loads through joints

@@ -47,6 +47,8 @@ pub(super) struct BodyFrame<'g> {
     pub position_in_parent: Vec3<Expr<'g>>,
     /// Rotation from the basis to the body's axes.
     pub turn: Rotation<'g>,
+    /// Cosine and sine of the angle about z by which the plan rotates the body's axes.
+    pub aim: (Dd, Dd),
     /// Rate of the coordinate, along z; zero for a joint with several.
     pub rate: Expr<'g>,
     /// Second rate of the coordinate, along z.
@@ -167,6 +169,7 @@ impl<'g> Frames<'g> {
                 position,
                 position_in_parent: twist.map(|t| b.constant(t)) * local,
                 turn,
+                aim: aimed,
                 rate,
                 acceleration,
                 relative: own.relative(b, x),

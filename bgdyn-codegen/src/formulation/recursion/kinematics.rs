@@ -7,9 +7,10 @@ use bgdyn_runtime::Dd;
 use super::frames::Frames;
 use super::geometry::Geometry;
 use super::joint_columns::{ColumnDirection, JointColumn};
+use super::motion::{GravityField, motions};
 use super::plan::Plan;
 use crate::bond_graph::{Multibody, SiteId};
-use crate::expr::{Builder, Expr, Graph, Signed, cost};
+use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::formulation::arguments::Arguments;
 use crate::formulation::site::{JacobianColumn, SiteMotion};
 use crate::function::Function;
@@ -17,52 +18,128 @@ use crate::math::{Mat3, Vec3};
 use crate::mechanism::{LinkId, Pose};
 use crate::method::Method;
 
-/// Returns the cheaper one of the functions with and without groups.
+/// How the motion of a site is computed.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    /// From its Jacobian, in world axes.
+    Jacobian,
+    /// From the motion of its body, in the axes of the body: J̇ v only.
+    Body,
+}
+
+/// Returns the cheapest one of the functions with and without groups.
 pub(super) fn function(
     graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     site: SiteId,
 ) -> Function {
-    let of = |grouped| {
-        let (made, outputs) = outputs(graph, geometry, method, site, grouped);
-        let cost = cost(&made, &outputs);
-        (cost.weighted(), made, outputs)
-    };
-    let (plain, grouped) = (of(false), of(true));
-    let (name, best) = if grouped.0 < plain.0 {
-        ("recursion: parallel axes grouped", grouped)
-    } else {
-        ("recursion: plain", plain)
-    };
-    Function::flat(graph, method, name.into(), best.1, best.2)
+    let mut ways = vec![
+        ("plain", false, Way::Jacobian),
+        ("parallel axes grouped", true, Way::Jacobian),
+    ];
+    if matches!(method, Method::JacobianDotV(_)) {
+        ways.extend([
+            ("in body axes, plain", false, Way::Body),
+            ("in body axes, parallel axes grouped", true, Way::Body),
+        ]);
+    }
+    let made = ways.into_iter().map(|(name, grouped, way)| {
+        let (made, outputs) = outputs(graph, geometry, (method, site), grouped, way);
+        Function::flat(graph, method, format!("recursion: {name}"), made, outputs)
+    });
+    let made = made.min_by_key(|function| function.cost().weighted());
+    made.expect("there are several ways")
 }
 
 fn outputs(
     graph: &Multibody,
     geometry: &Geometry,
-    method: Method,
-    site: SiteId,
+    (method, site): (Method, SiteId),
     grouped: bool,
+    way: Way,
 ) -> (Graph, Vec<Signed>) {
     let b = Builder::new();
     let outputs = {
         let x = Arguments::new(&b, graph, method);
-        let frames = Frames::new(
-            &b,
-            graph,
-            geometry,
-            &Plan::of_kinematics(geometry, grouped),
-            &x,
-        );
-        let motion = motion(&b, graph, geometry, &frames, site);
-        motion
-            .outputs(&b, graph, method, &x.v)
-            .into_iter()
-            .map(|e| e.signed())
-            .collect()
+        let plan = Plan::of_kinematics(geometry, grouped);
+        let frames = Frames::new(&b, graph, geometry, &plan, &x);
+        let outputs = match way {
+            Way::Jacobian => {
+                let motion = motion(&b, graph, geometry, &frames, site);
+                motion.outputs(&b, graph, method, &x.v)
+            }
+            Way::Body => {
+                let motion = (&frames, &plan, GravityField::Zero);
+                acceleration((&b, graph, geometry), &frames, motion, site)
+            }
+        };
+        outputs.into_iter().map(|e| e.signed()).collect()
     };
     (b.into_graph(), outputs)
+}
+
+/// Returns functions for J̇ v that share the motion of the bodies with a method that is computed under this plan.
+pub(super) fn sharing(
+    graph: &Multibody,
+    geometry: &Geometry,
+    site: SiteId,
+    plan: &Plan,
+) -> Vec<Function> {
+    let method = Method::JacobianDotV(site);
+    let of = |grouped| {
+        let b = Builder::new();
+        let outputs: Vec<Signed> = {
+            let x = Arguments::new(&b, graph, method);
+            let poses = Plan::of_kinematics(geometry, grouped);
+            let poses = Frames::new(&b, graph, geometry, &poses, &x);
+            let frames = Frames::new(&b, graph, geometry, plan, &x);
+            let made = acceleration(
+                (&b, graph, geometry),
+                &poses,
+                (&frames, plan, GravityField::Gravity),
+                site,
+            );
+            made.into_iter().map(|e| e.signed()).collect()
+        };
+        let name = "recursion: in body axes, with the motion of other methods";
+        Function::flat(graph, method, name.into(), b.into_graph(), outputs)
+    };
+    vec![of(false), of(true)]
+}
+
+/// Returns the acceleration of a site for the accelerations in `frames`, angular part first, in world axes: from ω̇, U
+/// and the acceleration a of its body's origin, in the axes of the body, R ω̇ and R (a + U p), with gravity added where
+/// a has it subtracted. `poses` are frames in metres with the origins of the spec.
+fn acceleration<'g>(
+    (b, graph, geometry): (&'g Builder, &Multibody, &Geometry),
+    poses: &Frames<'g>,
+    (frames, plan, field): (&Frames<'g>, &Plan, GravityField),
+    site: SiteId,
+) -> Vec<Expr<'g>> {
+    let site = &graph.sites[site.0];
+    let (body, (_, mut p)) = home(geometry, site.link, &site.pose);
+    let Some(body) = body else {
+        return vec![b.zero(); 6];
+    };
+    let moving = motions(b, frames, field);
+    let placed = placed(b, geometry, poses);
+    b.section(|| format!("{}: its acceleration in the world", site.name));
+    // The origin and the axes of the plan.
+    p.0[2] = p.0[2] - plan.slides[body];
+    let (c, s) = frames.bodies[body].aim;
+    let zero = Dd::ZERO;
+    let aim = Mat3([[c, -s, zero], [s, c, zero], [zero, zero, Dd::ONE]]);
+    let p = (aim.transpose() * p).scale(Dd::ONE / plan.unit);
+    let (moving, axes) = (&moving[body], placed[body].own);
+    let aim = aim.map(|x| b.constant(x));
+    let linear = aim * (moving.a_own + moving.own.u * b.vector(p));
+    let mut linear = axes * linear.map(|x| x * plan.unit);
+    if field != GravityField::Zero {
+        linear = linear + b.vector(graph.gravity);
+    }
+    let angular = axes * (aim * moving.own.omega_dot);
+    angular.0.into_iter().chain(linear.0).collect()
 }
 
 /// World pose of a body: its basis, its own axes, its origin.

@@ -80,14 +80,23 @@ fn given(
         degrees: degrees?,
         ..plain(name, kind)
     };
+    // Along one axis two rotations are one, and two translations; a rotation and a translation are not.
+    let is_rotation = |k: usize| {
+        kind.chain
+            .get(k)
+            .map(|member| member.kind.motion == Motion::Rotation)
+    };
+    let both_rotate = is_rotation(0) == Some(true) && is_rotation(1) == Some(true);
     if let Some(axis2) = axis2
+        && is_rotation(0) == is_rotation(1)
         && parallel(axis, axis2)
     {
         let location = joint.axis2.given().map_or(&joint.location, |a| &a.location);
-        faults.push(wording::parallel_axes(location));
+        faults.push(wording::parallel_axes(location, both_rotate));
         return None;
     }
     if let (Some(axis2), Some(given)) = (axis2, joint.axis2.given())
+        && both_rotate
         && axis.dot(axis2).to_f64().abs() > OBLIQUE
     {
         let degrees = axis.dot(axis2).to_f64().acos().to_degrees();
@@ -143,7 +152,7 @@ fn second_axis(
     match &joint.axis2 {
         Field::Broken => None,
         Field::Absent if needs => {
-            faults.push(wording::no_second_axis(&joint.location));
+            faults.push(wording::no_second_axis(&joint.location, kind?.keyword));
             None
         }
         Field::Absent => Some(None),

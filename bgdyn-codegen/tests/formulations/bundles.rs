@@ -1,0 +1,231 @@
+//! Bundles: their parts equal the literal sum, and cost less together than one by one.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use bgdyn_codegen::bond_graph;
+use bgdyn_codegen::choice::Preference;
+use bgdyn_codegen::expr::Signed;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::mechanism::Mechanism;
+use bgdyn_codegen::method::Method;
+use bgdyn_codegen::model::Model;
+use bgdyn_codegen::options::{BundleOption, Options};
+use bgdyn_codegen::random::Random;
+use bgdyn_codegen::read;
+use bgdyn_codegen::selection;
+use bgdyn_codegen::verify::check_model;
+
+fn specs(folders: &[&str]) -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let files = folders
+        .iter()
+        .flat_map(|folder| fs::read_dir(root.join(folder)).expect("a folder"));
+    let paths = files.map(|file| file.expect("a file").path());
+    let mut paths: Vec<PathBuf> = paths
+        .filter(|p| p.extension().is_some_and(|end| end == "yaml"))
+        .collect();
+    paths.sort();
+    paths
+}
+
+fn mechanism(path: &Path) -> Mechanism {
+    let text = fs::read_to_string(path).expect("a spec");
+    let stem = path.file_stem().and_then(|stem| stem.to_str());
+    read(&text, stem)
+        .0
+        .unwrap_or_else(|| panic!("{}", path.display()))
+}
+
+fn named(name: &str, methods: &[String]) -> BundleOption {
+    BundleOption {
+        name: name.into(),
+        methods: methods.to_vec(),
+    }
+}
+
+/// Returns the model with these bundles and no other functions.
+fn bundled(mechanism: Mechanism, bundles: Vec<BundleOption>, prefer: Preference) -> Model {
+    let options = Options {
+        methods: Some(Vec::new()),
+        bundles,
+        prefer,
+        ..Options::default()
+    };
+    selection::model(mechanism, &options).expect("methods that can be in a bundle")
+}
+
+/// Returns the names of all methods that can be in a bundle with others.
+fn possible(mechanism: &Mechanism) -> Vec<String> {
+    let graph = bond_graph::build(mechanism);
+    let closed = graph.closed.as_deref();
+    let all = Method::possible_of(&graph)
+        .into_iter()
+        .filter(|m| m.may_be_bundled());
+    all.map(|m| m.name_in(closed, &graph.sites)).collect()
+}
+
+/// Every spec with two random bundles of up to five methods each.
+#[test]
+fn random_bundles_of_every_spec_equal_equation_6() {
+    let mut random = Random(20_261_128);
+    let mut several = 0;
+    for path in specs(&["specs", "specs/loops", "specs/constraints"]) {
+        let mechanism = mechanism(&path);
+        // Derivatives of the largest ones take minutes.
+        let large = mechanism.nv() > 8;
+        let mut names = possible(&mechanism);
+        names.retain(|name| !large || !name.contains("derivatives"));
+        let mut some = || -> Vec<String> {
+            let mut left = names.clone();
+            let count = 2 + (random.unit() * 4.0) as usize;
+            let taken = (0..count.min(left.len())).map(|_| {
+                let k = (random.unit() * left.len() as f64) as usize;
+                left.remove(k.min(left.len() - 1))
+            });
+            taken.collect()
+        };
+        let bundles = vec![
+            named("first_bundle", &some()),
+            named("second_bundle", &some()),
+        ];
+        let model = bundled(mechanism, bundles, Preference::Operations);
+        assert_eq!(model.bundles.len(), 2, "{}", path.display());
+        several += model
+            .bundles
+            .iter()
+            .filter(|b| b.function.shape().checked())
+            .count();
+        let wrong = check_model(&model);
+        assert!(wrong.is_empty(), "{}: {wrong:#?}", path.display());
+    }
+    assert!(
+        several > 10,
+        "few bundles have a part that may have no result"
+    );
+}
+
+/// The comparison with equation (6) sees every part.
+#[test]
+fn a_wrong_part_is_found() {
+    let scara = mechanism(
+        &specs(&["specs"])
+            .into_iter()
+            .find(|p| p.ends_with("scara.yaml"))
+            .expect("a spec"),
+    );
+    let names = ["mass_matrix", "bias", "jacobian_dot_v_world_tool"].map(String::from);
+    let model = bundled(
+        scara,
+        vec![named("control", &names)],
+        Preference::Operations,
+    );
+    assert_eq!(check_model(&model), []);
+    for part in 0..3 {
+        let mut wrong = Model {
+            bundles: model.bundles.clone(),
+            ..copy(&model)
+        };
+        let place = wrong.bundles[0].parts[part].outputs.end - 1;
+        let last = wrong.bundles[0]
+            .function
+            .blocks
+            .last_mut()
+            .expect("a block");
+        let Signed { node, negative } = last.outputs[place - 1];
+        last.outputs[place] = Signed {
+            node,
+            negative: !negative,
+        };
+        assert_eq!(check_model(&wrong).len(), 1, "part {part}");
+    }
+}
+
+fn copy(model: &Model) -> Model {
+    Model {
+        mechanism: model.mechanism.clone(),
+        bond_graph: model.bond_graph.clone(),
+        assembles: model.assembles,
+        functions: model.functions.clone(),
+        bundles: Vec::new(),
+    }
+}
+
+/// The methods of a controller in task space.
+fn control(site: &str) -> Vec<String> {
+    let of_site = ["pose", "jacobian_world", "jacobian_dot_v_world"];
+    let of_site = of_site.map(|method| format!("{method}_{site}"));
+    ["mass_matrix", "bias"]
+        .map(String::from)
+        .into_iter()
+        .chain(of_site)
+        .collect()
+}
+
+/// Operations of a bundle, and of its methods one by one: multiplications and additions, pairs of sine and cosine, and
+/// the cost that the choice counts.
+fn counts(spec: &str, site: &str) -> [[u64; 3]; 2] {
+    let path = specs(&["specs"])
+        .into_iter()
+        .find(|p| p.ends_with(format!("{spec}.yaml")))
+        .expect("a spec");
+    let names = control(site);
+    let options = Options {
+        methods: Some(names.clone()),
+        bundles: vec![named("control", &names)],
+        ..Options::default()
+    };
+    let model = selection::model(mechanism(&path), &options).expect("a model");
+    let count = |function: &Function| {
+        let all = function.operations();
+        [
+            all.total() as u64,
+            all.sincos as u64,
+            function.cost().weighted() as u64,
+        ]
+    };
+    let mut separate = [0; 3];
+    for function in &model.functions {
+        separate
+            .iter_mut()
+            .zip(count(function))
+            .for_each(|(sum, x)| *sum += x);
+    }
+    [count(&model.bundles[0].function), separate]
+}
+
+/// The table of docs/bundles.md.
+#[test]
+fn counts_of_arms() {
+    let found = [("ur5", "flange"), ("panda", "tool")].map(|(spec, site)| counts(spec, site));
+    let ur5 = [[449, 6], [579, 25]];
+    let panda = [[1030, 7], [1392, 32]];
+    let short = |all: [[u64; 3]; 2]| all.map(|one| [one[0], one[1]]);
+    assert_eq!(found.map(short), [ur5, panda]);
+    // With sines a bundle costs at most 0.6 of its methods.
+    for [together, separate] in found {
+        assert!(
+            together[2] * 10 <= separate[2] * 6,
+            "{together:?} {separate:?}"
+        );
+    }
+}
+
+/// With `prefer: accuracy` each part is the most accurate function.
+#[test]
+fn accurate_bundles_equal_equation_6() {
+    for spec in ["scara", "spring_pendulum"] {
+        let path = specs(&["specs"])
+            .into_iter()
+            .find(|p| p.ends_with(format!("{spec}.yaml")))
+            .expect("a spec");
+        let names = ["mass_matrix", "bias", "forward_dynamics"].map(String::from);
+        let model = bundled(
+            mechanism(&path),
+            vec![named("all", &names)],
+            Preference::Accuracy,
+        );
+        assert!(model.bundles[0].function.ordered);
+        assert_eq!(check_model(&model), [], "{spec}");
+    }
+}
