@@ -4,8 +4,8 @@
 //! `lanes.rs`) and its numbers put into arrays (`parts.rs`); these know nothing of Python. `arrays.rs` reads and provides
 //! NumPy arrays, `results.rs` returns them; `positions.rs` moves positions joint by joint (`joint_positions.rs`) and closes
 //! loops, `position_calls.rs` does so at many states; `method.rs`, `model.rs` and `scene.rs` are the classes,
-//! `documentation.rs` is what `help` prints of methods. `threads.rs` shares a computation among threads, and
-//! `interrupt.rs` ends it at Ctrl-C.
+//! `opening.rs` reads the text of a model, `source.rs` writes its code, `documentation.rs` is what `help` prints of
+//! methods. `threads.rs` shares a computation among threads, and `interrupt.rs` ends it at Ctrl-C.
 #![forbid(unsafe_code)]
 
 mod arrays;
@@ -18,12 +18,14 @@ mod joint_positions;
 mod lanes;
 mod method;
 mod model;
+mod opening;
 mod parts;
 mod position_calls;
 mod positions;
 mod results;
 mod run_settings;
 mod scene;
+mod source;
 mod spec;
 mod threads;
 

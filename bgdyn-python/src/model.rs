@@ -6,18 +6,18 @@ use std::sync::Arc;
 use bgdyn_cli::graph::mechanism_svg;
 use bgdyn_cli::spec_file::SpecFile;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::{Options, formulation_named, preference_named};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 
 use crate::arrays::numbers_by_name;
 use crate::documentation;
-use crate::errors::{refused, spec_error};
 use crate::method::PyMethod;
+use crate::opening::opened;
 use crate::position_calls::{Way, each_state, random_numbers};
 use crate::positions::Positions;
+use crate::source::SourceRequest;
 use crate::spec::{ModelData, Spec};
 
 /// A model: a mechanism with the values of its run-time parameters. It does not change.
@@ -42,43 +42,15 @@ impl Model {
         prefer: &str,
         parameters: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let named = formulation.as_deref().map(formulation_named).transpose();
-        let options = Options {
-            formulation: named.map_err(PyValueError::new_err)?,
-            prefer: preference_named(prefer).map_err(PyValueError::new_err)?,
-            verify: false,
-            ..Options::default()
-        };
         let file = SpecFile {
             path: shown.unwrap_or_else(|| "<text>".into()).into(),
             text,
             stem: name,
             mechanism: None,
         };
-        if let Some(fault) = file.urdf() {
-            let shown = file.path.display().to_string();
-            return Err(spec_error(
-                py,
-                &format!("{}; or load(urdf=\"{shown}\")", fault.headline(&shown)),
-            ));
-        }
-        if file.is_scene() {
-            let shown = file.path.display();
-            return Err(spec_error(
-                py,
-                &format!("{shown} is a scene: see bgdyn.Scene"),
-            ));
-        }
-        let (mechanism, faults) = py.detach(|| file.read());
-        let Some(mechanism) = mechanism else {
-            return Err(refused(py, &file, &faults));
-        };
-        let warnings = file.render(&faults);
-        let choice = (formulation, prefer.to_owned());
-        let defaults = mechanism.parameters().iter().map(|p| p.default.to_f64());
-        let parameters_of_file = defaults.collect();
-        let spec = Spec::new((file.text, file.stem), mechanism, choice, options);
-        spec.checked().map_err(PyValueError::new_err)?;
+        let (spec, warnings) = opened(py, file, (formulation, prefer.to_owned()))?;
+        let defaults = spec.mechanism.parameters().iter();
+        let parameters_of_file = defaults.map(|p| p.default.to_f64()).collect();
         let model = Model {
             data: ModelData {
                 spec: Arc::new(spec),
@@ -211,11 +183,39 @@ impl Model {
         Ok(found)
     }
 
-    /// The Rust source text of a module with this method.
-    fn source(&self, py: Python<'_>, method: &str) -> PyResult<String> {
-        let method = self.method(method)?;
-        let text = py.detach(|| self.data.spec.source(method));
-        text.map_err(PyValueError::new_err)
+    /// The engine that computes the methods: always "tape", lists of operations without a compiler. Python has no
+    /// machine code.
+    #[getter]
+    fn engine(&self) -> &'static str {
+        Spec::engine()
+    }
+
+    /// The generated code, as `bgdyn generate` writes it: of one method, of a list of methods, or of those that the
+    /// command chooses.
+    ///
+    /// bundles: {name: [method, ...]}, several methods as one function.
+    /// backend: "rust" returns the text of a module, "c" a dictionary of file names and texts.
+    /// options: {name: text}, those of `bgdyn generate --option`, such as {"float": "float"} for C.
+    ///
+    /// The functions are compared with equation (6) first. Run-time parameters remain parameters, with the file's values
+    /// as defaults.
+    #[pyo3(signature = (method=None, *, bundles=None, backend="rust", options=None))]
+    fn source<'py>(
+        &self,
+        py: Python<'py>,
+        method: Option<&Bound<'py, PyAny>>,
+        bundles: Option<&Bound<'py, PyAny>>,
+        backend: &str,
+        options: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = SourceRequest::new(method, bundles, backend, options)?;
+        let files = py.detach(|| asked.files(&self.data.spec));
+        let files = files.map_err(PyValueError::new_err)?;
+        if let [file] = files.as_slice() {
+            return Ok(file.text.as_str().into_pyobject(py)?.into_any());
+        }
+        let texts = files.iter().map(|file| (&file.name, &file.text));
+        Ok(texts.into_py_dict(py)?.into_any())
     }
 
     /// q with every coordinate zero and every quaternion (0, 0, 0, 1); with loops or wheels their start.

@@ -10,6 +10,7 @@ use bgdyn_cli::simulate::{
     summarized, summary,
 };
 use bgdyn_cli::spec_file::SpecFile;
+use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::scene::Override;
 use bgdyn_codegen::system::SceneEquations;
@@ -130,6 +131,13 @@ impl PyScene {
             found.set_item(&column.name, column.unit)?;
         }
         Ok(found)
+    }
+
+    /// The engine that computes runs: always "tape", lists of operations without a compiler. Python has no
+    /// machine code.
+    #[getter]
+    fn engine(&self) -> &'static str {
+        Interruptible.name()
     }
 
     /// Runs the scene; returns what `bgdyn.Run` is made of.

@@ -3,7 +3,6 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use bgdyn_codegen::SpecText;
 use bgdyn_codegen::bond_graph::{self, BondGraph};
 use bgdyn_codegen::declaration::Declaration;
 use bgdyn_codegen::engine::{Callable, Engine};
@@ -12,7 +11,6 @@ use bgdyn_codegen::format::{Number, ParsedValue};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::{Argument, Method};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
 use bgdyn_codegen::selection;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Cause as Refused;
@@ -33,7 +31,8 @@ pub struct Spec {
     pub graph: BondGraph,
     /// The names of formulation and preference, as given.
     pub choice: (Option<String>, String),
-    options: Options,
+    /// Options of the generator with this choice.
+    pub options: Options,
     /// Its methods by their names.
     methods: HashMap<String, Method>,
     prepared: Mutex<HashMap<String, Arc<Prepared>>>,
@@ -140,6 +139,11 @@ impl Spec {
             choice,
             options,
         }
+    }
+
+    /// Returns the name of the engine that computes methods.
+    pub fn engine() -> &'static str {
+        Tape.name()
     }
 
     /// Checks that the selected formulation serves the mechanism.
@@ -250,22 +254,6 @@ impl Spec {
         });
         // Another thread may have made the same.
         Ok(Arc::clone(kept().entry(name).or_insert(made)))
-    }
-
-    /// Returns the source text of a Rust module with this method.
-    ///
-    /// # Errors
-    /// A message.
-    pub fn source(&self, method: Method) -> Result<String, String> {
-        let output = bgdyn_codegen::emit::OutputOptions::source_text(format!("{}.yaml", self.name));
-        let options = Options {
-            methods: Some(vec![self.name_of(method)]),
-            ..self.options.clone()
-        };
-        let spec = SpecText::mechanism(&self.text, &self.name);
-        let made = pipeline::generate_module(&spec, &options, &output);
-        let (tokens, _) = made.map_err(|refusal| format!("{refusal:?}"))?;
-        Ok(bgdyn_codegen::emit::source_text(tokens))
     }
 
     /// Returns what a refused pivot of this method means.

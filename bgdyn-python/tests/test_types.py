@@ -44,7 +44,7 @@ def test_a_users_file(tmp_path: Path) -> None:
             found.append((int(mark.group(1)), mark.group(2)))
         else:
             assert ": note: " in line, line
-    assert found == wanted and len(wanted) == 8
+    assert found == wanted and len(wanted) == 9
 
 
 def test_the_package_itself(tmp_path: Path) -> None:

@@ -139,8 +139,53 @@ class Model:
         """Returns the model with these values of run-time parameters, SI units. Functions are shared."""
     def operations(self, method: str) -> dict[str, int]:
         """Counts the operations of a method for one state: mul, add, div, sqrt, sincos (pairs), other."""
-    def source(self, method: str) -> str:
-        """Returns the Rust source text of a module with this method, as ``bgdyn generate`` writes it."""
+    @property
+    def engine(self) -> Literal["tape"]:
+        """The engine that computes the methods: always "tape", lists of operations without a compiler.
+
+        Python has no machine code, which the command makes.
+        """
+    @overload
+    def source(
+        self,
+        method: str | Sequence[str] | None = None,
+        *,
+        bundles: Mapping[str, str | Sequence[str]] | None = None,
+        backend: Literal["rust"] = "rust",
+        options: Mapping[str, str] | None = None,
+    ) -> str:
+        """Returns the generated code, as ``bgdyn generate`` writes it: the text of a Rust module.
+
+        ``method`` is a name or a list of names, as in ``--methods``; without it the command's choice of methods is
+        written. ``bundles`` are several methods as one function each: ``{"control": ["mass_matrix", "bias"]}``.
+        ``options`` are those of ``--option``: module, visibility, crate, plain.
+
+        The functions are compared with equation (6) first. Run-time parameters remain parameters, with the file's values
+        as defaults. Raises ``ValueError`` with the command's text for an unknown backend, method, bundle or option.
+        """
+    @overload
+    def source(
+        self,
+        method: str | Sequence[str] | None = None,
+        *,
+        bundles: Mapping[str, str | Sequence[str]] | None = None,
+        backend: Literal["c"],
+        options: Mapping[str, str] | None = None,
+    ) -> dict[str, str]:
+        """Returns the same in C99: texts by the names of their files, ``NAME.h`` and ``NAME.c``.
+
+        ``options`` are prefix, float, sincos, cmake.
+        """
+    @overload
+    def source(
+        self,
+        method: str | Sequence[str] | None = None,
+        *,
+        bundles: Mapping[str, str | Sequence[str]] | None = None,
+        backend: str,
+        options: Mapping[str, str] | None = None,
+    ) -> str | dict[str, str]:
+        """Returns the text of a backend with one file, or texts by the names of files."""
     def neutral(self) -> Array:
         """Returns q, (nq,), with every coordinate zero and every quaternion (0, 0, 0, 1).
 
@@ -319,6 +364,12 @@ class Scene:
     @property
     def units(self) -> dict[str, str]:
         """Their SI units by name; empty for a pure number."""
+    @property
+    def engine(self) -> Literal["tape"]:
+        """The engine that computes runs: always "tape", lists of operations without a compiler.
+
+        Python has no machine code, which the command makes.
+        """
     @property
     def _warnings(self) -> str: ...
     def _simulate(

@@ -34,6 +34,8 @@ assert_type(arm.sample((2, 3), seed=1), Array)
 assert_type(arm.sample(2, on_singular="nan"), tuple[Array, NDArray[np.bool_]])
 assert_type(arm.link_names, tuple[str, ...])
 assert_type(bgdyn.__version__, str)
+assert_type(arm.source("gravity"), str)
+assert_type(arm.source(bundles={"control": ["mass_matrix", "bias"]}, backend="c"), dict[str, str])
 
 swept = bgdyn.Scene("arm.scene.yaml").sweep({"payload": [1.0, 2.0]}, workers=2, progress=lambda done, total: None)
 assert_type(swept.end["shoulder"], Array)
@@ -59,5 +61,6 @@ arm.gravity("zero")  # mistake: arg-type
 arm.forward_dynamics(q, q, q, on_singular="ignore")  # mistake: call-overload
 arm.sample("ten")  # mistake: call-overload
 arm.nq = 5  # mistake: misc
+arm.source(options={"plain": True})  # mistake: call-overload
 bgdyn.load(text=5)  # mistake: arg-type
 run.end  # mistake: attr-defined
