@@ -61,6 +61,6 @@ arm.gravity("zero")  # mistake: arg-type
 arm.forward_dynamics(q, q, q, on_singular="ignore")  # mistake: call-overload
 arm.sample("ten")  # mistake: call-overload
 arm.nq = 5  # mistake: misc
-arm.source(options={"plain": True})  # mistake: call-overload
+arm.source(options={"plain": True})  # mistake: dict-item
 bgdyn.load(text=5)  # mistake: arg-type
 run.end  # mistake: attr-defined
