@@ -4,6 +4,7 @@ use numpy::{
     PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyReadwriteArrayDyn, PyUntypedArray,
     PyUntypedArrayMethods,
 };
+use pyo3::PyTypeInfo;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
@@ -66,6 +67,7 @@ pub fn target<'py>(
     let Some(out) = out else {
         return Ok(PyArrayDyn::zeros(py, shape, false));
     };
+    without_mask("out", out)?;
     let Ok(array) = out.cast::<PyArrayDyn<f64>>() else {
         let what = kind(out)?;
         return Err(PyTypeError::new_err(format!(
@@ -125,11 +127,53 @@ pub fn unravelled(state: usize, batch: &[usize]) -> Vec<usize> {
 /// Checks a number of threads.
 ///
 /// # Errors
-/// `ValueError` for 0.
-pub fn checked_threads(threads: usize) -> PyResult<()> {
-    match threads {
-        0 => Err(PyValueError::new_err("`threads` is at least 1")),
-        _ => Ok(()),
+/// `ValueError` for 0 and less.
+pub fn checked_threads(threads: i64) -> PyResult<usize> {
+    match usize::try_from(threads) {
+        Ok(threads) if threads > 0 => Ok(threads),
+        _ => Err(PyValueError::new_err(format!(
+            "`threads` is at least 1, not {threads}"
+        ))),
+    }
+}
+
+/// Reads numbers by name.
+///
+/// # Errors
+/// `TypeError` for a value that is no number.
+pub fn numbers_by_name(given: &Bound<'_, PyDict>) -> PyResult<Vec<(String, f64)>> {
+    let mut found = Vec::new();
+    for (name, value) in given {
+        let name: String = name.extract()?;
+        let Ok(number) = value.extract() else {
+            let shown = value.repr()?;
+            return Err(PyTypeError::new_err(format!(
+                "`{name}` is a number in SI units, not {shown}"
+            )));
+        };
+        found.push((name, number));
+    }
+    Ok(found)
+}
+
+/// Refuses an array with a mask: its masked numbers would be taken for values.
+///
+/// # Errors
+/// `TypeError`.
+fn without_mask(name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
+    // An array of NumPy itself has none, and needs no import.
+    let py = value.py();
+    if !value.is_instance_of::<PyUntypedArray>()
+        || value.get_type().is(PyUntypedArray::type_object(py))
+    {
+        return Ok(());
+    }
+    let masked = py.import("numpy.ma")?.getattr("MaskedArray")?;
+    match value.is_instance(&masked)? {
+        false => Ok(()),
+        true => Err(PyTypeError::new_err(format!(
+            "`{name}` is a masked array, and bgdyn has no masks: `{name}.filled(numpy.nan)` makes masked numbers NaN, `{name}.data` takes the numbers without the mask"
+        ))),
     }
 }
 
@@ -139,6 +183,7 @@ fn aligned(array: &Array<'_>) -> bool {
 
 /// Returns an array of `float64`: an array as it is, or one made from a list or what NumPy takes for an array.
 fn doubles<'py>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<Array<'py>> {
+    without_mask(name, value)?;
     if let Ok(array) = value.cast::<PyArrayDyn<f64>>() {
         return Ok(array.clone());
     }

@@ -5,8 +5,13 @@ use bgdyn_codegen::method::Argument;
 
 use bgdyn_runtime::wide::f64x4;
 
+use crate::interrupt::Interrupt;
 use crate::lanes::{LANES, LaneCall, LaneMemory, joined};
 use crate::parts::Part;
+use crate::threads::in_threads;
+
+/// Number of states between two questions whether to leave off.
+const ASKING: usize = 256;
 
 /// The values of one argument.
 #[derive(Clone, Copy, Debug)]
@@ -59,44 +64,56 @@ impl Batch<'_> {
     /// Computes the states 0 to `count`, in at most `threads` threads. `out` has an array for each part, state
     /// after state. Returns the refused states in their order; NaN is written there.
     ///
-    /// A state with an argument that is NaN or infinite is not refused: where a pivot is, its result is NaN.
-    pub fn compute(&self, count: usize, threads: usize, out: Vec<&mut [f64]>) -> Vec<Refusal> {
+    /// A state with an argument that is NaN or infinite is not refused: where a pivot is, its result is NaN. If
+    /// `interrupt` comes, the states after it are not computed.
+    pub fn compute(
+        &self,
+        count: usize,
+        threads: usize,
+        out: Vec<&mut [f64]>,
+        interrupt: &Interrupt,
+    ) -> Vec<Refusal> {
         let threads = threads.min(count);
         if threads < 2 {
-            return self.compute_from(0, count, out);
+            return self.compute_from(0, count, out, &|| interrupt.ask());
         }
-        let mut rest = out;
-        std::thread::scope(|scope| {
-            let mut running = Vec::new();
-            let mut first = 0;
-            for k in 0..threads {
-                let end = count * (k + 1) / threads;
-                let mut own = Vec::new();
-                let mut others = Vec::new();
-                for (part, out) in self.parts.iter().zip(rest) {
-                    let (head, tail) = out.split_at_mut((end - first) * part.len());
-                    own.push(head);
-                    others.push(tail);
-                }
-                rest = others;
-                let start = first;
-                running.push(scope.spawn(move || self.compute_from(start, end - start, own)));
-                first = end;
+        let (mut shares, mut rest, mut first) = (Vec::new(), out, 0);
+        for k in 0..threads {
+            let end = count * (k + 1) / threads;
+            let mut own = Vec::new();
+            let mut others = Vec::new();
+            for (part, out) in self.parts.iter().zip(rest) {
+                let (head, tail) = out.split_at_mut((end - first) * part.len());
+                own.push(head);
+                others.push(tail);
             }
-            let found = running.into_iter().map(|thread| match thread.join() {
-                Ok(refused) => refused,
-                Err(panic) => std::panic::resume_unwind(panic),
-            });
-            found.flatten().collect()
-        })
+            rest = others;
+            shares.push((first, end - first, own));
+            first = end;
+        }
+        let one = |(first, count, out): (usize, usize, Vec<&mut [f64]>),
+                   ends: &dyn Fn() -> bool| {
+            self.compute_from(first, count, out, ends)
+        };
+        in_threads(shares, interrupt, one).concat()
     }
 
-    /// Computes `count` states from `first` on: as many as possible in lanes, the others one by one.
-    fn compute_from(&self, first: usize, count: usize, mut out: Vec<&mut [f64]>) -> Vec<Refusal> {
+    /// Computes `count` states from `first` on: as many as possible in lanes, the others one by one. `ends` returns
+    /// whether to leave off.
+    fn compute_from(
+        &self,
+        first: usize,
+        count: usize,
+        mut out: Vec<&mut [f64]>,
+        ends: &dyn Fn() -> bool,
+    ) -> Vec<Refusal> {
         let mut refused = Vec::new();
         let in_lanes = count - count % LANES;
         let mut memory = LaneMemory::default();
         for k in (0..in_lanes).step_by(LANES) {
+            if k % ASKING == ASKING - LANES && ends() {
+                return refused;
+            }
             let (results, pivots) = self.lanes_from(first + k, &mut memory);
             for (part, out) in self.parts.iter().zip(&mut out) {
                 let entries = &mut out[k * part.len()..(k + LANES) * part.len()];

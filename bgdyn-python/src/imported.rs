@@ -17,10 +17,17 @@ pub fn import_file(py: Python<'_>, path: PathBuf) -> PyResult<(String, String, V
         Ok(made) => Ok((made.yaml, made.name, made.warnings)),
         Err(error) => {
             let text = error.to_string();
-            // A position in the file follows its path without a space.
-            let place = text.starts_with(|c: char| c.is_ascii_digit());
-            let space = if place { "" } else { " " };
-            Err(spec_error(py, &format!("{shown}:{space}{text}")))
+            // Some messages begin with the path, others with a position in the file, which follows it without a space.
+            Err(spec_error(
+                py,
+                &match text {
+                    _ if text.starts_with(&shown) => text,
+                    _ if text.starts_with(|c: char| c.is_ascii_digit()) => {
+                        format!("{shown}:{text}")
+                    }
+                    _ => format!("{shown}: {text}"),
+                },
+            ))
         }
     }
 }

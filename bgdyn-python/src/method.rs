@@ -10,11 +10,21 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::{Array, checked_threads, leading_shape, read, unravelled, writable};
 use crate::batch::{Batch, Given, Refusal};
+use crate::documentation;
 use crate::errors::{OnSingular, Singular};
+use crate::interrupt::Interrupt;
 use crate::results::{mask, result, targets};
 use crate::spec::{Cause, ModelData, Prepared};
 
-/// A method of a model.
+/// A method of a model, `arm.pose_tool`: arrays in, arrays out.
+///
+/// Every argument has the shape (n,), or (..., n) for many states; all leading shapes are the same, and an argument
+/// without one is shared by all states. Arrays are float64, and are never converted.
+///
+/// out: receives the result; an array, or a tuple of arrays for results with several.
+/// threads: number of threads that share the states.
+/// on_singular: "raise" raises bgdyn.SingularError for the first singular state; with "nan" singular states are NaN, and
+/// the call returns (result, mask).
 #[pyclass(frozen, module = "bgdyn", name = "Method")]
 #[derive(Debug)]
 pub struct PyMethod {
@@ -41,12 +51,12 @@ impl PyMethod {
         py: Python<'py>,
         args: &Bound<'py, PyTuple>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
         on_singular: &str,
         named: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let on_singular = OnSingular::named(on_singular)?;
-        checked_threads(threads)?;
+        let threads = checked_threads(threads)?;
         let arguments = self.arguments(args, named)?;
         let prepared = self.prepared(py)?;
         let arrays = targets(py, &prepared.parts, &arguments.batch, out)?;
@@ -71,10 +81,22 @@ impl PyMethod {
         PyTuple::new(py, self.method.arguments().iter().map(|a| a.name()))
     }
 
+    /// Its name, as functions have it.
+    #[getter]
+    fn __name__(&self) -> &str {
+        &self.name
+    }
+
     /// What the result is.
     #[getter]
     fn summary(&self) -> String {
-        self.method.summary(&self.data.spec.graph.sites)
+        documentation::summary(self.method, &self.data.spec.graph.sites)
+    }
+
+    /// What `help` prints of it.
+    #[getter]
+    fn _documentation(&self) -> String {
+        documentation::of(&self.data.spec, self.method)
     }
 
     /// The units of the result.
@@ -213,7 +235,10 @@ impl PyMethod {
             parts: &prepared.parts.arrays,
         };
         let count = arguments.batch.iter().product();
-        Ok(py.detach(|| batch.compute(count, threads, out)))
+        let interrupt = Interrupt::default();
+        let refused = py.detach(|| batch.compute(count, threads, out, &interrupt));
+        interrupt.finished()?;
+        Ok(refused)
     }
 
     /// Returns the error of a refused state.

@@ -6,16 +6,18 @@ use std::sync::Arc;
 use bgdyn_cli::graph::mechanism_svg;
 use bgdyn_cli::spec_file::SpecFile;
 use bgdyn_codegen::method::Method;
-use bgdyn_codegen::options::{Options, formulation_named, preference_named};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{IntoPyDict, PyDict, PyTuple};
 
-use crate::errors::{refused, spec_error};
+use crate::arrays::numbers_by_name;
+use crate::documentation;
 use crate::method::PyMethod;
+use crate::opening::opened;
 use crate::position_calls::{Way, each_state, random_numbers};
 use crate::positions::Positions;
+use crate::source::SourceRequest;
 use crate::spec::{ModelData, Spec};
 
 /// A model: a mechanism with the values of its run-time parameters. It does not change.
@@ -40,43 +42,15 @@ impl Model {
         prefer: &str,
         parameters: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let named = formulation.as_deref().map(formulation_named).transpose();
-        let options = Options {
-            formulation: named.map_err(PyValueError::new_err)?,
-            prefer: preference_named(prefer).map_err(PyValueError::new_err)?,
-            verify: false,
-            ..Options::default()
-        };
         let file = SpecFile {
             path: shown.unwrap_or_else(|| "<text>".into()).into(),
             text,
             stem: name,
             mechanism: None,
         };
-        if let Some(fault) = file.urdf() {
-            let shown = file.path.display().to_string();
-            return Err(spec_error(
-                py,
-                &format!("{}; or load(urdf=\"{shown}\")", fault.headline(&shown)),
-            ));
-        }
-        if file.is_scene() {
-            let shown = file.path.display();
-            return Err(spec_error(
-                py,
-                &format!("{shown} is a scene: see bgdyn.Scene"),
-            ));
-        }
-        let (mechanism, faults) = py.detach(|| file.read());
-        let Some(mechanism) = mechanism else {
-            return Err(refused(py, &file, &faults));
-        };
-        let warnings = file.render(&faults);
-        let choice = (formulation, prefer.to_owned());
-        let defaults = mechanism.parameters().iter().map(|p| p.default.to_f64());
-        let parameters_of_file = defaults.collect();
-        let spec = Spec::new((file.text, file.stem), mechanism, choice, options);
-        spec.checked().map_err(PyValueError::new_err)?;
+        let (spec, warnings) = opened(py, file, (formulation, prefer.to_owned()))?;
+        let defaults = spec.mechanism.parameters().iter();
+        let parameters_of_file = defaults.map(|p| p.default.to_f64()).collect();
         let model = Model {
             data: ModelData {
                 spec: Arc::new(spec),
@@ -90,9 +64,7 @@ impl Model {
     /// The model with these values of run-time parameters, SI units.
     #[pyo3(signature = (**parameters))]
     fn with_parameters(&self, parameters: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let given = parameters.into_iter().flatten();
-        let given = given.map(|(name, value)| Ok((name.extract()?, value.extract()?)));
-        let given: Vec<(String, f64)> = given.collect::<PyResult<_>>()?;
+        let given = parameters.map_or(Ok(vec![]), numbers_by_name)?;
         let data = self.data.with_parameters(&given);
         Ok(Model {
             data: data.map_err(PyValueError::new_err)?,
@@ -145,6 +117,24 @@ impl Model {
         PyTuple::new(py, rows.collect::<Vec<_>>())
     }
 
+    /// The links, parents before children: the order of `joint_reactions`.
+    #[getter]
+    fn link_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.link_names())
+    }
+
+    /// The loops and contacts, in the order of `reactions`.
+    #[getter]
+    fn reaction_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.reaction_names())
+    }
+
+    /// The joints of `actuated` in the file.
+    #[getter]
+    fn actuated_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.mechanism.actuated_names())
+    }
+
     /// The links and frames X of `pose_X`, `velocity_X`, `jacobian_world_X`, `jacobian_dot_v_world_X`.
     #[getter]
     fn frame_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
@@ -193,11 +183,39 @@ impl Model {
         Ok(found)
     }
 
-    /// The Rust source text of a module with this method.
-    fn source(&self, py: Python<'_>, method: &str) -> PyResult<String> {
-        let method = self.method(method)?;
-        let text = py.detach(|| self.data.spec.source(method));
-        text.map_err(PyValueError::new_err)
+    /// The engine that computes the methods: always "tape", lists of operations without a compiler. Python has no
+    /// machine code.
+    #[getter]
+    fn engine(&self) -> &'static str {
+        Spec::engine()
+    }
+
+    /// The generated code, as `bgdyn generate` writes it: of one method, of a list of methods, or of those that the
+    /// command chooses.
+    ///
+    /// bundles: {name: [method, ...]}, several methods as one function.
+    /// backend: "rust" returns the text of a module, "c" a dictionary of file names and texts.
+    /// options: {name: text}, those of `bgdyn generate --option`, such as {"float": "float"} for C.
+    ///
+    /// The functions are compared with equation (6) first. Run-time parameters remain parameters, with the file's values
+    /// as defaults.
+    #[pyo3(signature = (method=None, *, bundles=None, backend="rust", options=None))]
+    fn source<'py>(
+        &self,
+        py: Python<'py>,
+        method: Option<&Bound<'py, PyAny>>,
+        bundles: Option<&Bound<'py, PyAny>>,
+        backend: &str,
+        options: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let asked = SourceRequest::new(method, bundles, backend, options)?;
+        let files = py.detach(|| asked.files(&self.data.spec));
+        let files = files.map_err(PyValueError::new_err)?;
+        if let [file] = files.as_slice() {
+            return Ok(file.text.as_str().into_pyobject(py)?.into_any());
+        }
+        let texts = files.iter().map(|file| (&file.name, &file.text));
+        Ok(texts.into_py_dict(py)?.into_any())
     }
 
     /// q with every coordinate zero and every quaternion (0, 0, 0, 1); with loops or wheels their start.
@@ -212,7 +230,7 @@ impl Model {
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
         on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         if self.data.spec.mechanism.closure().is_none() {
@@ -231,7 +249,7 @@ impl Model {
         q: &Bound<'py, PyAny>,
         dv: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
         on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let way = Way::new(out, threads, on_singular);
@@ -247,7 +265,7 @@ impl Model {
         q1: &Bound<'py, PyAny>,
         q0: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q1", q1, self.nq()), ("q0", q0, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.difference(x[0], x[1]));
@@ -262,7 +280,7 @@ impl Model {
         q: &Bound<'py, PyAny>,
         v: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq()), ("v", v, self.nv())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.position_rates(x[0], x[1]));
@@ -276,7 +294,7 @@ impl Model {
         &self,
         q: &Bound<'py, PyAny>,
         out: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let given = [("q", q, self.nq())];
         let one = |of: &Positions<'_>, x: &[&[f64]]| Ok(of.normalize(x[0]));
@@ -285,53 +303,49 @@ impl Model {
     }
 
     /// Random positions; with loops closed ones.
-    #[pyo3(signature = (n=None, seed=None, *, threads=1))]
+    #[pyo3(signature = (n=None, seed=None, *, threads=1, on_singular="raise"))]
     fn sample<'py>(
         &self,
         py: Python<'py>,
         n: Option<&Bound<'py, PyAny>>,
         seed: Option<&Bound<'py, PyAny>>,
-        threads: usize,
+        threads: i64,
+        on_singular: &str,
     ) -> PyResult<Bound<'py, PyAny>> {
         let u = random_numbers(py, n, self.nv(), seed)?;
         let given = [("u", &u, self.nv())];
-        let way = Way::plain(None, threads);
+        let way = Way::new(None, threads, on_singular);
         let one = |of: &Positions<'_>, x: &[&[f64]]| of.sample(x[0]);
         each_state(py, &self.data, &given, self.nq(), &way, one)
     }
 
     fn __getattr__(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
-        let data = &slf.get().data;
+        let (model, data) = (slf.as_any().clone().unbind(), &slf.get().data);
         let method = data.spec.method(name).map_err(PyAttributeError::new_err)?;
-        Ok(PyMethod::new(
-            slf.as_any().clone().unbind(),
-            data.clone(),
-            method,
-        ))
+        Ok(PyMethod::new(model, data.clone(), method))
+    }
+
+    /// The same for names that the class has.
+    fn _method(slf: &Bound<'_, Self>, name: &str) -> PyResult<PyMethod> {
+        Self::__getattr__(slf, name)
     }
 
     fn __dir__(slf: &Bound<'_, Self>) -> PyResult<Vec<String>> {
         let object = slf.py().import("builtins")?.getattr("object")?;
         let own: Vec<String> = object.call_method1("__dir__", (slf,))?.extract()?;
-        Ok(own.into_iter().chain(slf.get().method_names()).collect())
+        // The class shows methods that this mechanism may not have.
+        let of_class = documentation::of_class();
+        let is_method = |name: &String| of_class.iter().any(|(method, ..)| method == name);
+        let own = own.into_iter().filter(|name| !is_method(name));
+        Ok(own.chain(slf.get().method_names()).collect())
     }
 
     fn __repr__(&self) -> String {
-        let joints: Vec<&str> = self
-            .data
-            .spec
-            .graph
-            .coordinates
-            .iter()
-            .map(|c| c.name.as_str())
-            .collect();
-        format!(
-            "<bgdyn.Model {}: NQ {}, NV {}: {}>",
-            self.data.spec.name,
-            self.nq(),
-            self.nv(),
-            joints.join(", ")
-        )
+        let spec = &self.data.spec;
+        let joints = spec.graph.coordinates.iter().map(|c| c.name.as_str());
+        let joints: Vec<&str> = joints.collect();
+        let (nq, nv, joints) = (self.nq(), self.nv(), joints.join(", "));
+        format!("<bgdyn.Model {}: NQ {nq}, NV {nv}: {joints}>", spec.name)
     }
 
     fn _repr_html_(&self) -> String {
@@ -365,12 +379,8 @@ impl Model {
 
     fn __hash__(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
-        (
-            &self.data.spec.text,
-            &self.data.spec.name,
-            &self.data.spec.choice,
-        )
-            .hash(&mut hasher);
+        let spec = &self.data.spec;
+        (&spec.text, &spec.name, &spec.choice).hash(&mut hasher);
         hasher.finish()
     }
 }

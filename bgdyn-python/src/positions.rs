@@ -165,10 +165,11 @@ impl<'a> Positions<'a> {
                 all[j.0] = u;
             }
             let target = loops.tree.sample(&all);
-            if loops.closure.nonholonomic() {
-                return closed(loops.closure, &target);
-            }
             let mut q = self.neutral();
+            if loops.closure.nonholonomic() {
+                let there = closed(loops.closure, &target);
+                return Ok(there.unwrap_or_else(|_| loops.followed(&q, &target)));
+            }
             let mut part = loops.way(&target, &q);
             part.iter_mut().for_each(|x| *x /= PARTS as f64);
             for _ in 0..PARTS {
@@ -207,6 +208,24 @@ impl Loops<'_> {
         let moved = self.tree.difference(q1, q0);
         let independents = self.closure.independents.iter();
         independents.map(|j| moved[j.0]).collect()
+    }
+
+    /// Returns the last closed position on the way from the closed position `start` to `target`, in equal parts along
+    /// the independent velocities; the other positions close.
+    fn followed(&self, start: &[f64], target: &[f64]) -> Vec<f64> {
+        let moved = self.tree.difference(target, start);
+        let mut part = vec![0.0; moved.len()];
+        for j in &self.closure.independents {
+            part[j.0] = moved[j.0] / PARTS as f64;
+        }
+        let mut q = start.to_vec();
+        for _ in 0..PARTS {
+            match closed(self.closure, &self.tree.integrate(&q, &part)) {
+                Ok(there) => q = there,
+                Err(_) => break,
+            }
+        }
+        q
     }
 
     fn same_branch(&self, q: &[f64], other: &[f64]) -> bool {

@@ -28,7 +28,8 @@ impl Settings {
         ];
         for (name, value) in numbers {
             if value.is_some_and(|x| !(x.is_finite() && x > 0.0)) {
-                return wrong(format!("`{name}` is a positive number"));
+                let value = value.unwrap_or_default();
+                return wrong(format!("`{name}` is a positive number, not {value}"));
             }
         }
         if points < 2 {
@@ -68,15 +69,30 @@ impl Settings {
     }
 }
 
-/// Returns the quantity with this name that a run can change: a parameter, or else a part of the start.
+/// What a name means that may be both.
+pub const EITHER: &str = "parameter or part of the state";
+
+/// Returns the quantity with this name that a run can change: a `parameter`, a `part of the state`, or [`EITHER`].
 ///
 /// # Errors
-/// `ValueError` with the names that there are.
+/// `ValueError` with the nearest name, or those that there are: parameters and parts of the state.
 pub fn named(scene: &Scene, what: &str, name: &str) -> PyResult<Override> {
-    let parameter = what == "parameter";
-    let wanted = |kind: OverrideKind| kind.is_parameter() == parameter;
-    let found = scene.override_named(what, name, wanted);
-    found.map_err(PyValueError::new_err)
+    let wanted =
+        |kind: OverrideKind| what == EITHER || kind.is_parameter() == (what == "parameter");
+    if let Ok(found) = scene.override_named(what, name, wanted) {
+        return Ok(found);
+    }
+    let other = scene.override_named(EITHER, name, |_| true);
+    Err(PyValueError::new_err(match other {
+        Err(message) => message,
+        Ok(found) => {
+            let (kind, argument) = match found.kind.is_parameter() {
+                true => ("parameter", "parameters"),
+                false => ("part of the state", "initial"),
+            };
+            format!("`{name}` is a {kind}: give it in `{argument}`")
+        }
+    }))
 }
 
 /// Returns the values that replace those of the scene's files.

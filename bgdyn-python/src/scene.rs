@@ -10,10 +10,10 @@ use bgdyn_cli::simulate::{
     summarized, summary,
 };
 use bgdyn_cli::spec_file::SpecFile;
+use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::scene::Override;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Dd;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -22,7 +22,8 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::arrays::read;
 use crate::errors::{scene_refused, spec_error};
-use crate::run_settings::{Settings, named, overrides};
+use crate::interrupt::{Interruptible, interruptible};
+use crate::run_settings::{EITHER, Settings, named, overrides};
 
 /// The numbers of many runs, and number and reason of each that failed.
 type Summaries<'py> = (Bound<'py, PyArray2<f64>>, Vec<(usize, String)>);
@@ -132,6 +133,13 @@ impl PyScene {
         Ok(found)
     }
 
+    /// The engine that computes runs: always "tape", lists of operations without a compiler. Python has no
+    /// machine code.
+    #[getter]
+    fn engine(&self) -> &'static str {
+        Interruptible.name()
+    }
+
     /// Runs the scene; returns what `bgdyn.Run` is made of.
     fn _simulate<'py>(
         &self,
@@ -142,25 +150,29 @@ impl PyScene {
     ) -> PyResult<Bound<'py, PyDict>> {
         let given = overrides(&self.system.scene, &parameters, &initial)?;
         let way = settings.way(&self.system.scene)?;
-        let run = py.detach(|| {
+        let run = || {
             let system = self.system.with_overrides(&given)?;
             let plant = self.functions().start(&system);
             let record = record_from(plant, &way, &mut |_| ());
             Ok((system, record))
-        });
+        };
+        let run = py.detach(|| interruptible(run))?;
         let (system, record) = run.map_err(|faults| cannot_start(&faults))?;
         self.described(py, &system, &record, &way)
     }
 
-    /// Checks names and settings of many runs before the first one.
-    fn _check_runs(
-        &self,
-        parameters: Vec<String>,
-        initial: Vec<String>,
-        settings: Settings,
-    ) -> PyResult<()> {
-        self.varied(&parameters, &initial)?;
-        settings.way(&self.system.scene).map(drop)
+    /// Returns whether each of these names is one of a run-time parameter, not of a part of the start: checks them and
+    /// the settings before the first run.
+    fn _check_runs(&self, names: Vec<String>, settings: Settings) -> PyResult<Vec<bool>> {
+        settings.way(&self.system.scene)?;
+        let scene = &self.system.scene;
+        let kinds = names.iter().map(|name| {
+            // A parameter comes before a part of the start with its name.
+            let parameter = scene.parameters.iter().any(|p| p.name == *name);
+            let what = if parameter { "parameter" } else { EITHER };
+            Ok(named(scene, what, name)?.kind.is_parameter())
+        });
+        kinds.collect()
     }
 
     /// Runs the scene for each row of `values`: those of these parameters, then of these parts of the start. Returns an
@@ -182,7 +194,7 @@ impl PyScene {
         let runs: usize = values.shape()[..values.shape().len() - 1].iter().product();
         let mut table = vec![f64::NAN; runs * width];
         let mut failures = Vec::new();
-        py.detach(|| {
+        let all = || {
             let functions = self.functions();
             for (k, out) in table.chunks_exact_mut(width).enumerate() {
                 let own = &rows[k * varied.len()..(k + 1) * varied.len()];
@@ -195,7 +207,8 @@ impl PyScene {
                 }
                 failures.extend(run.failure.map(|why| (k, why)));
             }
-        });
+        };
+        py.detach(|| interruptible(all))?;
         let table = PyArray1::from_vec(py, table).reshape([runs, width])?;
         Ok((table, failures))
     }
@@ -219,7 +232,7 @@ impl PyScene {
     /// Returns the scene's functions: prepared for the first run, then kept.
     fn functions(&self) -> &PreparedScene {
         let method = self.system.scene.integration.method;
-        let make = || prepared(&Tape, &self.system, method).functions();
+        let make = || prepared(&Interruptible, &self.system, method).functions();
         self.functions.get_or_init(make)
     }
 

@@ -3,14 +3,14 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use bgdyn_codegen::SpecText;
 use bgdyn_codegen::bond_graph::{self, BondGraph};
+use bgdyn_codegen::declaration::Declaration;
 use bgdyn_codegen::engine::{Callable, Engine};
 use bgdyn_codegen::expr::Operations;
+use bgdyn_codegen::format::{Number, ParsedValue};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::{Argument, Method};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::pipeline;
 use bgdyn_codegen::selection;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Cause as Refused;
@@ -31,7 +31,8 @@ pub struct Spec {
     pub graph: BondGraph,
     /// The names of formulation and preference, as given.
     pub choice: (Option<String>, String),
-    options: Options,
+    /// Options of the generator with this choice.
+    pub options: Options,
     /// Its methods by their names.
     methods: HashMap<String, Method>,
     prepared: Mutex<HashMap<String, Arc<Prepared>>>,
@@ -84,6 +85,11 @@ impl ModelData {
         let mut values = self.parameters.to_vec();
         for (name, value) in given {
             let Some(found) = all.iter().position(|p| p.name == *name) else {
+                if let Some(effect) = self.spec.effect_with(name) {
+                    return Err(format!(
+                        "`{name}` is no parameter of the mechanism: it belongs to its effect `{effect}`, which acts in scenes: see bgdyn.Scene"
+                    ));
+                }
                 let known: Vec<&str> = all.iter().map(|p| p.name.as_str()).collect();
                 return Err(match known.as_slice() {
                     [] => format!("no parameter `{name}`: the spec has none"),
@@ -135,6 +141,11 @@ impl Spec {
         }
     }
 
+    /// Returns the name of the engine that computes methods.
+    pub fn engine() -> &'static str {
+        Tape.name()
+    }
+
     /// Checks that the selected formulation serves the mechanism.
     ///
     /// # Errors
@@ -157,6 +168,42 @@ impl Spec {
             nt: closed.map_or(0, |closed| closed.tree.coordinates.len()),
             nc: closed.map_or(0, |closed| closed.closure.rows.len()),
         }
+    }
+
+    /// Returns the names of the links, parents before children.
+    pub fn link_names(&self) -> Vec<&str> {
+        let links = self.mechanism.links().iter();
+        let shown = links.filter(|link| !link.hidden);
+        shown.map(|link| link.name.as_str()).collect()
+    }
+
+    /// Returns the names of the loops and contacts.
+    pub fn reaction_names(&self) -> Vec<&str> {
+        let closed = self.graph.closed.iter();
+        let loops = closed.flat_map(|closed| &closed.closure.loops);
+        loops.map(|one| one.name.as_str()).collect()
+    }
+
+    /// Returns the effect in the file that has a run-time parameter with this name.
+    fn effect_with(&self, parameter: &str) -> Option<String> {
+        let (machine, _) = bgdyn_codegen::read_machine(&self.text, Some(&self.name));
+        let named = |number: &Number| {
+            number
+                .parameter
+                .as_ref()
+                .is_some_and(|own| own.value == parameter)
+        };
+        let reads = |effect: &Declaration| {
+            let keys = effect.effect.keys().iter();
+            let mut values = keys.filter_map(|key| effect.fields.get(key));
+            values.any(|entry| match &entry.value {
+                ParsedValue::Number(number) => named(number),
+                ParsedValue::Group(all) => all.iter().any(|(_, number)| named(&number.value)),
+                _ => false,
+            })
+        };
+        let found = machine?.effects.into_iter().find(reads)?;
+        Some(found.name.value)
     }
 
     /// Returns the number of components of an argument.
@@ -207,22 +254,6 @@ impl Spec {
         });
         // Another thread may have made the same.
         Ok(Arc::clone(kept().entry(name).or_insert(made)))
-    }
-
-    /// Returns the source text of a Rust module with this method.
-    ///
-    /// # Errors
-    /// A message.
-    pub fn source(&self, method: Method) -> Result<String, String> {
-        let output = bgdyn_codegen::emit::OutputOptions::source_text(format!("{}.yaml", self.name));
-        let options = Options {
-            methods: Some(vec![self.name_of(method)]),
-            ..self.options.clone()
-        };
-        let spec = SpecText::mechanism(&self.text, &self.name);
-        let made = pipeline::generate_module(&spec, &options, &output);
-        let (tokens, _) = made.map_err(|refusal| format!("{refusal:?}"))?;
-        Ok(bgdyn_codegen::emit::source_text(tokens))
     }
 
     /// Returns what a refused pivot of this method means.

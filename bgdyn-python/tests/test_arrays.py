@@ -96,7 +96,7 @@ def test_lists_of_single_precision_are_refused(arm: bgdyn.Model) -> None:
     with pytest.raises(TypeError, match="float32"):
         arm.gravity([np.float32(x) for x in range(7)])
     with pytest.raises(TypeError, match="`q` is an array of object"):
-        arm.gravity(None)  # type: ignore[arg-type]
+        arm.gravity(None)  # type: ignore[call-overload]
 
 
 @pytest.mark.parametrize("shape", [(), (6,), (8,), (7, 1), (7, 6), (2, 7, 6)])
@@ -140,9 +140,9 @@ def test_arrays_that_results_cannot_go_to(arm: bgdyn.Model) -> None:
     with pytest.raises(ValueError, match="shares memory"):
         arm.inverse_dynamics_derivatives(q, q, q, out=(one, one))
     with pytest.raises(TypeError, match="a tuple of 2 arrays, or a bgdyn.InverseDerivatives"):
-        arm.inverse_dynamics_derivatives(q, q, q, out=one)  # type: ignore[arg-type]
+        arm.inverse_dynamics_derivatives(q, q, q, out=one)  # type: ignore[call-overload]
     with pytest.raises(TypeError, match="`out` is of type list"):
-        arm.gravity(q, out=[0.0] * 7)  # type: ignore[arg-type]
+        arm.gravity(q, out=[0.0] * 7)  # type: ignore[call-overload]
     assert (arm.gravity(q) == arm.gravity(q[0])).all()  # nothing stays borrowed
 
 

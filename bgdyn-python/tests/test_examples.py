@@ -111,3 +111,36 @@ def test_an_interrupted_study_goes_on(tmp_path: Path, monkeypatch: pytest.Monkey
     for part in study.left():
         study.write(*studies.computed(study, scene, part))
     assert len(study.read("mass")) == 250 and study.left() == []
+
+
+def ran(script: str, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    """Runs a study as a user does."""
+    command = [sys.executable, str(EXAMPLES / "monte_carlo" / script), *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize(("script", "module"), [("on_dask.py", "distributed"), ("on_joblib.py", "joblib")])
+def test_numbers_that_no_study_has(script: str, module: str, tmp_path: Path) -> None:
+    pytest.importorskip(module)
+    pytest.importorskip("pyarrow")
+    for option, number in (("--runs", "0"), ("--runs", "-5"), ("--workers", "0"), ("--runs", "many")):
+        done = ran(script, tmp_path / "study", option, number)
+        assert done.returncode == 2 and "Traceback" not in done.stderr
+        assert f"argument {option}: " in done.stderr and number in done.stderr
+    assert not (tmp_path / "study").exists()
+
+
+def test_a_folder_has_one_study(tmp_path: Path) -> None:
+    """Parts of a study with more runs are not taken for those of one with fewer."""
+    pytest.importorskip("joblib")
+    pytest.importorskip("pyarrow")
+    first = ran("on_joblib.py", tmp_path, "--runs", "300", "--workers", "1")
+    assert first.returncode == 0, first.stderr
+    other = ran("on_joblib.py", tmp_path, "--runs", "200", "--workers", "1")
+    assert other.returncode == 2 and "give another folder" in other.stderr and "'runs': 300" in other.stderr
+    # The same one goes on, or has nothing left to do.
+    again = ran("on_joblib.py", tmp_path, "--runs", "300", "--workers", "1")
+    assert again.returncode == 0 and again.stdout.splitlines()[-1] == first.stdout.splitlines()[-1]
+    # Parts that say nothing of their study.
+    (tmp_path / "study.json").unlink()
+    assert "no study.json" in ran("on_joblib.py", tmp_path, "--runs", "300").stderr

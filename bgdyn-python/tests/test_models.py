@@ -81,12 +81,6 @@ def test_counts_are_those_of_the_command(command: Command) -> None:
         assert arm.operations(name) == count
 
 
-def test_source_is_that_of_the_command(command: Command, tmp_path: Path) -> None:
-    done = command("generate", "specs/scara.yaml", "--methods", "gravity")
-    assert bgdyn.load(SPECS / "scara.yaml").source("gravity") == done.stdout
-    assert "pub fn gravity" in done.stdout
-
-
 def test_formulations() -> None:
     literal = bgdyn.load(SPECS / "scara.yaml", formulation="literal")
     own = bgdyn.load(SPECS / "scara.yaml")

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 import bgdyn
-from bgdyn import _progress, _workers
+from bgdyn import _progress, _sweep, _workers
 from conftest import SPECS
 from test_scenes import BLOCK, SWING
 
@@ -75,17 +75,64 @@ def test_runs_that_fail_are_not_errors() -> None:
 
 
 @pytest.mark.parametrize(("runs", "message"), [
-    ({"loaf": [1.0]}, "loaf"),
+    ({"loaf": [1.0]}, "did you mean `load`"),
+    ({"slide": [0.0, 0.1], "load": [1.0, math.inf, 2.0]}, "`load` is inf in run 1"),
+    ({"load": [1.0, math.nan], "slide": [0.0, 0.1, 0.2]}, "`load` is nan in run 3"),
     ({"load": [1.0, math.nan]}, "`load` is nan in run 1"),
     ([{"load": 1.0}, {"load": math.inf}], "`load` is inf in run 1"),
     ([{"load": 1.0}, {"slide": 1.0}], "run 1 has values for slide, run 0 for load"),
     ([], "there are no values"),
     ({}, "there are no values"),
-    ({"load": ["two"]}, "could not convert"),
 ])  # fmt: skip
 def test_wrong_values(swing: bgdyn.Scene, runs: Any, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         swing.sweep(runs, workers=0)
+
+
+@pytest.mark.parametrize(("runs", "message"), [
+    ({"load": ["two"]}, "`load` is a number in SI units, not 'two'"),
+    ({"load": "two"}, "`load` is a number in SI units, not 'two'"),
+    ({"load": [None]}, "`load` is a number in SI units, not None"),
+    ([{"load": 1.0}, {"load": "two"}], "`load` is a number in run 1, not 'two'"),
+    ([{"load": 1.0}, 2.0], "run 1 is a dictionary, {name: number}, not 2.0"),
+    ({1: [2.0]}, "`a name in runs` is a text, not 1"),
+    (5, "`runs` is a grid, {name: values}, or a list of dictionaries, not 5"),
+])  # fmt: skip
+def test_wrong_kinds(swing: bgdyn.Scene, runs: Any, message: str) -> None:
+    with pytest.raises(TypeError, match=message):
+        swing.sweep(runs, workers=0)
+
+
+def test_one_value_for_all_runs(swing: bgdyn.Scene) -> None:
+    found = swing.sweep({"load": 2.0, "slide": np.array([0.1, 0.2])}, workers=0, duration=0.1)
+    assert found.runs["load"].tolist() == [2.0, 2.0] and found.runs["slide"].tolist() == [0.1, 0.2]
+    assert len(swing.sweep({"load": np.float64(2.0), "slide": np.array(0.1)}, workers=0, duration=0.1)) == 1
+
+
+def test_grids_that_are_too_large(swing: bgdyn.Scene) -> None:
+    """Names come before the runs are laid out, and runs that cannot be held are refused by their number."""
+    many = range(1000)
+    names = ("load", "slide", "slide_rate")
+    with pytest.raises(MemoryError, match="^1,000,000,000,000 runs: their results take "):
+        swing.sweep({name: range(10_000) for name in names}, workers=0)
+    # 10²⁷ runs: nothing of this size is made before the names are compared.
+    values: dict[str, Any] = {f"{name}{k}": many for name in names for k in range(3)}
+    with pytest.raises(ValueError, match="is called `load0`"):
+        swing.sweep(values, workers=0)
+
+
+def test_a_grid_is_made_part_by_part() -> None:
+    """Each part is laid out when it is computed; the rows are those of the whole grid."""
+    axes = [np.arange(float(n)) for n in (7, 11, 13)]
+    given = _sweep.Varied(["a", "b", "c"], axes, grid=True)
+    given.order([False, True, False])
+    parts = _sweep.Parts(given, 10)
+    assert len(parts) == 101 and len(parts[100]) == 1
+    whole = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+    assert (np.concatenate(list(parts)) == whole[:, [1, 0, 2]]).all()
+    large = _sweep.Varied(["a", "b", "c"], [np.arange(1000.0)] * 2 + [np.zeros(1)], grid=True)
+    large.order([True] * 3)
+    assert _sweep.Parts(large, 1000)[999][-1].tolist() == [999.0, 999.0, 0.0]
 
 
 def test_wrong_settings(swing: bgdyn.Scene) -> None:
@@ -93,8 +140,8 @@ def test_wrong_settings(swing: bgdyn.Scene) -> None:
         swing.sweep({"load": [1.0]}, workers=-1)
     with pytest.raises(ValueError, match="`duration` is a positive number"):
         swing.sweep({"load": [1.0]}, duration=-1.0)
-    with pytest.raises(TypeError):
-        swing.sweep({"load": [None]}, workers=0)  # type: ignore[list-item]
+    with pytest.raises(TypeError, match="`workers` is a number of processes, not 'two'"):
+        swing.sweep({"load": [1.0]}, workers="two")  # type: ignore[call-overload]
     assert len(swing.sweep({"load": []}, workers=2)) == 0
 
 

@@ -8,9 +8,10 @@ SI units and radians throughout, world axes with z up. Arrays are ``float64``; a
 means many states. The page ``docs/python.md`` of the repository describes the package.
 """
 
-from ._bgdyn import Method, Model
+from ._bgdyn import Method, Model, __version__
 from ._errors import LossWarning, SingularError, SpecError, SpecWarning
 from ._load import load
+from ._methods import document
 from ._results import (
     ConstrainedDynamics,
     ForwardDerivatives,
@@ -38,5 +39,9 @@ __all__ = [
     "SpecWarning",
     "Sweep",
     "Wrenches",
+    "__version__",
     "load",
 ]
+
+document()
+del document

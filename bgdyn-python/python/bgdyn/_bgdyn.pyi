@@ -2,18 +2,26 @@
 
 import os
 from collections.abc import Mapping, Sequence
+from inspect import Signature
 from typing import Any, Literal, overload
 
 import numpy as np
 from typing_extensions import Self
 from numpy.typing import NDArray
 
+from ._method_types import _Q, _QQd, _QQdTau, _QV, _QVA, _QVATau, _QVTau
+from ._methods import MethodOfClass
 from ._results import ConstrainedDynamics, ForwardDerivatives, InverseDerivatives, Wrenches
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Values = Array | Sequence[float] | Sequence[Sequence[float]]
 """An array of ``float64``, or numbers in lists. Other arrays are refused."""
+
+__version__: str
+
+def class_methods() -> list[tuple[str, list[str], str]]:
+    """Returns name, arguments and text of the methods that the class ``Model`` shows."""
 
 def import_file(path: str | os.PathLike[str]) -> tuple[str, str, list[str]]:
     """Returns text, name and losses of an imported robot."""
@@ -33,6 +41,14 @@ class Method:
     @property
     def name(self) -> str:
         """Its name."""
+    @property
+    def __name__(self) -> str:
+        """Its name, as functions have it."""
+    @property
+    def __signature__(self) -> Signature:
+        """Its arguments."""
+    @property
+    def _documentation(self) -> str: ...
     @property
     def arguments(self) -> tuple[str, ...]:
         """The names of its arguments: q, v, a, tau, qd."""
@@ -100,6 +116,15 @@ class Model:
     def constraint_names(self) -> tuple[str, ...]:
         """A name for each row of loops, wheels and knife edges."""
     @property
+    def link_names(self) -> tuple[str, ...]:
+        """The links, parents before children: the order of ``joint_reactions``."""
+    @property
+    def reaction_names(self) -> tuple[str, ...]:
+        """The loops and contacts, in the order of ``reactions``."""
+    @property
+    def actuated_names(self) -> tuple[str, ...]:
+        """The joints of ``actuated`` in the file."""
+    @property
     def frame_names(self) -> tuple[str, ...]:
         """The links and frames that have a pose, a velocity and a Jacobian."""
     @property
@@ -114,8 +139,53 @@ class Model:
         """Returns the model with these values of run-time parameters, SI units. Functions are shared."""
     def operations(self, method: str) -> dict[str, int]:
         """Counts the operations of a method for one state: mul, add, div, sqrt, sincos (pairs), other."""
-    def source(self, method: str) -> str:
-        """Returns the Rust source text of a module with this method, as ``bgdyn generate`` writes it."""
+    @property
+    def engine(self) -> Literal["tape"]:
+        """The engine that computes the methods: always "tape", lists of operations without a compiler.
+
+        Python has no machine code, which the command makes.
+        """
+    @overload
+    def source(
+        self,
+        method: str | Sequence[str] | None = None,
+        *,
+        bundles: Mapping[str, str | Sequence[str]] | None = None,
+        backend: Literal["rust"] = "rust",
+        options: Mapping[str, str] | None = None,
+    ) -> str:
+        """Returns the generated code, as ``bgdyn generate`` writes it: the text of a Rust module.
+
+        ``method`` is a name or a list of names, as in ``--methods``; without it the command's choice of methods is
+        written. ``bundles`` are several methods as one function each: ``{"control": ["mass_matrix", "bias"]}``.
+        ``options`` are those of ``--option``: module, visibility, crate, plain.
+
+        The functions are compared with equation (6) first. Run-time parameters remain parameters, with the file's values
+        as defaults. Raises ``ValueError`` with the command's text for an unknown backend, method, bundle or option.
+        """
+    @overload
+    def source(
+        self,
+        method: str | Sequence[str] | None = None,
+        *,
+        bundles: Mapping[str, str | Sequence[str]] | None = None,
+        backend: Literal["c"],
+        options: Mapping[str, str] | None = None,
+    ) -> dict[str, str]:
+        """Returns the same in C99: texts by the names of their files, ``NAME.h`` and ``NAME.c``.
+
+        ``options`` are prefix, float, sincos, cmake.
+        """
+    @overload
+    def source(
+        self,
+        method: str | Sequence[str] | None = None,
+        *,
+        bundles: Mapping[str, str | Sequence[str]] | None = None,
+        backend: str,
+        options: Mapping[str, str] | None = None,
+    ) -> str | dict[str, str]:
+        """Returns the text of a backend with one file, or texts by the names of files."""
     def neutral(self) -> Array:
         """Returns q, (nq,), with every coordinate zero and every quaternion (0, 0, 0, 1).
 
@@ -176,155 +246,93 @@ class Model:
         """Returns q̇ = N(q) v, (..., nq): a displacement changes by R v, a quaternion by ½ q∘ω."""
     def normalize(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
         """Returns q, (..., nq), with every quaternion divided by its length."""
+    @overload
     def sample(
         self,
         n: int | tuple[int, ...] | None = None,
         seed: int | np.random.Generator | None = None,
         *,
         threads: int = 1,
+        on_singular: Literal["raise"] = "raise",
     ) -> Array:
         """Returns random positions, (n, nq); (nq,) without ``n``.
 
-        Angles are in [−π, π), displacements in [−1, 1) m, orientations evenly distributed. With loops the positions
-        are closed: each is the last closed one on the way from ``neutral()`` to such numbers. ``seed`` is what
-        ``numpy.random.default_rng`` takes.
+        Angles are in [−π, π), displacements in [−1, 1) m, orientations evenly distributed. With loops or wheels the
+        positions are closed: those for such numbers, or else the last closed ones on the way to them from ``neutral()``.
+        ``seed`` is what ``numpy.random.default_rng`` takes.
         """
-    def inverse_dynamics(
-        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """Returns the efforts, (..., nv), that produce the accelerations ``a``: N·m, N."""
     @overload
-    def forward_dynamics(
+    def sample(
         self,
-        q: Values,
-        v: Values,
-        tau: Values,
+        n: int | tuple[int, ...] | None = None,
+        seed: int | np.random.Generator | None = None,
         *,
-        out: Array | None = None,
-        threads: int = 1,
-        on_singular: Literal["raise"] = "raise",
-    ) -> Array:
-        """Returns the accelerations, (..., nv), under the efforts ``tau``: rad/s², m/s²."""
-    @overload
-    def forward_dynamics(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: Array | None = None,
         threads: int = 1,
         on_singular: Literal["nan"],
     ) -> tuple[Array, Mask]:
-        """Returns the accelerations, NaN at singular states, and where these are."""
-    def mass_matrix(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """Returns M(q), (..., nv, nv), exactly symmetric: kg·m², kg·m, kg."""
-    def bias(self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """Returns the efforts, (..., nv), without M a: N·m, N."""
-    def gravity(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """Returns the efforts, (..., nv), that hold the mechanism at rest: N·m, N."""
-    def coriolis_matrix(
-        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """Returns C(q, v), (..., nv, nv): bias = C v + gravity, and Ṁ − 2C is skew."""
-    def kinetic_energy(
-        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Any:
-        """Returns ½ vᵀ M v, an array (...), a number for a single state: J."""
-    def potential_energy(
-        self, q: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Any:
-        """Returns the potential energy of gravity, an array (...), a number for a single state: J.
+        """Returns the positions, NaN where loops do not close, and where that is."""
+    inverse_dynamics: MethodOfClass[_QVA[Array, Array]]
+    """The efforts, (..., nv), that produce the accelerations ``a``: N·m, N."""
+    forward_dynamics: MethodOfClass[_QVTau[Array, Array]]
+    """The accelerations, (..., nv), under the efforts ``tau``: rad/s², m/s²."""
+    mass_matrix: MethodOfClass[_Q[Array, Array]]
+    """M(q), (..., nv, nv), exactly symmetric: kg·m², kg·m, kg."""
+    bias: MethodOfClass[_QV[Array, Array]]
+    """The efforts, (..., nv), without M a: N·m, N."""
+    gravity: MethodOfClass[_Q[Array, Array]]
+    """The efforts, (..., nv), that hold the mechanism at rest: N·m, N."""
+    coriolis_matrix: MethodOfClass[_QV[Array, Array]]
+    """C(q, v), (..., nv, nv): bias = C v + gravity, and Ṁ − 2C is skew."""
+    kinetic_energy: MethodOfClass[_QV[Any, Array]]
+    """½ vᵀ M v, an array (...), a number for a single state: J."""
+    potential_energy: MethodOfClass[_Q[Any, Array]]
+    """The potential energy of gravity, an array (...), a number for a single state: J.
 
-        It is zero with all centres of mass at the world's origin.
-        """
-    def inverse_dynamics_derivatives(
-        self,
-        q: Values,
-        v: Values,
-        a: Values,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> InverseDerivatives:
-        """Returns ∂τ/∂q (along the tangent) and ∂τ/∂v, (..., nv, nv) each."""
-    @overload
-    def forward_dynamics_derivatives(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array, Array] | None = None,
-        threads: int = 1,
-        on_singular: Literal["raise"] = "raise",
-    ) -> ForwardDerivatives:
-        """Returns ∂a/∂q (along the tangent), ∂a/∂v and ∂a/∂τ, (..., nv, nv) each."""
-    @overload
-    def forward_dynamics_derivatives(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array, Array] | None = None,
-        threads: int = 1,
-        on_singular: Literal["nan"],
-    ) -> tuple[ForwardDerivatives, Mask]:
-        """Returns the derivatives, NaN at singular states, and where these are."""
-    def joint_reactions(
-        self,
-        q: Values,
-        v: Values,
-        a: Values,
-        tau: Values = ...,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> Wrenches:
-        """Returns force and moment on each link through its joint, at the link's origin, in link axes.
+    It is zero with all centres of mass at the world's origin.
+    """
+    inverse_dynamics_derivatives: MethodOfClass[_QVA[InverseDerivatives, tuple[Array, Array]]]
+    """∂τ/∂q (along the tangent) and ∂τ/∂v, (..., nv, nv) each."""
+    forward_dynamics_derivatives: MethodOfClass[_QVTau[ForwardDerivatives, tuple[Array, Array, Array]]]
+    """∂a/∂q (along the tangent), ∂a/∂v and ∂a/∂τ, (..., nv, nv) each."""
+    joint_reactions: MethodOfClass[_QVATau[Wrenches, tuple[Array, Array]]]
+    """Force and moment on each link of ``link_names`` through its joint, at the link's origin, in link axes.
 
-        With `actuated` in the file, `tau` are the efforts of these joints; otherwise it is not an argument.
+    With ``actuated`` in the file, ``tau`` are the efforts of these joints; otherwise it is not an argument.
+    """
+    drive_efforts: MethodOfClass[_QVA[Array, Array]]
+    """With prescribed joints: the efforts of their drives, N·m, N."""
+    velocity_map: MethodOfClass[_Q[Array, Array]]
+    """With loops: S(q), (..., nt, nv); the velocities of the open tree are S v."""
+    tree_velocity: MethodOfClass[_QV[Array, Array]]
+    """With loops: the velocities of the open tree, (..., nt)."""
+    tree_acceleration: MethodOfClass[_QVA[Array, Array]]
+    """With loops: the accelerations of the open tree, (..., nt)."""
+    constraint_residual: MethodOfClass[_Q[Array, Array]]
+    """With loops: by how much they are open, (..., nc): m, rad."""
+    constraint_jacobian: MethodOfClass[_Q[Array, Array]]
+    """With loops: B(q), (..., nc, nt); B S = 0."""
+    constraint_bias: MethodOfClass[_QQd[Array, Array]]
+    """With loops: Ḃ q̇, (..., nc), for velocities of the open tree: m/s², rad/s²."""
+    closing_step: MethodOfClass[_Q[Array, Array]]
+    """With loops: the step of Newton's method that closes them, (..., nt), with the opposite sign: rad, m."""
+    project_velocity: MethodOfClass[_QQd[Array, Array]]
+    """With loops: the nearest velocities of the open tree, (..., nt), that the rows allow."""
+    multipliers: MethodOfClass[_QVA[Array, Array]]
+    """With loops: the efforts of the rows, (..., nc): N, N·m."""
+    constrained_dynamics: MethodOfClass[_QQdTau[ConstrainedDynamics, tuple[Array, Array]]]
+    """With loops: accelerations and multipliers under efforts on all joints of the open tree."""
+    reactions: MethodOfClass[_QVTau[Wrenches, tuple[Array, Array]]]
+    """With loops or wheels: force and moment at each of ``reaction_names``."""
+    def __getattr__(self, name: str) -> Method:
+        """Returns a method that not every model has: those of sites, for each X of ``frame_names``.
+
+        ``pose_X(q)`` is a ``Pose``, ``velocity_X(q, v)`` and ``jacobian_dot_v_world_X(q, v)`` are arrays (..., 6),
+        ``jacobian_world_X(q)`` is (..., 6, nv), the angular part first. A checker cannot know X: what the call
+        returns is ``Any``.
         """
-    def velocity_map(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """With loops: returns S(q), (..., nt, nv); the velocities of the open tree are S v."""
-    def tree_velocity(
-        self, q: Values, v: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """With loops: returns the velocities of the open tree, (..., nt)."""
-    def tree_acceleration(
-        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """With loops: returns the accelerations of the open tree, (..., nt)."""
-    def constraint_residual(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """With loops: returns by how much they are open, (..., nc): m, rad."""
-    def constraint_jacobian(self, q: Values, *, out: Array | None = None, threads: int = 1) -> Array:
-        """With loops: returns B(q), (..., nc, nt); B S = 0."""
-    def multipliers(
-        self, q: Values, v: Values, a: Values, *, out: Array | None = None, threads: int = 1
-    ) -> Array:
-        """With loops: returns the efforts of the rows, (..., nc): N, N·m."""
-    def constrained_dynamics(
-        self,
-        q: Values,
-        qd: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> ConstrainedDynamics:
-        """With loops: returns accelerations and multipliers under efforts on all joints of the open tree."""
-    def reactions(
-        self,
-        q: Values,
-        v: Values,
-        tau: Values,
-        *,
-        out: tuple[Array, Array] | None = None,
-        threads: int = 1,
-    ) -> Wrenches:
-        """With loops or wheels: returns force and moment at each of them."""
-    def __getattr__(self, name: str) -> Method: ...
+    def _method(self, name: str) -> Method: ...
+    def __copy__(self) -> Model: ...
+    def __deepcopy__(self, _memo: object) -> Model: ...
     def __dir__(self) -> list[str]: ...
     def __hash__(self) -> int: ...
     def __eq__(self, other: object, /) -> bool: ...
@@ -357,6 +365,12 @@ class Scene:
     def units(self) -> dict[str, str]:
         """Their SI units by name; empty for a pure number."""
     @property
+    def engine(self) -> Literal["tape"]:
+        """The engine that computes runs: always "tape", lists of operations without a compiler.
+
+        Python has no machine code, which the command makes.
+        """
+    @property
     def _warnings(self) -> str: ...
     def _simulate(
         self,
@@ -365,11 +379,8 @@ class Scene:
         settings: tuple[float | None, float | None, float | None, int],
     ) -> Mapping[str, Any]: ...
     def _check_runs(
-        self,
-        parameters: list[str],
-        initial: list[str],
-        settings: tuple[float | None, float | None, float | None, int],
-    ) -> None: ...
+        self, names: list[str], settings: tuple[float | None, float | None, float | None, int]
+    ) -> list[bool]: ...
     def _summaries(
         self,
         parameters: list[str],

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 
+from . import _arguments
 from ._bgdyn import Model, import_file
 from ._errors import LossWarning, SpecError, SpecWarning
 
@@ -31,34 +32,38 @@ def load(
     ``formulation`` selects one formulation for every method, ``prefer`` is "operations" or "accuracy".
     ``parameters`` are values of run-time parameters, SI units.
 
-    Raises ``SpecError`` for a refused file, ``OSError`` for one that cannot be read. What a robot's file has
-    and a mechanism cannot have is a ``LossWarning``.
+    Raises ``SpecError`` for a refused file, ``OSError`` for one that cannot be read, ``TypeError`` for an argument of
+    another kind. What a robot's file has and a mechanism cannot have is a ``LossWarning``.
     """
     if sum(source is not None for source in (path, text, urdf)) != 1:
         raise TypeError("give one of path, text=..., urdf=...")
+    if name is not None:
+        _arguments.text("name", name, "the name of the mechanism")
+    values = _arguments.values_by_name("parameters", parameters)
     shown: str | None = None
     if path is not None:
-        shown, stem = os.fspath(path), _stem(path)
+        shown, stem = os.fspath(_arguments.path("path", path)), _stem(path)
         text = read_text(path)
     elif urdf is not None:
-        with open(urdf, "rb"):
+        with open(_arguments.path("urdf", urdf), "rb"):
             pass  # an OSError for a file that cannot be read
         text, stem, losses = import_file(urdf)
+        shown = f"<converted from {os.fspath(urdf)}>"
         for loss in losses:
             warnings.warn(loss, LossWarning, stacklevel=2)
     else:
+        _arguments.text("text", text, "the text of a mechanism")
         if name is None:
             raise TypeError("text=... takes name=..., the name of the mechanism")
         stem = name
     assert text is not None
-    model = Model(
-        text,
-        name if name is not None else stem,
-        shown,
-        formulation,
-        prefer,
-        dict(parameters) if parameters else None,
-    )
+    try:
+        model = Model(text, name if name is not None else stem, shown, formulation, prefer, values)
+    except SpecError as error:
+        if urdf is None:
+            raise
+        lines = "the lines are those of the spec that the file is converted to"
+        raise SpecError(f"{error}\n{lines}: `bgdyn import {os.fspath(urdf)}` prints it") from None
     if model._warnings:
         warnings.warn(model._warnings, SpecWarning, stacklevel=2)
     return model
@@ -80,7 +85,9 @@ def _prepared(text: str, name: str, formulation: str | None, prefer: str) -> Mod
 def read_text(path: str | os.PathLike[str]) -> str:
     """Returns the text of a file."""
     try:
-        return Path(path).read_text(encoding="utf-8")
+        # Not by `Path`, for which an empty path is the folder.
+        with open(path, encoding="utf-8") as file:
+            return file.read()
     except UnicodeDecodeError as error:
         raise SpecError(f"{os.fspath(path)} is not UTF-8: convert the file first") from error
 

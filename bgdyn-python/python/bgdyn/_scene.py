@@ -8,12 +8,12 @@ import warnings
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _bgdyn
+from . import _arguments, _bgdyn
 from ._errors import SpecWarning
 from ._load import _stem, read_text
 from ._progress import Progress
@@ -128,7 +128,11 @@ class Scene(_bgdyn.Scene):
         name: str | None = None,
     ) -> Self:
         """Reads ``path``, or takes the scene's ``text`` with its ``name`` and the text of its ``mechanism``."""
+        for argument, value in {"text": text, "mechanism": mechanism, "name": name}.items():
+            if value is not None:
+                _arguments.text(argument, value)
         if path is not None and text is None and mechanism is None:
+            _arguments.path("path", path)
             stem = name if name is not None else _stem(path)
             scene = super().__new__(cls, read_text(path), stem, Path(path))
         elif path is None and text is not None and mechanism is not None and name is not None:
@@ -157,18 +161,43 @@ class Scene(_bgdyn.Scene):
         the scene does not drive are 0.
 
         A run that ends early is returned with its ``failure``. Raises ``ValueError`` for a setting or a start
-        that the scene cannot have. The interpreter's lock is released during the run.
+        that the scene cannot have, ``TypeError`` for what is no number. The interpreter's lock is released during the
+        run, and Ctrl-C ends it.
         """
         found = self._simulate(
-            list((parameters or {}).items()),
-            list((initial or {}).items()),
-            (duration, step, tolerance, points),
+            list(_arguments.values_by_name("parameters", parameters).items()),
+            list(_arguments.values_by_name("initial", initial).items()),
+            _arguments.settings(duration, step, tolerance, points),
         )
         return Run(found)
 
+    @overload
     def sweep(
         self,
-        runs: Mapping[str, Iterable[float]] | Iterable[Mapping[str, float]],
+        runs: Mapping[str, Iterable[float] | float],
+        *,
+        workers: int | None = None,
+        duration: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        points: int = 101,
+        progress: Progress | bool = True,
+    ) -> Sweep: ...
+    @overload
+    def sweep(
+        self,
+        runs: Iterable[Mapping[str, float]],
+        *,
+        workers: int | None = None,
+        duration: float | None = None,
+        step: float | None = None,
+        tolerance: float | None = None,
+        points: int = 101,
+        progress: Progress | bool = True,
+    ) -> Sweep: ...
+    def sweep(
+        self,
+        runs: Mapping[str, Iterable[float] | float] | Iterable[Mapping[str, float]],
         *,
         workers: int | None = None,
         duration: float | None = None,
@@ -179,9 +208,10 @@ class Scene(_bgdyn.Scene):
     ) -> Sweep:
         """Runs the scene with many values of parameters and of its start, and returns the ends and extremes.
 
-        ``runs`` is a grid, ``{name: values}``, of which every combination is run, the last name changing fastest; or
-        a list of dictionaries ``{name: value}``, one for each run. Names are those of ``parameters``, and of
-        positions, velocities, states and modes as in ``initial`` of ``simulate``. SI units.
+        ``runs`` is a grid, ``{name: values}``, of which every combination is run, the last name changing fastest (a
+        number in place of values is the value of all runs); or a list of dictionaries ``{name: value}``, one for each
+        run. Names are those of ``parameters``, and of positions, velocities, states and modes as in ``initial`` of
+        ``simulate``. SI units.
 
         ``workers`` is the number of processes: by default that of the cores, with 0 the runs are computed in this
         process. The results are the same to the bit. A part of a process that dies is computed again. The scene is
@@ -192,9 +222,10 @@ class Scene(_bgdyn.Scene):
         shows a line in a terminal or a notebook.
 
         A run that ends early, or cannot start, is no error: see ``Sweep.failures``. Raises ``ValueError`` for unknown
-        names, for values that are NaN or infinite, and for settings that the scene cannot have, before the first run.
+        names, for values that are NaN or infinite, and for settings that the scene cannot have, ``TypeError`` for what
+        is no number, ``MemoryError`` for more runs than results can be held of, before the first run.
         """
-        return sweep(self, runs, workers, (duration, step, tolerance, points), progress)
+        return sweep(self, runs, workers, _arguments.settings(duration, step, tolerance, points), progress)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (_restored, (self.text, self.mechanism_text, self.name))

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import pickle
+import signal
 import sys
 from typing import Any
 
 
 def main() -> None:
     """Reads a function and then arguments from the input, pickled; writes whether each was computed, and the result."""
+    # Ctrl-C in a terminal reaches all processes: the one that started this one ends it.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     parts, answers = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
     # What a function prints shall not come between the answers.
     os.dup2(2, 1)

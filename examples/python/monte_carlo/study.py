@@ -8,6 +8,7 @@ a study that was interrupted goes on where it ended.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import resource
 import time
@@ -44,6 +45,23 @@ class Study:
     def file(self, part: int) -> Path:
         """Returns the file with the results of a part."""
         return self.folder / f"part-{part:05}.parquet"
+
+    def begin(self) -> None:
+        """Writes which runs the study has into its folder, or goes on with it.
+
+        Raises ``ValueError`` if the folder has another study: its parts would be taken for those of this one.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        file = self.folder / "study.json"
+        own = {"runs": self.runs, "part": self.part, "seed": self.seed}
+        if file.exists():
+            there = json.loads(file.read_text())
+            if there != own:
+                raise ValueError(f"{self.folder} has a study of {there}, this one is of {own}: give another folder")
+        elif any(self.folder.glob("part-*.parquet")):
+            raise ValueError(f"{self.folder} has parts of a study, but no {file.name}: give another folder")
+        else:
+            file.write_text(json.dumps(own))
 
     def left(self) -> list[int]:
         """Returns the parts that have no file yet."""
@@ -85,14 +103,29 @@ def computed(study: Study, scene: bgdyn.Scene, part: int) -> tuple[int, Columns]
     }
 
 
+def at_least_one(given: str) -> int:
+    """Reads a number of runs or processes."""
+    try:
+        number = int(given)
+    except ValueError:
+        number = 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"a whole number from 1 on, not {given}")
+    return number
+
+
 def main(run: Callable[[Study, bgdyn.Scene, int, Progress], None]) -> None:
     """Runs the study of the command line, and prints time, memory and what was found."""
     options = argparse.ArgumentParser(description=SCENE.name)
     options.add_argument("folder", type=Path, nargs="?", default=Path("buffer_study"), help="where the results go")
-    options.add_argument("--runs", type=int, default=Study.runs)
-    options.add_argument("--workers", type=int, default=2, help="number of processes")
+    options.add_argument("--runs", type=at_least_one, default=Study.runs)
+    options.add_argument("--workers", type=at_least_one, default=2, help="number of processes")
     given = options.parse_args()
     study, begin = Study(given.folder, given.runs), time.monotonic()
+    try:
+        study.begin()
+    except ValueError as error:
+        options.error(str(error))
     runs = min(study.runs, len(study.left()) * study.part)  # others have their files
 
     def line(done: int, total: int) -> None:

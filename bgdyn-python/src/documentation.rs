@@ -1,0 +1,190 @@
+//! What `help` prints of methods: arguments and results with shapes, units and frames.
+
+use bgdyn_codegen::bond_graph::Site;
+use bgdyn_codegen::method::{Argument, Method, Shape};
+
+use crate::spec::Spec;
+
+/// The class of a result with several arrays, and the axes of each array by its name; one array has none.
+type Arrays = (Option<&'static str>, Vec<(&'static str, Vec<&'static str>)>);
+
+/// What all methods take.
+const OPTIONS: &str = "out, threads, on_singular: as in bgdyn.Method";
+
+/// Returns what a method of a mechanism returns, in a sentence.
+pub fn summary(method: Method, sites: &[Site]) -> String {
+    // Names of Rust's constants; a model has them in lower case.
+    const NAMES: [(&str, &str); 4] = [
+        ("[`CONSTRAINT_NAMES`]", "`constraint_names`"),
+        ("[`REACTION_NAMES`]", "`reaction_names`"),
+        ("[`LINK_NAMES`]", "`link_names`"),
+        ("[`ACTUATED`]", "`actuated_names`"),
+    ];
+    let replaced = |text: String, (rust, python): &(&str, &str)| text.replace(rust, python);
+    NAMES.iter().fold(method.summary(sites), replaced)
+}
+
+/// Returns the text for a method of a mechanism, with the sizes that it has there.
+pub fn of(spec: &Spec, method: Method) -> String {
+    let sizes = spec.sizes();
+    let count = |axis: &str| match (axis, method) {
+        ("nq", _) => spec.mechanism.nq(),
+        ("nv", _) => sizes.nv,
+        ("nt", _) => sizes.nt,
+        ("nc", _) => sizes.nc,
+        ("na", _) => spec.mechanism.actuated_names().len(),
+        ("np", Method::DriveEfforts(number)) => number,
+        ("n", Method::JointReactions | Method::ActuatedJointReactions(_)) => {
+            spec.link_names().len()
+        }
+        ("n", _) => spec.reaction_names().len(),
+        _ => 0,
+    };
+    let size = |axis: &str| axis.parse().unwrap_or_else(|_| count(axis)).to_string();
+    text(&spec.name_of(method), method, &spec.graph.sites, &size)
+}
+
+/// Returns name, arguments and text of each method that the class `Model` shows: all but those of sites.
+pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
+    let of_every = Method::possible(&[]).into_iter();
+    let of_loops = Method::OF_LOOPS.into_iter().chain(Method::ON_REQUEST);
+    let all = of_every.chain(of_loops).chain([Method::DriveEfforts(0)]);
+    let one = |method: Method| {
+        let name = method.name(&[]);
+        let arguments = method.arguments().iter().map(|a| a.name()).collect();
+        let mut text = text(&name, method, &[], &str::to_owned);
+        if let Some(condition) = condition(method) {
+            text += &format!("\n\n{condition}");
+        }
+        (name, arguments, text)
+    };
+    all.map(one).collect()
+}
+
+/// Returns which mechanisms have a method, if not all do.
+fn condition(method: Method) -> Option<&'static str> {
+    if Method::OF_LOOPS.contains(&method) || Method::ON_REQUEST.contains(&method) {
+        return Some("A method of mechanisms with loops, wheels or knife edges.");
+    }
+    match method {
+        Method::DriveEfforts(_) => Some("A method of mechanisms with prescribed joints."),
+        Method::JointReactions => Some(
+            "With `actuated` in the file it takes `tau` after `a`: the efforts of these joints, N·m, N.",
+        ),
+        _ => None,
+    }
+}
+
+/// Returns the text for a method; `size` prints an axis.
+fn text(name: &str, method: Method, sites: &[Site], size: &dyn Fn(&str) -> String) -> String {
+    let shape = |axes: &[&str]| {
+        let all = ["...".to_owned()].into_iter();
+        let all: Vec<String> = all.chain(axes.iter().map(|axis| size(axis))).collect();
+        format!("({})", all.join(", "))
+    };
+    let names: Vec<&str> = method.arguments().iter().map(|a| a.name()).collect();
+    let mut lines = vec![
+        format!(
+            "{name}({}, *, out=None, threads=1, on_singular=\"raise\")",
+            names.join(", ")
+        ),
+        String::new(),
+        summary(method, sites),
+        String::new(),
+        "Arguments, float64; (n,) for one state:".to_owned(),
+    ];
+    for argument in method.arguments() {
+        let (axis, what) = meaning(*argument);
+        lines.push(format!(
+            "    {}: {}, {what}",
+            argument.name(),
+            shape(&[axis])
+        ));
+    }
+    lines.push(format!("    {OPTIONS}"));
+    lines.push(String::new());
+    lines.push(match arrays(method.shape()) {
+        (None, all) => {
+            let axes = all.first().map_or(&[][..], |(_, axes)| axes);
+            format!("Returns {}: {}", shape(axes), method.units())
+        }
+        (Some(class), all) => {
+            let all: Vec<String> = all
+                .iter()
+                .map(|(field, axes)| format!("{field} {}", shape(axes)))
+                .collect();
+            let fields = all.join(", ");
+            format!("Returns bgdyn.{class}, {fields}: {}", method.units())
+        }
+    });
+    lines.join("\n")
+}
+
+/// Returns axis and meaning of an argument.
+fn meaning(argument: Argument) -> (&'static str, &'static str) {
+    match argument {
+        Argument::Q => ("nq", "positions: rad, m, parts of quaternions x, y, z, w"),
+        Argument::V => (
+            "nv",
+            "velocities: rad/s, m/s; of planar, spherical and floating joints in link axes",
+        ),
+        Argument::A => ("nv", "accelerations dv/dt: rad/s², m/s²"),
+        Argument::TreeV => ("nt", "velocities of the open tree: rad/s, m/s"),
+        Argument::TreeTau => ("nt", "efforts on the joints of the open tree: N·m, N"),
+        Argument::ActuatedTau => ("na", "efforts of the actuated joints: N·m, N"),
+        // Those of scenes are no methods here.
+        _ => ("nv", "efforts along v: N·m, N"),
+    }
+}
+
+/// Returns the arrays of a result.
+fn arrays(shape: Shape) -> Arrays {
+    let one = |axes: &[&'static str]| (None, vec![("", axes.to_vec())]);
+    let (square, by_tree) = (vec!["nv", "nv"], vec!["nv", "nt"]);
+    match shape {
+        Shape::Scalar => one(&[]),
+        Shape::CheckedActuated(_) => one(&["na"]),
+        Shape::Drives(_) => one(&["np"]),
+        Shape::Symmetric | Shape::Square => one(&["nv", "nv"]),
+        Shape::Spatial => one(&["6"]),
+        Shape::Jacobian => one(&["6", "nv"]),
+        Shape::TreeMatrix => one(&["nt", "nv"]),
+        Shape::TreeVector | Shape::CheckedTree => one(&["nt"]),
+        Shape::RowMatrix => one(&["nc", "nt"]),
+        Shape::RowVector => one(&["nc"]),
+        Shape::SquarePair => (
+            Some("InverseDerivatives"),
+            vec![("q", square.clone()), ("v", square)],
+        ),
+        Shape::SlopesByTree => (
+            Some("InverseDerivatives"),
+            vec![("q", by_tree), ("v", square)],
+        ),
+        Shape::CheckedSquares => (
+            Some("ForwardDerivatives"),
+            vec![
+                ("q", square.clone()),
+                ("v", square.clone()),
+                ("tau", square),
+            ],
+        ),
+        Shape::CheckedSlopesByTree => (
+            Some("ForwardDerivatives"),
+            vec![("q", by_tree), ("v", square.clone()), ("tau", square)],
+        ),
+        Shape::Pose => (
+            Some("Pose"),
+            vec![("rotation", vec!["3", "3"]), ("translation", vec!["3"])],
+        ),
+        Shape::CheckedTreeAndRows => (
+            Some("ConstrainedDynamics"),
+            vec![("accelerations", vec!["nt"]), ("multipliers", vec!["nc"])],
+        ),
+        Shape::CheckedWrenches | Shape::LinkWrenches => (
+            Some("Wrenches"),
+            vec![("force", vec!["n", "3"]), ("moment", vec!["n", "3"])],
+        ),
+        // Vectors along v; those of scenes are no methods here.
+        _ => one(&["nv"]),
+    }
+}
