@@ -29,6 +29,7 @@ fn whole(text: &str, way: Way) -> Model {
     Model {
         assembles: false,
         functions: functions.collect(),
+        bundles: Vec::new(),
         bond_graph: (*robot.graph).clone(),
         mechanism: robot.mechanism,
     }
