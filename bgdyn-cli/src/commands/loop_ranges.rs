@@ -45,6 +45,7 @@ pub(super) fn add(mechanism: &Mechanism, model: &mut Value) {
         let end = |k: usize| {
             let why = match range.why[k] {
                 RangeEnd::Reach => "reach",
+                RangeEnd::BranchesMeet => "branches-meet",
                 RangeEnd::Limit(_) => "limit",
                 RangeEnd::None => "none",
             };
@@ -111,6 +112,7 @@ fn range_words(range: &ClosedRange, tree: &Mechanism) -> String {
     let end = |k: usize| {
         let why = match (range.why[k], limit(range.why[k], tree)) {
             (RangeEnd::Reach, _) => "end of reach".to_owned(),
+            (RangeEnd::BranchesMeet, _) => "branches meet".to_owned(),
             (_, Some(name)) => format!("limit of {name}"),
             _ => "not followed farther".to_owned(),
         };

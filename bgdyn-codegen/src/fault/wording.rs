@@ -1,6 +1,7 @@
 //! All messages about specs and scenes, one function for each fault.
 
 mod actuated;
+mod assembly;
 mod checking;
 mod constraints;
 mod contacts;
@@ -21,6 +22,7 @@ use bgdyn_runtime::Digits;
 pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use actuated::*;
+pub(crate) use assembly::*;
 pub(crate) use checking::*;
 pub(crate) use constraints::*;
 pub(crate) use contacts::*;

@@ -31,10 +31,16 @@ pub(super) fn fault(
     match reason {
         Unreached::Open {
             closes,
-            row,
             gap,
-            part,
-        } => wording::start_is_open(&location(""), (closes, row), *gap, *part),
+            nearest,
+        } => {
+            let gap = (gap.distance, gap.angle);
+            wording::start_is_open(&location(""), closes, gap, &named(layout, nearest))
+        }
+        Unreached::BranchesMeet(at) => {
+            let at = named(layout, at);
+            wording::start_beyond_meeting_branches(&location(""), &layout.loops, &at)
+        }
         Unreached::OtherBranch => wording::start_on_other_branch(&location(""), &layout.loops),
         Unreached::Contradicts {
             index,
@@ -56,6 +62,15 @@ pub(super) fn fault(
             wording::start_stands_still(&location(name), name, (*given, unit), *part)
         }
     }
+}
+
+/// Returns positions, by index, with their names and units.
+fn named(layout: &StateLayout, of: &[(usize, f64)]) -> Vec<(String, f64, &'static str)> {
+    let one = |&(p, x): &(usize, f64)| {
+        let position = &layout.positions[p];
+        (position.name.clone(), x, position.dimension.si())
+    };
+    of.iter().map(one).collect()
 }
 
 /// Returns name and unit of a velocity of the open tree.

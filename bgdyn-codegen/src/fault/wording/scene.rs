@@ -1,5 +1,6 @@
 //! Messages about a scene: its mechanism, its locked joints, its state, its outputs, its integration.
 
+use super::assembly::gap_text;
 use super::{quote, quoted_list, six_digits, unknown_name};
 use crate::fault::{Fault, Location};
 
@@ -198,19 +199,48 @@ pub(crate) fn quaternion_length(location: &Location, joint: &str, any: bool, len
 }
 
 /// `part` is the share of the way from the mechanism's own position up to which the loops close.
+/// `gap`: distance in m and angle in rad of the closest assembly found; `nearest`: the last closed positions on the way.
 pub(crate) fn start_is_open(
     location: &Location,
-    (closes, row): (&str, &str),
-    gap: f64,
-    part: f64,
+    closes: &str,
+    gap: (f64, f64),
+    nearest: &[(String, f64, &str)],
 ) -> Fault {
-    let percent = 100.0 * part;
     let message = format!(
-        "the loop `{closes}` does not close at these positions: its row {row} stays open by {gap:.3e} m or rad"
+        "the loop `{closes}` does not close at these positions: in the closest assembly found it misses by {}",
+        gap_text(gap)
     );
-    Fault::new(location, "open-start", message).with_help(format!(
-        "from the closed position of the mechanism (`bgdyn check`) the loops close up to {percent:.0} % of the way; give fewer positions, or others"
-    ))
+    let help = match nearest {
+        [] => "give fewer positions, or others".to_owned(),
+        _ => format!(
+            "on the way from the closed position of the mechanism (`bgdyn check`) the nearest that closes is {}; give fewer positions, or others",
+            positions(nearest)
+        ),
+    };
+    Fault::new(location, "open-start", message).with_help(help)
+}
+
+pub(crate) fn start_beyond_meeting_branches(
+    location: &Location,
+    loops: &[String],
+    at: &[(String, f64, &str)],
+) -> Fault {
+    let message = format!(
+        "on the way to these positions two branches of the loops ({}) meet, at {}: beyond it the branch of the mechanism is not determined",
+        quoted_list(loops.iter().map(String::as_str)),
+        positions(at)
+    );
+    Fault::new(location, "other-branch", message).with_help(
+        "give positions on this side of it, or choose a start beyond it in the mechanism with `near`",
+    )
+}
+
+/// Returns "`crank` 0.5 rad, `slide` 0.2 m".
+fn positions(of: &[(String, f64, &str)]) -> String {
+    let texts: Vec<String> = (of.iter())
+        .map(|(name, x, unit)| format!("`{name}` {} {unit}", six_digits(*x)))
+        .collect();
+    texts.join(", ")
 }
 
 pub(crate) fn start_on_other_branch(location: &Location, loops: &[String]) -> Fault {

@@ -22,6 +22,8 @@
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
 //! | `polygon/` | planar loops in closed form |
 //! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
+//! | `gap.rs` | by how much loops miss that do not close |
+//! | `way.rs` | ways through closed positions that pass none at which branches meet |
 //! | `reach.rs`, `start_velocities.rs` | closed positions with given ones, and velocities there |
 //! | `followed.rs` | which independent velocities joints determine |
 //! | `solve.rs` | linear equations |
@@ -34,6 +36,7 @@ mod contact_row;
 mod contact_shape;
 mod contact_types;
 mod followed;
+mod gap;
 mod numeric;
 mod polygon;
 mod ranges;
@@ -43,6 +46,7 @@ mod row;
 mod rows_at;
 mod solve;
 mod start_velocities;
+mod way;
 
 use bgdyn_runtime::Dd;
 
@@ -57,6 +61,7 @@ pub use contact_shape::{
     SPHERE_ROWS,
 };
 pub use contact_types::{DISC, ELLIPSOID, KNIFE_EDGE, SPHERE};
+pub use gap::Gap;
 pub use polygon::{
     AngleTerm, PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector,
     closing_polygons, polygons, snapped,

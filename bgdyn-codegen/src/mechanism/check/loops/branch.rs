@@ -4,6 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::parallel;
 use super::placed::PlacedLoop;
+use super::read::ReadLoop;
 use super::tree::Tree;
 use crate::fault::{Faults, wording};
 use crate::format::{Located, LoopSpec};
@@ -15,6 +16,9 @@ use crate::mechanism::joint::DoubleDouble;
 /// The least sum of two opposite sides of an antiparallelogram, relative to their length. On the branch of the
 /// parallelogram it is zero.
 const CROSSED: f64 = 1e-3;
+
+/// Branches meet where a row has no larger part, of itself, that the others do not determine.
+const MEET: f64 = 1e-9;
 
 /// A branch.
 #[derive(Clone, Debug)]
@@ -80,7 +84,53 @@ fn crossed(
     Some(Branch::Crossed([a.segments.clone(), c.segments.clone()]))
 }
 
+/// Returns whether a loop without a branch is a parallelogram, or a rhombus.
+pub(super) fn is_parallelogram(
+    one: &LoopSpec,
+    (placed, tree): (&PlacedLoop<'_>, Tree<'_>),
+) -> bool {
+    let word = Located {
+        value: "parallel".to_owned(),
+        location: one.location.clone(),
+    };
+    let plain = |angle: &[Leader]| (angle.to_vec(), Dd::ZERO);
+    let sides = || parallel::sides_of(&word, (placed, tree), plain, &mut Faults::default());
+    one.branch.given().is_none() && sides().is_some_and(|sides| sides.opposite().is_some())
+}
+
+/// Refuses a start at which branches meet: rows follow from others there that do not elsewhere. `None` if they do.
+pub(super) fn refuse_where_they_meet(
+    closure: &Closure,
+    read: &[ReadLoop],
+    faults: &mut Faults,
+) -> Option<()> {
+    let rows = closure.position_rows();
+    let parts = closure.perpendicular_parts(&rows, &closure.moving(), &closure.start);
+    let Some(row) = parts.iter().position(|part| *part < MEET) else {
+        return Some(());
+    };
+    let one = &closure.loops[rows[row].closes];
+    let branches = read[rows[row].closes]
+        .parallelogram
+        .then_some("`branch: parallel` or `branch: crossed`");
+    faults.push(wording::branches_meet_at_start(
+        &one.location,
+        &one.name,
+        branches,
+    ));
+    None
+}
+
 impl Branch {
+    /// Returns its word in a file, and that of the other branch.
+    pub(super) fn words(&self) -> [&'static str; 2] {
+        match self {
+            Branch::Left => ["left", "right"],
+            Branch::Right => ["right", "left"],
+            Branch::Crossed(_) => ["crossed", "parallel"],
+        }
+    }
+
     /// Returns whether a loop is on this branch at a position.
     pub(super) fn contains(&self, closure: &Closure, closes: usize, q: &[Dd]) -> bool {
         let side = |left: bool| {

@@ -102,6 +102,7 @@ pub(super) fn read(
     Some(ReadLoop {
         closes,
         branch: None,
+        parallelogram: false,
         near: Vec::new(),
         redundant: false,
         tolerance: 0.0,

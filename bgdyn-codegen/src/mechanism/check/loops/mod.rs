@@ -9,6 +9,7 @@
 //! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; `samples.rs`: closed positions
 //!    at random from there.
 //! 4. `rank.rs`: rows that follow from others are left out, or are a fault.
+//!    `rounding.rs`: they would if lengths were not rounded.
 //!    `combine.rs`: rows of contacts are combined so that fewer velocities appear in each.
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
@@ -29,6 +30,7 @@ mod placed;
 mod planes;
 mod rank;
 mod read;
+mod rounding;
 mod samples;
 mod sides;
 mod structure;
@@ -92,9 +94,14 @@ pub(super) fn close(
     }
     let kept = independents::named(spec, mechanism, faults)?;
     let gap = assembly::assemble(&mut closure, &read, &kept, faults)?;
-    rank::leave_out(&mut closure, (&read, gap), faults)?;
+    let held = (gap == 0.0).then(|| rounding::held_by(&closure)).flatten();
+    match held {
+        Some(held) => rounding::leave_out(&mut closure, &read, held, faults)?,
+        None => rank::leave_out(&mut closure, (&read, gap), faults)?,
+    }
     combine::combine(&mut closure);
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
+    branch::refuse_where_they_meet(&closure, &read, faults)?;
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
     closure.samples = samples::sample(&closure);
