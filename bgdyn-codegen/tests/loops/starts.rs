@@ -280,7 +280,7 @@ fn velocities_that_do_not_exist_are_refused() {
         (
             &[("slider_position", 0.8), ("slider_position_rate", 0.3)],
             "open-start",
-            ["`rod_pin` does not close", "m or rad"],
+            ["`rod_pin` does not close", "misses by 0.1"],
         ),
     ] {
         let faults = overridden(&system, values).expect_err("refused");

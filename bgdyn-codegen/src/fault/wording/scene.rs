@@ -202,12 +202,16 @@ pub(crate) fn quaternion_length(location: &Location, joint: &str, any: bool, len
 /// `gap`: distance in m and angle in rad of the closest assembly found; `nearest`: the last closed positions on the way.
 pub(crate) fn start_is_open(
     location: &Location,
-    closes: &str,
+    (closes, touches): (&str, bool),
     gap: (f64, f64),
     nearest: &[(String, f64, &str)],
 ) -> Fault {
+    let what = match touches {
+        true => format!("`{closes}` does not touch its plane"),
+        false => format!("the loop `{closes}` does not close"),
+    };
     let message = format!(
-        "the loop `{closes}` does not close at these positions: in the closest assembly found it misses by {}",
+        "{what} at these positions: in the closest assembly found it misses by {}",
         gap_text(gap)
     );
     let help = match nearest {
@@ -249,7 +253,7 @@ pub(crate) fn start_on_other_branch(location: &Location, loops: &[String]) -> Fa
         "these positions are on another branch of the loops ({names}) than the mechanism, or singular"
     );
     Fault::new(location, "other-branch", message).with_help(
-        "give other positions, or choose the branch in the mechanism with `branch` or `near`",
+        "give other positions, or choose the branch of a loop in the mechanism with `branch` or `near`",
     )
 }
 
@@ -260,10 +264,40 @@ pub(crate) fn start_contradicts(
     unit: &str,
 ) -> Fault {
     let message = format!(
-        "`{name}` is {given} {unit} here, but the loops and the other values given make it {closed:.6} {unit}"
+        "`{name}` is {given} {unit} here, but the loops and the other values make it {closed:.6} {unit}"
     );
-    Fault::new(location, "contradicting-start", message)
-        .with_help(format!("leave `{name}` out, or one of the others"))
+    Fault::new(location, "contradicting-start", message).with_help(format!(
+        "leave `{name}` out, or one of the others that are given"
+    ))
+}
+
+pub(crate) fn pose_contradicts(location: &Location, joint: &str) -> Fault {
+    let message = format!(
+        "the orientation of `{joint}` is not one at which the loops close with the other values"
+    );
+    Fault::new(location, "contradicting-start", message).with_help(format!(
+        "leave the orientation of `{joint}` out, or others of the values that are given"
+    ))
+}
+
+/// `leaders`: the joints that it follows.
+pub(crate) fn initial_of_follower(
+    location: &Location,
+    name: &str,
+    (joint, leaders): (&str, &[&str]),
+) -> Fault {
+    let message = follows(name, (joint, leaders));
+    Fault::new(location, "initial-of-follower", message).with_help("give the start of these joints")
+}
+
+/// Returns why a joint that follows others has no start of its own.
+pub(crate) fn follows(name: &str, (joint, leaders): (&str, &[&str])) -> String {
+    let leaders = quoted_list(leaders.iter().copied());
+    let name = quote(name);
+    format!(
+        "{name} is no part of the state: the joint {} follows {leaders}",
+        quote(joint)
+    )
 }
 
 /// `part` is by how much less than elsewhere the joint moves with the others.

@@ -24,6 +24,7 @@
 //! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
 //! | `gap.rs` | by how much loops miss that do not close |
 //! | `way.rs` | ways through closed positions that pass none at which branches meet |
+//! | `pins.rs` | closed positions with given ones of joints with several velocities |
 //! | `reach.rs`, `start_velocities.rs` | closed positions with given ones, and velocities there |
 //! | `followed.rs` | which independent velocities joints determine |
 //! | `solve.rs` | linear equations |
@@ -38,6 +39,7 @@ mod contact_types;
 mod followed;
 mod gap;
 mod numeric;
+mod pins;
 mod polygon;
 mod ranges;
 mod reach;
@@ -91,6 +93,8 @@ pub struct KinematicLoop {
     pub reversible: bool,
     /// What touches at place a, if it is no loop but a contact.
     pub contact: Option<PlaneContact>,
+    /// Whether its branch is that of an antiparallelogram.
+    pub crossed: bool,
     /// The location of its entry in the file.
     pub location: Location,
 }

@@ -137,11 +137,22 @@ impl Closure {
         Some(moved)
     }
 
-    /// Changes the positions of these velocities as little as possible so that the loops close (Levenberg and
-    /// Marquardt's method). Returns the largest residual.
+    /// Changes the positions of these velocities as little as possible so that the loops close. Returns the largest
+    /// residual.
     pub fn assemble(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize]) -> f64 {
+        self.minimize(q, free, |q| self.values(rows, q))
+    }
+
+    /// Changes the positions of these velocities as little as possible so that residuals with these rates become small
+    /// (Levenberg and Marquardt's method). Returns the largest residual.
+    pub(super) fn minimize(
+        &self,
+        q: &mut [Dd],
+        free: &[usize],
+        values: impl Fn(&[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>),
+    ) -> f64 {
         let mut damping = 1e-3;
-        let (mut residuals, mut jacobian) = self.values(rows, q);
+        let (mut residuals, mut jacobian) = values(q);
         for _ in 0..STEPS {
             let size = square(&residuals);
             if largest(&residuals) <= CLOSED {
@@ -152,7 +163,7 @@ impl Closure {
             };
             let mut moved = q.to_vec();
             self.move_by(&mut moved, &step);
-            let (found, there) = self.values(rows, &moved);
+            let (found, there) = values(&moved);
             if square(&found) < size {
                 q.copy_from_slice(&moved);
                 (residuals, jacobian) = (found, there);

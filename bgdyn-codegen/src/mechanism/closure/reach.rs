@@ -30,6 +30,8 @@ pub enum Unreached {
     Open {
         /// Its name.
         closes: String,
+        /// Whether it is a wheel, a ball or a knife edge.
+        touches: bool,
         /// The gap of the closest assembly found.
         gap: Gap,
         /// On the way from the mechanism's own position the last ones at which the loops close: indices of positions, and
@@ -111,9 +113,22 @@ impl Closure {
         let kept: Vec<usize> = kept.into_iter().map(position).collect();
         self.go_to(q, (&target, &kept), (&rows, &free))?;
         if !poses.is_empty() {
+            let unposed = q.to_vec();
             poses.iter().for_each(|&p| q[p] = target[p]);
             if self.assemble(&rows, q, &free) > CLOSED {
                 return Err(self.open(q, Vec::new()));
+            }
+            let differs = |&p: &usize| agrees(p, false, (target[p], q[p])).is_err();
+            if poses.iter().any(differs) {
+                // In reach of joints that are not given, perhaps.
+                let pins: Vec<(usize, Dd)> = poses.iter().map(|&p| (p, target[p])).collect();
+                let all = self.moving().into_iter().filter(|j| !is_given(j));
+                let mut drawn = unposed;
+                let leads = self.draw_to(&mut drawn, &pins, (&rows, &all.collect::<Vec<_>>()));
+                let differs = |&p: &usize| agrees(p, false, (target[p], drawn[p])).is_err();
+                if leads && !poses.iter().any(differs) {
+                    q.copy_from_slice(&drawn);
+                }
             }
         }
         if self.signs_at(q) != self.signs {
@@ -180,6 +195,7 @@ impl Closure {
         let (closes, gap) = self.widest_gap(q);
         Unreached::Open {
             closes: self.loops[closes].name.clone(),
+            touches: self.loops[closes].contact.is_some(),
             gap,
             nearest,
         }

@@ -1,7 +1,7 @@
 //! Ways through closed positions that pass none at which branches meet.
 //!
 //! Where branches meet, the rows r_i of the loops depend on each other, in the columns of the joints that follow. How
-//! far they are from that tells V = Π ‖r_i⊥‖ / ‖r_i‖, with the part r_i⊥ of each row that is perpendicular to those
+//! far they are from that tells their volume V = Π ‖r_i⊥‖, with the part r_i⊥ of each row that is perpendicular to those
 //! before it (Gram and Schmidt). A part of the way on which V falls to less than 0.6 is made smaller. V vanishes in
 //! proportion to the distance d: parts of at most 1.3 d, beyond which V is below 0.3, do not lead over the position.
 
@@ -90,14 +90,19 @@ impl<'a> Way<'a> {
 
     fn volume(&self, q: &[Dd]) -> f64 {
         let parts = self.closure.perpendicular_parts(self.rows, self.free, q);
-        parts.into_iter().product()
+        parts.into_iter().map(|(part, _)| part).product()
     }
 }
 
 impl Closure {
-    /// Returns for each row ‖r⊥‖ / ‖r‖ in the columns of these velocities, 0 for one that moves none: the part that those
-    /// before it do not determine.
-    pub fn perpendicular_parts(&self, rows: &[LoopRow], free: &[usize], q: &[Dd]) -> Vec<f64> {
+    /// Returns for each row, in the columns of these velocities, ‖r⊥‖ of the part that those before it do not determine, and
+    /// ‖r‖.
+    pub fn perpendicular_parts(
+        &self,
+        rows: &[LoopRow],
+        free: &[usize],
+        q: &[Dd],
+    ) -> Vec<(f64, f64)> {
         let (_, jacobian) = self.values(rows, q);
         let mut units: Vec<Vec<Dd>> = Vec::new();
         let part = |all: &Vec<Dd>| {
@@ -111,10 +116,7 @@ impl Closure {
             if left > Dd::ZERO {
                 units.push(row.iter().map(|&x| x / left).collect());
             }
-            match whole > Dd::ZERO {
-                true => (left / whole).to_f64(),
-                false => 0.0,
-            }
+            (left.to_f64(), whole.to_f64())
         };
         jacobian.iter().map(part).collect()
     }

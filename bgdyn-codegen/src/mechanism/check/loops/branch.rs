@@ -17,7 +17,7 @@ use crate::mechanism::joint::DoubleDouble;
 /// parallelogram it is zero.
 const CROSSED: f64 = 1e-3;
 
-/// Branches meet where a row has no larger part, of itself, that the others do not determine.
+/// Branches meet where a row has no larger part that the others do not determine, over its size elsewhere.
 const MEET: f64 = 1e-9;
 
 /// A branch.
@@ -104,9 +104,12 @@ pub(super) fn refuse_where_they_meet(
     read: &[ReadLoop],
     faults: &mut Faults,
 ) -> Option<()> {
-    let rows = closure.position_rows();
-    let parts = closure.perpendicular_parts(&rows, &closure.moving(), &closure.start);
-    let Some(row) = parts.iter().position(|part| *part < MEET) else {
+    let (rows, moving) = (closure.position_rows(), closure.moving());
+    let parts = |q| closure.perpendicular_parts(&rows, &moving, q);
+    let sampled: Vec<Vec<(f64, f64)>> = closure.samples.iter().map(parts).collect();
+    let size = |row: usize| sampled.iter().map(|at| at[row].1).fold(0.0, f64::max);
+    let mut at_start = parts(&closure.start).into_iter().enumerate();
+    let Some((row, _)) = at_start.find(|&(row, (part, _))| part < MEET * size(row)) else {
         return Some(());
     };
     let one = &closure.loops[rows[row].closes];

@@ -91,6 +91,7 @@ pub(super) fn read(
         },
         length: Dd::ONE,
         axis: None,
+        crossed: false,
         reversible: false,
         contact: Some(contact),
         location: entry.location.clone(),

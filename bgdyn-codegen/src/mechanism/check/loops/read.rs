@@ -53,6 +53,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
             chain: placed.chain,
             length: placed.length,
             axis,
+            crossed: matches!(&branch, Some(word) if matches!(word.value, Branch::Crossed(_))),
             reversible: false,
             contact: None,
             location: one.location.clone(),
