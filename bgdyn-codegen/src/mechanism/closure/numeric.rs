@@ -140,22 +140,28 @@ impl Closure {
     /// Changes the positions of these velocities as little as possible so that the loops close. Returns the largest
     /// residual.
     pub fn assemble(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize]) -> f64 {
-        self.minimize(q, free, |q| self.values(rows, q))
+        self.minimize(q, free, CLOSED, |q| self.values(rows, q))
     }
 
-    /// Changes the positions of these velocities as little as possible so that residuals with these rates become small
-    /// (Levenberg and Marquardt's method). Returns the largest residual.
+    /// Does the same until the largest residual is `enough`.
+    pub fn assemble_to(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize], enough: f64) -> f64 {
+        self.minimize(q, free, enough, |q| self.values(rows, q))
+    }
+
+    /// Changes the positions of these velocities as little as possible so that residuals with these rates become small,
+    /// until the largest is `enough` (Levenberg and Marquardt's method). Returns the largest residual.
     pub(super) fn minimize(
         &self,
         q: &mut [Dd],
         free: &[usize],
+        enough: f64,
         values: impl Fn(&[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>),
     ) -> f64 {
         let mut damping = 1e-3;
         let (mut residuals, mut jacobian) = values(q);
         for _ in 0..STEPS {
             let size = square(&residuals);
-            if largest(&residuals) <= CLOSED {
+            if largest(&residuals) <= enough {
                 break;
             }
             let Some(step) = least_step(&jacobian, &residuals, free, damping) else {

@@ -33,7 +33,9 @@ impl Closure {
                 .map(|(&(p, to), &from)| (p, from + (to - from) * share))
                 .collect();
             let mut moved = q.to_vec();
-            self.minimize(&mut moved, free, |q| self.with_pins(rows, q, &targets));
+            self.minimize(&mut moved, free, CLOSED, |q| {
+                self.with_pins(rows, q, &targets)
+            });
             (self.assemble(rows, &mut moved, free) <= CLOSED).then_some(moved)
         };
         let mut at = q.to_vec();

@@ -114,7 +114,7 @@ impl Closure {
                 step.ok()
             });
             if let Err(reached) = moved {
-                let beyond = |part| self.near(&q, at, start + sign * (reached + part));
+                let beyond = |part| self.near(&q, at, start + sign * (reached + part)).is_some();
                 let meet = why.get() == RangeEnd::Reach && walk.closes_beyond(beyond);
                 let why = if meet {
                     RangeEnd::BranchesMeet

@@ -20,6 +20,9 @@ const LEAST_PART: f64 = 1.0 / 4096.0;
 /// A residual below this is that of a closed position.
 const CLOSED: f64 = 1e-25;
 
+/// A residual below this, which is approached slowly near singular positions, is that of a closed position too.
+const ALMOST_CLOSED: f64 = 1e-12;
+
 /// Largest difference of a given dependent position or velocity from that of the closed start: rad, m, or per second.
 const AGREES: f64 = 1e-3;
 
@@ -172,13 +175,17 @@ impl Closure {
                 let part = LARGEST_PART.min(LARGEST_STEP / longest).max(LEAST_PART);
                 let mut way = Way::new((self, rows, free), part);
                 let reached = way.go(&mut at, (0.0, 1.0), closed);
-                let beyond = |part: f64, share: f64| closed(&at, f64::min(1.0, share + part));
-                reached.map_err(|share| (share, way.closes_beyond(|part| beyond(part, share))))
+                let beyond = |share: f64| {
+                    let mut moved = at.clone();
+                    set(&mut moved, f64::min(1.0, share));
+                    self.assemble(rows, &mut moved, free) <= ALMOST_CLOSED
+                };
+                reached.map_err(|share| way.closes_beyond(|part| beyond(share + part)))
             }
             false => Ok(()),
         };
         q.copy_from_slice(&at);
-        let Err((_, others)) = reached else {
+        let Err(others) = reached else {
             set(q, 1.0);
             return Ok(());
         };

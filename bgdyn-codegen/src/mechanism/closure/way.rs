@@ -2,11 +2,12 @@
 //!
 //! Where branches meet, the rows r_i of the loops depend on each other, in the columns of the joints that follow. How
 //! far they are from that tells their volume V = Π ‖r_i⊥‖, with the part r_i⊥ of each row that is perpendicular to those
-//! before it (Gram and Schmidt). A part of the way on which V falls to less than 0.6 is made smaller. V vanishes in
+//! before it (Gram and Schmidt), with the sign of the determinant if there are as many joints. A part of the way on which V falls to less than 0.6 is made smaller. V vanishes in
 //! proportion to the distance d: parts of at most 1.3 d, beyond which V is below 0.3, do not lead over the position.
 
 use bgdyn_runtime::Dd;
 
+use super::solve::is_positive;
 use super::{Closure, LoopRow};
 
 /// V may fall to this part of itself in one part of the way.
@@ -65,7 +66,7 @@ impl<'a> Way<'a> {
                 false => gone + self.part,
             };
             let moved = closed(q, next).map(|moved| (self.volume(&moved), moved));
-            match moved.filter(|(there, _)| *there >= FALL * volume) {
+            match moved.filter(|(there, _)| *there * volume >= FALL * volume * volume) {
                 Some((there, moved)) => {
                     *q = moved;
                     (gone, volume) = (next, there);
@@ -82,19 +83,32 @@ impl<'a> Way<'a> {
         Ok(())
     }
 
-    /// Returns whether the loops close beyond the place up to which a way leads: other branches begin there.
-    pub(super) fn closes_beyond(&self, closed: impl Fn(f64) -> Option<Vec<Dd>>) -> bool {
+    /// Returns whether the loops close beyond the place up to which a way leads, by how far: other branches begin there.
+    pub(super) fn closes_beyond(&self, closes: impl Fn(f64) -> bool) -> bool {
         let mut beyond = BEYOND.iter();
-        beyond.any(|part| closed(part * self.largest).is_some())
+        beyond.any(|part| closes(part * self.largest))
     }
 
     fn volume(&self, q: &[Dd]) -> f64 {
         let parts = self.closure.perpendicular_parts(self.rows, self.free, q);
-        parts.into_iter().map(|(part, _)| part).product()
+        let volume: f64 = parts.into_iter().map(|(part, _)| part).product();
+        match self.rows.len() == self.free.len()
+            && !self.closure.is_positive_at(self.rows, self.free, q)
+        {
+            true => -volume,
+            false => volume,
+        }
     }
 }
 
 impl Closure {
+    /// Returns whether the determinant of as many rows and columns is positive.
+    fn is_positive_at(&self, rows: &[LoopRow], free: &[usize], q: &[Dd]) -> bool {
+        let (_, jacobian) = self.values(rows, q);
+        let columns = |row: &Vec<Dd>| free.iter().map(|&j| row[j]).collect();
+        is_positive(jacobian.iter().map(columns).collect())
+    }
+
     /// Returns for each row, in the columns of these velocities, ‖r⊥‖ of the part that those before it do not determine, and
     /// ‖r‖.
     pub fn perpendicular_parts(

@@ -31,6 +31,15 @@ const ROUNDED: f64 = 1e-4;
 /// A position with its gap, m or rad: the largest row, of the best one the root of the sum of squares.
 type OpenPosition = (f64, Vec<Dd>);
 
+/// Returns the position from which the search for a closed one begins.
+pub(super) fn given(closure: &Closure, read: &[ReadLoop]) -> Vec<Dd> {
+    let mut given = closure.start.clone();
+    for (position, value, _) in read.iter().flat_map(|one| &one.near) {
+        given[position.0] = *value;
+    }
+    given
+}
+
 /// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
 /// independent: their positions stay those of the start if they can. Returns by how much the start is open: 0, or a gap
 /// within the `tolerance` of a loop.
@@ -40,10 +49,7 @@ pub(super) fn assemble(
     kept: &[CoordinateId],
     faults: &mut Faults,
 ) -> Option<f64> {
-    let mut given = closure.start.clone();
-    for (position, value, _) in read.iter().flat_map(|one| &one.near) {
-        given[position.0] = *value;
-    }
+    let given = given(closure, read);
     let rows = closure.position_rows();
     let moving = moved_by(closure, &rows);
     let others: Vec<usize> = moving
@@ -163,7 +169,7 @@ fn report_near(one: &ReadLoop, faults: &mut Faults) {
 }
 
 /// Returns the first loop that is closed on another branch than that of the file, or turned over.
-fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usize> {
+pub(super) fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usize> {
     (0..read.len()).find(|&one| {
         let wanted = read[one].branch.as_ref();
         let other = wanted.is_some_and(|branch| !branch.value.contains(closure, one, q));

@@ -105,7 +105,7 @@ pub(super) fn refuse_where_they_meet(
     faults: &mut Faults,
 ) -> Option<()> {
     let (rows, moving) = (closure.position_rows(), closure.moving());
-    let parts = |q| closure.perpendicular_parts(&rows, &moving, q);
+    let parts = |q: &Vec<Dd>| closure.perpendicular_parts(&rows, &moving, q);
     let sampled: Vec<Vec<(f64, f64)>> = closure.samples.iter().map(parts).collect();
     let size = |row: usize| sampled.iter().map(|at| at[row].1).fold(0.0, f64::max);
     let mut at_start = parts(&closure.start).into_iter().enumerate();

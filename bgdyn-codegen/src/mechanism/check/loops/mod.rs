@@ -93,9 +93,14 @@ pub(super) fn close(
         return None;
     }
     let kept = independents::named(spec, mechanism, faults)?;
+    let given = assembly::given(&closure, &read);
     let gap = assembly::assemble(&mut closure, &read, &kept, faults)?;
-    let held = (gap == 0.0).then(|| rounding::held_by(&closure)).flatten();
-    match held {
+    let held = (gap == 0.0).then(|| rounding::held_by(&closure, &given));
+    let on_branch = |held: &rounding::Held| {
+        let q = &held.without.start;
+        assembly::on_other_branch(&held.without, &read, q).is_none()
+    };
+    match held.flatten().filter(on_branch) {
         Some(held) => rounding::leave_out(&mut closure, &read, held, faults)?,
         None => rank::leave_out(&mut closure, (&read, gap), faults)?,
     }

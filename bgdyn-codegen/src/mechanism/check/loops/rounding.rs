@@ -16,6 +16,9 @@ const FOLLOW: [f64; 14] = [
 /// A row is open by no more than this, relative to the size of the largest loop, if lengths are rounded.
 const ROUNDED: f64 = 2e-4;
 
+/// Gaps of positions near the given one, largest first, over what is rounding: at the first, motions are tried.
+const NEAR: [f64; 5] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8];
+
 /// What becomes of loops that almost close.
 pub(super) struct Almost {
     /// The index of a loop with a row that the others would determine.
@@ -58,29 +61,45 @@ pub(super) fn almost_moves(closure: &Closure, (q, gap): (&[Dd], f64), most: f64)
 /// Rows that hold loops by rounded lengths alone.
 pub(super) struct Held {
     /// The loops without them.
-    without: Closure,
+    pub(super) without: Closure,
     /// The most by which each row left out is open along their motion, m or rad.
     open: Vec<f64>,
 }
 
-/// Returns the rows without which closed loops that hold each other would move, and which stay almost closed then.
-pub(super) fn held_by(closure: &Closure) -> Option<Held> {
+/// Returns the rows without which closed loops that hold each other would move, and which stay almost closed then: near
+/// the `given` position, from which the search for a closed one leads far away if lengths are rounded.
+pub(super) fn held_by(closure: &Closure, given: &[Dd]) -> Option<Held> {
     let at = [closure.values(&closure.rows, &closure.start).1];
-    let rows: Vec<usize> = (0..closure.rows.len()).collect();
-    let moves = rows.len() < closure.moving().len();
-    if moves || closure.nonholonomic() || !split(&at, &rows, FOLLOWS).1.is_empty() {
+    let all: Vec<usize> = (0..closure.rows.len()).collect();
+    let moves = all.len() < closure.moving().len();
+    if moves || closure.nonholonomic() || !split(&at, &all, FOLLOWS).1.is_empty() {
         return None;
     }
+    let moving = closure.moving();
+    let rounded = ROUNDED * closure.size();
+    let near = NEAR.iter().filter_map(|part| {
+        let (mut q, enough) = (given.to_vec(), part * rounded);
+        let gap = closure.assemble_to(&closure.rows, &mut q, &moving, enough);
+        (gap <= enough).then_some(q)
+    });
+    let mut near = near.chain([closure.start.clone()]);
+    near.find_map(|q| held_at(closure, (&all, &q), rounded))
+}
+
+/// Returns the same near one position.
+fn held_at(closure: &Closure, (all, q): (&[usize], &[Dd]), rounded: f64) -> Option<Held> {
+    let at = [closure.values(&closure.rows, q).1];
     FOLLOW.iter().find_map(|&least| {
-        let (kept, left) = split(&at, &rows, least);
+        let (kept, left) = split(&at, all, least);
         if left.is_empty() {
             return None;
         }
         let mut without = closure.clone();
-        keep(&mut without, &best(&at, &rows, kept.len()), &[]);
+        without.start = q.to_vec();
+        keep(&mut without, &best(&at, all, kept.len()), &[]);
+        close_again(&mut without);
         without.samples = samples::around(&without);
         let open = open_along(&without);
-        let rounded = ROUNDED * closure.size();
         let moved = |sample: &Vec<Dd>| {
             let mut steps = sample.iter().zip(&without.start);
             steps.any(|(x, y)| (*x - *y).to_f64().abs() > 0.1)
