@@ -15,6 +15,7 @@ mod joints;
 mod loops;
 mod reading;
 mod scene;
+mod start;
 mod values;
 
 use bgdyn_runtime::Digits;
@@ -35,6 +36,7 @@ pub(crate) use joints::*;
 pub(crate) use loops::*;
 pub(crate) use reading::*;
 pub(crate) use scene::*;
+pub(crate) use start::*;
 pub(crate) use values::*;
 
 /// Prints a computed number with six digits.

@@ -51,7 +51,8 @@ pub(super) fn assemble(
 ) -> Option<f64> {
     let given = given(closure, read);
     let rows = closure.position_rows();
-    let moving = moved_by(closure, &rows);
+    let moving = closure.moving();
+    let read_by_rows = read_by(closure, &rows);
     let others: Vec<usize> = moving
         .iter()
         .copied()
@@ -70,7 +71,9 @@ pub(super) fn assemble(
         let changed = if seed % 2 == 0 { &others } else { &moving };
         if seed > 0 {
             let step = |&j: &usize| (j, Dd::from_f64(spread * random.signed()));
-            closure.displace(&mut q, &changed.iter().map(step).collect::<Vec<_>>());
+            let mut steps: Vec<(usize, Dd)> = changed.iter().map(step).collect();
+            steps.retain(|(j, _)| read_by_rows.contains(j));
+            closure.displace(&mut q, &steps);
         }
         let mut left = closure.assemble(&rows, &mut q, &others);
         if left > CLOSED {
@@ -122,20 +125,18 @@ pub(super) fn assemble(
     None
 }
 
-/// Returns the velocities of the joints in loops and contacts that these rows read, somewhere; the others stay where they
-/// are.
-fn moved_by(closure: &Closure, rows: &[LoopRow]) -> Vec<usize> {
+/// Returns the velocities that these rows read, somewhere; the others stay where they are.
+fn read_by(closure: &Closure, rows: &[LoopRow]) -> Vec<usize> {
     let at = closure.open_positions().into_iter();
     let rates = at.flat_map(|q| closure.values(rows, &q).1);
-    let rates: Vec<Vec<f64>> = rates
-        .map(|row| row.iter().map(|x| x.to_f64().abs()).collect())
-        .collect();
+    let sizes = rates.map(|row| row.iter().map(|x| x.to_f64().abs()).collect());
+    let sizes: Vec<Vec<f64>> = sizes.collect();
     let reads = |row: &Vec<f64>, j: usize| {
         let largest = row.iter().copied().fold(0.0, f64::max);
         row[j] > ROUNDING * largest
     };
     let mut moving = closure.moving();
-    moving.retain(|&j| rates.iter().any(|row| reads(row, j)));
+    moving.retain(|&j| sizes.iter().any(|row| reads(row, j)));
     moving
 }
 

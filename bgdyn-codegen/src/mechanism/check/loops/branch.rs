@@ -4,7 +4,6 @@ use bgdyn_runtime::Dd;
 
 use super::parallel;
 use super::placed::PlacedLoop;
-use super::read::ReadLoop;
 use super::tree::Tree;
 use crate::fault::{Faults, wording};
 use crate::format::{Located, LoopSpec};
@@ -16,9 +15,6 @@ use crate::mechanism::joint::DoubleDouble;
 /// The least sum of two opposite sides of an antiparallelogram, relative to their length. On the branch of the
 /// parallelogram it is zero.
 const CROSSED: f64 = 1e-3;
-
-/// Branches meet where a row has no larger part that the others do not determine, over its size elsewhere.
-const MEET: f64 = 1e-9;
 
 /// A branch.
 #[derive(Clone, Debug)]
@@ -96,32 +92,6 @@ pub(super) fn is_parallelogram(
     let plain = |angle: &[Leader]| (angle.to_vec(), Dd::ZERO);
     let sides = || parallel::sides_of(&word, (placed, tree), plain, &mut Faults::default());
     one.branch.given().is_none() && sides().is_some_and(|sides| sides.opposite().is_some())
-}
-
-/// Refuses a start at which branches meet: rows follow from others there that do not elsewhere. `None` if they do.
-pub(super) fn refuse_where_they_meet(
-    closure: &Closure,
-    read: &[ReadLoop],
-    faults: &mut Faults,
-) -> Option<()> {
-    let (rows, moving) = (closure.position_rows(), closure.moving());
-    let parts = |q: &Vec<Dd>| closure.perpendicular_parts(&rows, &moving, q);
-    let sampled: Vec<Vec<(f64, f64)>> = closure.samples.iter().map(parts).collect();
-    let size = |row: usize| sampled.iter().map(|at| at[row].1).fold(0.0, f64::max);
-    let mut at_start = parts(&closure.start).into_iter().enumerate();
-    let Some((row, _)) = at_start.find(|&(row, (part, _))| part < MEET * size(row)) else {
-        return Some(());
-    };
-    let one = &closure.loops[rows[row].closes];
-    let branches = read[rows[row].closes]
-        .parallelogram
-        .then_some("`branch: parallel` or `branch: crossed`");
-    faults.push(wording::branches_meet_at_start(
-        &one.location,
-        &one.name,
-        branches,
-    ));
-    None
 }
 
 impl Branch {

@@ -13,6 +13,7 @@
 //!    `combine.rs`: rows of contacts are combined so that fewer velocities appear in each.
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
+//!    `meeting.rs`: a start at which branches meet is a fault.
 //! 6. `blocks.rs`: the order in which blocks of rows are solved.
 //! 7. `actuated.rs`: the joints with drives.
 
@@ -25,6 +26,7 @@ mod branch;
 mod combine;
 mod contacts;
 mod independents;
+mod meeting;
 mod parallel;
 mod placed;
 mod planes;
@@ -106,7 +108,7 @@ pub(super) fn close(
     }
     combine::combine(&mut closure);
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
-    branch::refuse_where_they_meet(&closure, &read, faults)?;
+    meeting::refuse_at_start(&closure, &read, faults)?;
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
     closure.samples = samples::sample(&closure);
