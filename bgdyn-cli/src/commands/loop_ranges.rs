@@ -116,7 +116,9 @@ fn range_words(range: &ClosedRange, tree: &Mechanism) -> String {
             (_, Some(name)) => format!("limit of {name}"),
             _ => "not followed farther".to_owned(),
         };
-        format!("{:.6} {unit} ({why})", range.ends[k])
+        // Without the sign of a zero.
+        let at = (1e6 * range.ends[k]).round() * 1e-6 + 0.0;
+        format!("{at:.6} {unit} ({why})")
     };
     let reach = match is_whole_turn(range, tree) {
         true => "a whole turn".to_owned(),
