@@ -209,6 +209,17 @@ pub struct StateLayout {
 }
 
 impl StateLayout {
+    /// Returns the joint that follows others and has this name, or this name of its velocity, with the names of those that
+    /// it follows; `None` if there is none.
+    pub fn follower_of(&self, name: &str) -> Option<(&str, Vec<&str>)> {
+        let joint = name.strip_suffix("_rate").unwrap_or(name);
+        let named = |one: &&StateFollower| one.name == name || one.name == joint;
+        let one = self.followers.iter().find(named)?;
+        let leaders = one.leaders.iter();
+        let leaders = leaders.map(|(j, _)| self.coordinates[*j].name.as_str());
+        Some((&one.name, leaders.collect()))
+    }
+
     /// Adds a coordinate with this name and a store of its own.
     pub fn coordinate(
         &mut self,

@@ -45,6 +45,7 @@ pub(super) fn add(mechanism: &Mechanism, model: &mut Value) {
         let end = |k: usize| {
             let why = match range.why[k] {
                 RangeEnd::Reach => "reach",
+                RangeEnd::BranchesMeet => "branches-meet",
                 RangeEnd::Limit(_) => "limit",
                 RangeEnd::None => "none",
             };
@@ -111,10 +112,13 @@ fn range_words(range: &ClosedRange, tree: &Mechanism) -> String {
     let end = |k: usize| {
         let why = match (range.why[k], limit(range.why[k], tree)) {
             (RangeEnd::Reach, _) => "end of reach".to_owned(),
+            (RangeEnd::BranchesMeet, _) => "branches meet".to_owned(),
             (_, Some(name)) => format!("limit of {name}"),
             _ => "not followed farther".to_owned(),
         };
-        format!("{:.6} {unit} ({why})", range.ends[k])
+        // Without the sign of a zero.
+        let at = (1e6 * range.ends[k]).round() * 1e-6 + 0.0;
+        format!("{at:.6} {unit} ({why})")
     };
     let reach = match is_whole_turn(range, tree) {
         true => "a whole turn".to_owned(),

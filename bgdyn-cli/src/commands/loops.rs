@@ -156,9 +156,13 @@ fn rows(of: &[LoopRow], closes: usize) -> String {
     names(of, closes).join(", ")
 }
 
-/// Returns the side on which the places lie at the start, for planar loops between two moving links.
+/// Returns the side on which the places lie at the start, for planar loops between two moving links; "crossed" for an
+/// antiparallelogram, which changes sides.
 fn side(closure: &Closure, closes: usize) -> Option<&'static str> {
     let one = &closure.loops[closes];
+    if one.crossed {
+        return Some("crossed");
+    }
     if !one.kind.coincident || one.links.contains(&None) {
         return None;
     }

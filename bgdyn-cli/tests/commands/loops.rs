@@ -142,7 +142,7 @@ fn check_prints_ranks_and_ranges() {
     for (end, angle) in [("lower", 0.0), ("upper", std::f64::consts::PI)] {
         let found = flat[end]["position"].as_f64().expect("a number");
         assert!((found - angle).abs() < 1e-6, "{end}: {found}");
-        assert_eq!(flat[end]["why"], "reach");
+        assert_eq!(flat[end]["why"], "branches-meet");
     }
 }
 

@@ -81,7 +81,11 @@ fn starts_that_loops_do_not_reach_are_refused() {
         (
             "reach",
             "initial: { slider_position: 0.8 }",
-            ["open-start", "`rod_pin` does not close", "% of the way"],
+            [
+                "open-start",
+                "`rod_pin` does not close",
+                "nearest that closes is",
+            ],
         ),
         (
             "twice",

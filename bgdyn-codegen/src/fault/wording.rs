@@ -1,6 +1,7 @@
 //! All messages about specs and scenes, one function for each fault.
 
 mod actuated;
+mod assembly;
 mod checking;
 mod constraints;
 mod contacts;
@@ -15,6 +16,7 @@ mod loops;
 mod motionless;
 mod reading;
 mod scene;
+mod start;
 mod values;
 
 use bgdyn_runtime::Digits;
@@ -22,6 +24,7 @@ use bgdyn_runtime::Digits;
 pub(crate) use super::quote::quote;
 use super::suggest::{nearest, unknown_name};
 pub(crate) use actuated::*;
+pub(crate) use assembly::*;
 pub(crate) use checking::*;
 pub(crate) use constraints::*;
 pub(crate) use contacts::*;
@@ -35,6 +38,7 @@ pub(crate) use loops::*;
 pub(crate) use motionless::*;
 pub(crate) use reading::*;
 pub(crate) use scene::*;
+pub(crate) use start::*;
 pub(crate) use values::*;
 
 /// Prints a computed number with six digits.

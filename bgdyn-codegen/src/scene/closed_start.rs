@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Fault, Location, wording};
-use crate::layout::StateLayout;
+use crate::layout::{QuasiJoint, StateLayout};
 use crate::mechanism::Mechanism;
 use crate::mechanism::closure::Unreached;
 
@@ -31,10 +31,18 @@ pub(super) fn fault(
     match reason {
         Unreached::Open {
             closes,
-            row,
+            touches,
             gap,
-            part,
-        } => wording::start_is_open(&location(""), (closes, row), *gap, *part),
+            nearest,
+        } => {
+            let gap = (gap.distance, gap.angle);
+            let nearest = named(layout, nearest);
+            wording::start_is_open(&location(""), (closes, *touches), gap, &nearest)
+        }
+        Unreached::BranchesMeet(at) => {
+            let at = named(layout, at);
+            wording::start_beyond_meeting_branches(&location(""), &layout.loops, &at)
+        }
         Unreached::OtherBranch => wording::start_on_other_branch(&location(""), &layout.loops),
         Unreached::Contradicts {
             index,
@@ -49,13 +57,35 @@ pub(super) fn fault(
                 }
                 true => rate(layout, *index),
             };
-            wording::start_contradicts(&location(name), name, (*given, *closed), unit)
+            match orientation(layout, *index).filter(|_| !velocity) {
+                Some(joint) => wording::pose_contradicts(&location(joint), joint),
+                None => wording::start_contradicts(&location(name), name, (*given, *closed), unit),
+            }
         }
         Unreached::Still { index, given, part } => {
             let (name, unit) = rate(layout, *index);
             wording::start_stands_still(&location(name), name, (*given, unit), *part)
         }
     }
+}
+
+/// Returns the name of the joint with this position in its quaternion.
+fn orientation(layout: &StateLayout, position: usize) -> Option<&str> {
+    let has = |joint: &&QuasiJoint| {
+        let first = joint.quaternion;
+        first.is_some_and(|first| (first..first + 4).contains(&position))
+    };
+    let joint = layout.quasi_joints.iter().find(has)?;
+    Some(&joint.name)
+}
+
+/// Returns positions, by index, with their names and units.
+fn named(layout: &StateLayout, of: &[(usize, f64)]) -> Vec<(String, f64, &'static str)> {
+    let one = |&(p, x): &(usize, f64)| {
+        let position = &layout.positions[p];
+        (position.name.clone(), x, position.dimension.si())
+    };
+    of.iter().map(one).collect()
 }
 
 /// Returns name and unit of a velocity of the open tree.

@@ -94,6 +94,10 @@ impl Scene {
         let mut all = self.overrides();
         all.retain(|s| wanted(s.kind));
         let found: Vec<&Override> = all.iter().filter(|s| s.name == name).collect();
+        let follower = self.layout.follower_of(name);
+        if let (true, Some((joint, leaders))) = (found.is_empty(), follower) {
+            return Err(wording::follows(name, (joint, &leaders)));
+        }
         match found.as_slice() {
             [one] => Ok((*one).clone()),
             [] if all.is_empty() => Err(wording::no_such_override(what, name)),

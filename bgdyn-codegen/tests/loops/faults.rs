@@ -207,7 +207,7 @@ fn loops_that_cannot_close() {
         "xyz: [1, 0, 0]",
         "loop-not-assembled",
         "",
-        &["`pin`", "off by"],
+        &["`pin` misses by 0.23 m"],
     );
     // Twice the crank of 0.12 m cannot be 1e-7 m longer than it is.
     let text = LINKS

@@ -21,6 +21,7 @@ mod findings;
 
 mod actuated;
 mod actuated_positions;
+mod branches;
 mod closed_form;
 mod counts;
 mod drawn;

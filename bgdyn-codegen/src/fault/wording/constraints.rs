@@ -246,7 +246,7 @@ pub(crate) fn parameter_of_prescribed(location: &Location, name: &str, joint: &s
 
 pub(crate) fn prescribed_with_loops(location: &Location, joint: &str) -> Fault {
     let message = format!(
-        "`{joint}` is prescribed, and the mechanism has `loops`: prescribed joints beside loops are not supported yet"
+        "`{joint}` is prescribed, and the mechanism has loops, wheels or knife edges: prescribed joints beside these are not supported yet"
     );
     Fault::new(location, "prescribed-with-loops", message).with_help(
         "leave the constraint out: the effort of the joint's drive is that of inverse dynamics, if the joint is `independent`",

@@ -215,94 +215,10 @@ pub(crate) fn loop_row_never_holds(
         .with_help("correct the places: `origin` and `axis` of `a` and `b`, or the origins of the joints in the loop; a gap of rounded lengths may be within a `tolerance`")
 }
 
-pub(crate) fn loop_not_assembled(
-    location: &Location,
-    (name, row): (&str, &str),
-    left: f64,
-) -> Fault {
-    let message = format!(
-        "no position closes the loops: in the best one found, {} is off by {} (row `{row}`)",
-        quote(name),
-        six_digits(left)
-    );
-    Fault::new(location, "loop-not-assembled", message).with_help(
-        "correct the lengths; or give positions near a closed one with `near: { elbow: 30 deg }`",
-    )
-}
-
-pub(crate) fn loop_closes_to_rounding(
-    location: &Location,
-    (name, row): (&str, &str),
-    left: f64,
-) -> Fault {
-    let message = format!(
-        "the loops close only to {}, not exactly: {} remains open (row `{row}`)",
-        six_digits(left),
-        quote(name)
-    );
-    Fault::new(location, "loop-closes-to-rounding", message).with_help(
-        "the joints are at the end of their reach there: correct the lengths, or free a joint of the loop",
-    )
-}
-
-/// `gaps`: that of the best position, and the largest along the motion without the rows that others determine.
-pub(crate) fn loop_moves_but_for_rounding(
-    location: &Location,
-    name: &str,
-    (left, open): (f64, f64),
-) -> Fault {
-    let message = format!(
-        "the loop {} closes only to {} m, and would move if it closed: lengths or angles seem to be rounded",
-        quote(name),
-        six_digits(left)
-    );
-    let help = format!(
-        "write them exactly (more digits, fractions of pi); or let rows that follow from others be open by `tolerance: {:.0e} m` in the loop: they are up to {} m in closed positions around the start",
-        10.0_f64.powf(open.log10().ceil()),
-        six_digits(open)
-    );
-    Fault::new(location, "loop-closes-to-rounding", message).with_help(help)
-}
-
-pub(crate) fn tolerance_out_of_range(location: &Location, text: &str) -> Fault {
-    let message = format!("the tolerance is {text}");
-    Fault::new(location, "tolerance-out-of-range", message).with_help(
-        "write a length above 0 and up to 1 mm, by which rounded lengths may leave the loop open",
-    )
-}
-
-pub(crate) fn tolerance_exceeded(
-    location: &Location,
-    name: &str,
-    (open, tolerance): (f64, f64),
-) -> Fault {
-    let message = format!(
-        "in positions around the start the loop {} is open by up to {} m, more than its `tolerance` of {} m",
-        quote(name),
-        six_digits(open),
-        six_digits(tolerance)
-    );
-    Fault::new(location, "tolerance-exceeded", message)
-        .with_help("correct the lengths, or raise `tolerance` if that gap is meant")
-}
-
 pub(crate) fn redundant_word(location: &Location, word: &str) -> Fault {
     let message = format!("{} is not a value of `redundant`", quote(word));
     Fault::new(location, "redundant-word", message)
         .with_help("write `redundant: allow`, or leave it out")
-}
-
-pub(crate) fn loop_closes_at_single_positions(
-    location: &Location,
-    (name, row): (&str, &str),
-) -> Fault {
-    let message = format!(
-        "the loop {} closes at single positions only: there its row `{row}` follows from others, and it opens where these move",
-        quote(name)
-    );
-    Fault::new(location, "loop-at-single-position", message).with_help(
-        "correct the lengths: the joints are at the end of their reach, or hold each other",
-    )
 }
 
 /// `counts`: velocities of the joints in loops, rows that are independent somewhere, rows at closed positions.
@@ -327,12 +243,6 @@ pub(crate) fn paradoxical_loop(
     Fault::new(location, "paradoxical-loop", message).with_help(
         "nothing, if that is meant: these rows are left out, and their forces are not determined",
     )
-}
-
-pub(crate) fn branch_not_found(location: &Location, name: &str) -> Fault {
-    let message = format!("the loop {} closes, but not on this branch", quote(name));
-    Fault::new(location, "branch-not-found", message)
-        .with_help("write the other branch, or give positions near it with `near`")
 }
 
 pub(crate) fn dependent_loop_row(

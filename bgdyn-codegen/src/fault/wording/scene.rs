@@ -198,59 +198,6 @@ pub(crate) fn quaternion_length(location: &Location, joint: &str, any: bool, len
 }
 
 /// `part` is the share of the way from the mechanism's own position up to which the loops close.
-pub(crate) fn start_is_open(
-    location: &Location,
-    (closes, row): (&str, &str),
-    gap: f64,
-    part: f64,
-) -> Fault {
-    let percent = 100.0 * part;
-    let message = format!(
-        "the loop `{closes}` does not close at these positions: its row {row} stays open by {gap:.3e} m or rad"
-    );
-    Fault::new(location, "open-start", message).with_help(format!(
-        "from the closed position of the mechanism (`bgdyn check`) the loops close up to {percent:.0} % of the way; give fewer positions, or others"
-    ))
-}
-
-pub(crate) fn start_on_other_branch(location: &Location, loops: &[String]) -> Fault {
-    let names = quoted_list(loops.iter().map(String::as_str));
-    let message = format!(
-        "these positions are on another branch of the loops ({names}) than the mechanism, or singular"
-    );
-    Fault::new(location, "other-branch", message).with_help(
-        "give other positions, or choose the branch in the mechanism with `branch` or `near`",
-    )
-}
-
-pub(crate) fn start_contradicts(
-    location: &Location,
-    name: &str,
-    (given, closed): (f64, f64),
-    unit: &str,
-) -> Fault {
-    let message = format!(
-        "`{name}` is {given} {unit} here, but the loops and the other values given make it {closed:.6} {unit}"
-    );
-    Fault::new(location, "contradicting-start", message)
-        .with_help(format!("leave `{name}` out, or one of the others"))
-}
-
-/// `part` is by how much less than elsewhere the joint moves with the others.
-pub(crate) fn start_stands_still(
-    location: &Location,
-    name: &str,
-    (given, unit): (f64, &str),
-    part: f64,
-) -> Fault {
-    let message = format!(
-        "`{name}` is {given} {unit} here, but at these positions the joint stands still whatever the others do: it moves with them by {part:.1e} of what it does elsewhere"
-    );
-    Fault::new(location, "singular-start", message).with_help(format!(
-        "give the velocity of another joint in place of `{name}`, or other positions"
-    ))
-}
-
 /// `natural` is the same method on velocities.
 pub(crate) fn canonical_of_quasi_velocities(
     location: &Location,

@@ -22,6 +22,9 @@
 //! | `numeric.rs` | values and Jacobians in double-double; closes and assembles positions |
 //! | `polygon/` | planar loops in closed form |
 //! | `ranges.rs` | ranges of independent joints in which loops close, condition numbers, ranks |
+//! | `gap.rs` | by how much loops miss that do not close |
+//! | `way.rs` | ways through closed positions that pass none at which branches meet |
+//! | `pins.rs` | closed positions with given ones of joints with several velocities |
 //! | `reach.rs`, `start_velocities.rs` | closed positions with given ones, and velocities there |
 //! | `followed.rs` | which independent velocities joints determine |
 //! | `solve.rs` | linear equations |
@@ -34,7 +37,9 @@ mod contact_row;
 mod contact_shape;
 mod contact_types;
 mod followed;
+mod gap;
 mod numeric;
+mod pins;
 mod polygon;
 mod ranges;
 mod reach;
@@ -43,6 +48,7 @@ mod row;
 mod rows_at;
 mod solve;
 mod start_velocities;
+mod way;
 
 use bgdyn_runtime::Dd;
 
@@ -57,6 +63,7 @@ pub use contact_shape::{
     SPHERE_ROWS,
 };
 pub use contact_types::{DISC, ELLIPSOID, KNIFE_EDGE, SPHERE};
+pub use gap::Gap;
 pub use polygon::{
     AngleTerm, PlaneJoint, PlaneVector, Polygon, PolygonForm, PolygonSide, TurnedVector,
     closing_polygons, polygons, snapped,
@@ -86,6 +93,8 @@ pub struct KinematicLoop {
     pub reversible: bool,
     /// What touches at place a, if it is no loop but a contact.
     pub contact: Option<PlaneContact>,
+    /// Whether its branch is that of an antiparallelogram.
+    pub crossed: bool,
     /// The location of its entry in the file.
     pub location: Location,
 }

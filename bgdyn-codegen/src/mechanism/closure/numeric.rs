@@ -137,14 +137,31 @@ impl Closure {
         Some(moved)
     }
 
-    /// Changes the positions of these velocities as little as possible so that the loops close (Levenberg and
-    /// Marquardt's method). Returns the largest residual.
+    /// Changes the positions of these velocities as little as possible so that the loops close. Returns the largest
+    /// residual.
     pub fn assemble(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize]) -> f64 {
+        self.minimize(q, free, CLOSED, |q| self.values(rows, q))
+    }
+
+    /// Does the same until the largest residual is `enough`.
+    pub fn assemble_to(&self, rows: &[LoopRow], q: &mut [Dd], free: &[usize], enough: f64) -> f64 {
+        self.minimize(q, free, enough, |q| self.values(rows, q))
+    }
+
+    /// Changes the positions of these velocities as little as possible so that residuals with these rates become small,
+    /// until the largest is `enough` (Levenberg and Marquardt's method). Returns the largest residual.
+    pub(super) fn minimize(
+        &self,
+        q: &mut [Dd],
+        free: &[usize],
+        enough: f64,
+        values: impl Fn(&[Dd]) -> (Vec<Dd>, Vec<Vec<Dd>>),
+    ) -> f64 {
         let mut damping = 1e-3;
-        let (mut residuals, mut jacobian) = self.values(rows, q);
+        let (mut residuals, mut jacobian) = values(q);
         for _ in 0..STEPS {
             let size = square(&residuals);
-            if largest(&residuals) <= CLOSED {
+            if largest(&residuals) <= enough {
                 break;
             }
             let Some(step) = least_step(&jacobian, &residuals, free, damping) else {
@@ -152,7 +169,7 @@ impl Closure {
             };
             let mut moved = q.to_vec();
             self.move_by(&mut moved, &step);
-            let (found, there) = self.values(rows, &moved);
+            let (found, there) = values(&moved);
             if square(&found) < size {
                 q.copy_from_slice(&moved);
                 (residuals, jacobian) = (found, there);

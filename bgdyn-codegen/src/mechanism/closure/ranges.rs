@@ -1,8 +1,11 @@
 //! How far an independent joint moves with the loops closed, and how well the others follow there.
 
+use std::cell::Cell;
+
 use bgdyn_runtime::Dd;
 
 use super::solve::rank;
+use super::way::Way;
 use super::{Closure, LoopRow, solve};
 use crate::mechanism::CoordinateId;
 
@@ -11,9 +14,6 @@ const STEPS: f64 = 180.0;
 
 /// Without limits a slide is followed this many sizes of the largest loop.
 const SIZES: f64 = 4.0;
-
-/// The end of a range is found to this part of a step.
-const PART_OF_STEP: f64 = 1e-7;
 
 /// The largest motion of a dependent joint in a step, rad or m: beyond, it is on another branch.
 const JUMP: f64 = 0.7;
@@ -26,6 +26,8 @@ const SINGULAR: f64 = 1e12;
 pub enum RangeEnd {
     /// The loops do not close beyond, or lose their branch.
     Reach,
+    /// Branches meet there: which one follows is not determined.
+    BranchesMeet,
     /// The joint's limit, or that of a dependent joint with this index in the open tree.
     Limit(CoordinateId),
     /// Nothing: a whole turn from the start, or as far as was followed.
@@ -99,42 +101,43 @@ impl Closure {
     ) -> (f64, RangeEnd) {
         let start = self.start[at].to_f64();
         let whole = way / STEPS;
-        let (mut q, mut gone, mut step) = (self.start.clone(), 0.0, whole);
-        let mut why = RangeEnd::None;
-        while gone < way && step > PART_OF_STEP * whole {
-            let next = f64::min(gone + step, way);
-            match self.step_to(&q, (joint, at, start + sign * next), limits) {
-                Ok(moved) => {
-                    (q, gone) = (moved, next);
-                    // Not on the way to a singular position, where it has no bound.
-                    if step == whole {
-                        note(range, (self.condition(&q), start + sign * gone));
-                    }
-                }
-                Err(reason) => {
-                    why = reason;
-                    step *= 0.5;
-                }
+        let rows = self.position_rows();
+        let free: Vec<usize> = self.closing().map(|j| j.0).collect();
+        let (mut q, mut gone) = (self.start.clone(), 0.0);
+        let mut walk = Way::new((self, &rows, &free), whole);
+        let why = Cell::new(RangeEnd::None);
+        while gone < way {
+            let next = f64::min(gone + whole, way);
+            let moved = walk.go(&mut q, (gone, next), |q, gone| {
+                let step = self.step_to(q, (joint, at, start + sign * gone), limits);
+                why.set(step.as_ref().err().copied().unwrap_or(RangeEnd::Reach));
+                step.ok()
+            });
+            if let Err(reached) = moved {
+                let beyond = |part| self.near(&q, at, start + sign * (reached + part)).is_some();
+                let meet = why.get() == RangeEnd::Reach && walk.closes_beyond(beyond);
+                let why = if meet {
+                    RangeEnd::BranchesMeet
+                } else {
+                    why.get()
+                };
+                return (start + sign * reached, why);
             }
+            gone = next;
+            note(range, (self.condition(&q), start + sign * gone));
         }
-        (start + sign * gone, why)
+        (start + sign * gone, RangeEnd::None)
     }
 
-    /// Returns the closed position with this one of a joint, near q.
+    /// Returns the closed position with this one of a joint, near q, on the branch of the mechanism and within the limits.
     fn step_to(
         &self,
         q: &[Dd],
         (joint, at, to): (CoordinateId, usize, f64),
         limits: &TreeLimits,
     ) -> Result<Vec<Dd>, RangeEnd> {
-        let mut moved = q.to_vec();
-        moved[at] = Dd::from_f64(to);
-        let jumps = |moved: &[Dd]| {
-            let mut parts = moved.iter().zip(q);
-            parts.any(|(x, y)| (*x - *y).to_f64().abs() > JUMP)
-        };
-        let closed = self.close(&mut moved) && !jumps(&moved);
-        if !closed || self.signs_at(&moved) != self.signs || self.condition(&moved) > SINGULAR {
+        let moved = self.near(q, at, to).ok_or(RangeEnd::Reach)?;
+        if self.signs_at(&moved) != self.signs || self.condition(&moved) > SINGULAR {
             return Err(RangeEnd::Reach);
         }
         let outside = |j: &CoordinateId| {
@@ -152,6 +155,16 @@ impl Closure {
             Some(j) if j != joint => Err(RangeEnd::Limit(j)),
             _ => Ok(moved),
         }
+    }
+
+    /// Returns the closed position with this position of a joint, near q.
+    fn near(&self, q: &[Dd], at: usize, to: f64) -> Option<Vec<Dd>> {
+        let mut moved = q.to_vec();
+        moved[at] = Dd::from_f64(to);
+        let closes = self.close(&mut moved);
+        let mut parts = moved.iter().zip(q);
+        let jumps = parts.any(|(x, y)| (*x - *y).to_f64().abs() > JUMP);
+        (closes && !jumps).then_some(moved)
     }
 
     /// Returns ‖J‖∞ ‖J⁻¹‖∞ of the dependent columns J of the rows that are solved; infinite at a singular position.

@@ -5,13 +5,23 @@
 
 use bgdyn_runtime::Dd;
 
-use super::Closure;
+use super::way::Way;
+use super::{Closure, Gap, LoopRow};
 
-/// Parts of the way from the closed position of the mechanism to the given one.
-const PARTS: u32 = 32;
+/// The largest part of the way from the closed position of the mechanism to the given one.
+const LARGEST_PART: f64 = 1.0 / 32.0;
+
+/// The largest motion of a given joint in one part, rad or m, on ways that are not thousands of parts long.
+const LARGEST_STEP: f64 = 0.5;
+
+/// The least of the largest parts.
+const LEAST_PART: f64 = 1.0 / 4096.0;
 
 /// A residual below this is that of a closed position.
 const CLOSED: f64 = 1e-25;
+
+/// A residual below this, which is approached slowly near singular positions, is that of a closed position too.
+const ALMOST_CLOSED: f64 = 1e-12;
 
 /// Largest difference of a given dependent position or velocity from that of the closed start: rad, m, or per second.
 const AGREES: f64 = 1e-3;
@@ -19,18 +29,22 @@ const AGREES: f64 = 1e-3;
 /// The reason why positions or velocities do not exist in closed loops.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unreached {
-    /// A loop stays open by this gap, m or rad, in this row.
+    /// A loop stays open.
     Open {
         /// Its name.
         closes: String,
-        /// The row.
-        row: &'static str,
-        /// The gap.
-        gap: f64,
-        /// The part of the way from the mechanism's own position up to which the loops close, 0 to 1.
-        part: f64,
+        /// Whether it is a wheel, a ball or a knife edge.
+        touches: bool,
+        /// The gap of the closest assembly found.
+        gap: Gap,
+        /// On the way from the mechanism's own position the last ones at which the loops close: indices of positions, and
+        /// values. Empty if no single position moves on the way.
+        nearest: Vec<(usize, f64)>,
     },
-    /// The way to the given positions leads through a singular position, to another branch.
+    /// The way to the given positions leads to where branches meet: indices of positions that move on the way, and their
+    /// values there.
+    BranchesMeet(Vec<(usize, f64)>),
+    /// The given positions are on another branch than the mechanism, or singular.
     OtherBranch,
     /// The loops give a position or a velocity that differs from the given one.
     Contradicts {
@@ -99,34 +113,99 @@ impl Closure {
         for &p in &poses {
             q[p] = self.start[p];
         }
-        for part in 1..=PARTS {
-            let share = Dd::from_f64(f64::from(part) / f64::from(PARTS));
-            for &j in &kept {
-                let (from, to) = (self.start[position(j)], target[position(j)]);
-                // In the scalar of most models.
-                q[position(j)] = Dd::from_f64((from + (to - from) * share).to_f64());
-            }
-            let gap = self.assemble(&rows, q, &free);
-            if gap > CLOSED {
-                return Err(open(self, q, gap, f64::from(part - 1) / f64::from(PARTS)));
-            }
-        }
+        let kept: Vec<usize> = kept.into_iter().map(position).collect();
+        self.go_to(q, (&target, &kept), (&rows, &free))?;
         if !poses.is_empty() {
+            let unposed = q.to_vec();
             poses.iter().for_each(|&p| q[p] = target[p]);
-            let gap = self.assemble(&rows, q, &free);
-            if gap > CLOSED {
-                return Err(open(self, q, gap, 1.0));
+            if self.assemble(&rows, q, &free) > CLOSED {
+                return Err(self.open(q, Vec::new()));
+            }
+            let differs = |&p: &usize| agrees(p, false, (target[p], q[p])).is_err();
+            if poses.iter().any(differs) {
+                // In reach of joints that are not given, perhaps.
+                let pins: Vec<(usize, Dd)> = poses.iter().map(|&p| (p, target[p])).collect();
+                let all = self.moving().into_iter().filter(|j| !is_given(j));
+                let mut drawn = unposed;
+                let leads = self.draw_to(&mut drawn, &pins, (&rows, &all.collect::<Vec<_>>()));
+                let differs = |&p: &usize| agrees(p, false, (target[p], drawn[p])).is_err();
+                if leads && !poses.iter().any(differs) {
+                    q.copy_from_slice(&drawn);
+                }
             }
         }
         if self.signs_at(q) != self.signs {
             return Err(Unreached::OtherBranch);
         }
-        let further = moving.iter().filter(|j| is_given(j) && !kept.contains(j));
-        let further = further.map(|&j| position(j));
+        let further = moving.iter().filter(|j| is_given(j)).map(|&j| position(j));
+        let further = further.filter(|p| !kept.contains(p));
         for p in further.chain(poses) {
             agrees(p, false, (target[p], q[p]))?;
         }
         Ok(())
+    }
+
+    /// Moves the positions `kept` from the closed position of the mechanism to their targets, and closes the rows along
+    /// the `free` velocities.
+    fn go_to(
+        &self,
+        q: &mut [Dd],
+        (target, kept): (&[Dd], &[usize]),
+        (rows, free): (&[LoopRow], &[usize]),
+    ) -> Result<(), Unreached> {
+        let set = |q: &mut [Dd], share: f64| {
+            for &p in kept {
+                let (from, to) = (self.start[p], target[p]);
+                // In the scalar of most models.
+                q[p] = Dd::from_f64((from + (to - from) * Dd::from_f64(share)).to_f64());
+            }
+        };
+        let closed = |q: &[Dd], share: f64| {
+            let mut moved = q.to_vec();
+            set(&mut moved, share);
+            (self.assemble(rows, &mut moved, free) <= CLOSED).then_some(moved)
+        };
+        let moves = |p: &usize| target[*p] != self.start[*p];
+        let moved: Vec<usize> = kept.iter().copied().filter(moves).collect();
+        let change = |p: &usize| (target[*p] - self.start[*p]).to_f64().abs();
+        let longest = moved.iter().map(change).fold(0.0, f64::max);
+        let mut at = closed(q, 0.0).ok_or_else(|| self.open(q, Vec::new()))?;
+        let reached = match longest > 0.0 {
+            true => {
+                let part = LARGEST_PART.min(LARGEST_STEP / longest).max(LEAST_PART);
+                let mut way = Way::new((self, rows, free), part);
+                let reached = way.go(&mut at, (0.0, 1.0), closed);
+                let beyond = |share: f64| {
+                    let mut moved = at.clone();
+                    set(&mut moved, f64::min(1.0, share));
+                    self.assemble(rows, &mut moved, free) <= ALMOST_CLOSED
+                };
+                reached.map_err(|share| way.closes_beyond(|part| beyond(share + part)))
+            }
+            false => Ok(()),
+        };
+        q.copy_from_slice(&at);
+        let Err(others) = reached else {
+            set(q, 1.0);
+            return Ok(());
+        };
+        let last = moved.iter().map(|&p| (p, at[p].to_f64())).collect();
+        if others {
+            return Err(Unreached::BranchesMeet(last));
+        }
+        set(q, 1.0);
+        self.assemble(rows, q, free);
+        Err(self.open(q, last))
+    }
+
+    fn open(&self, q: &[Dd], nearest: Vec<(usize, f64)>) -> Unreached {
+        let (closes, gap) = self.widest_gap(q);
+        Unreached::Open {
+            closes: self.loops[closes].name.clone(),
+            touches: self.loops[closes].contact.is_some(),
+            gap,
+            nearest,
+        }
     }
 
     /// Returns the given positions of joints in loops with several velocities. Where they end depends on the way, so that
@@ -140,19 +219,6 @@ impl Closure {
             .iter()
             .flat_map(|joint| &joint.degrees.positions);
         all.map(|p| p.0).filter(|p| given.contains(p)).collect()
-    }
-}
-
-fn open(closure: &Closure, q: &[Dd], gap: f64, part: f64) -> Unreached {
-    let (residuals, _) = closure.values(&closure.position_rows(), q);
-    let sizes = residuals.iter().map(|x| x.to_f64().abs());
-    let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    let row = closure.position_rows()[worst.map_or(0, |(row, _)| row)];
-    Unreached::Open {
-        closes: closure.loops[row.closes].name.clone(),
-        row: row.name,
-        gap,
-        part,
     }
 }
 

@@ -85,6 +85,11 @@ pub(super) fn initial(
             continue;
         }
         let Some(&(kind, i, dimension)) = places.get(name) else {
+            if let Some((joint, leaders)) = layout.follower_of(name) {
+                let at = &raw.name.location;
+                faults.push(wording::initial_of_follower(at, name, (joint, &leaders)));
+                continue;
+            }
             let mut known: Vec<&str> = places.keys().map(String::as_str).collect();
             known.extend(&poses);
             let fault =

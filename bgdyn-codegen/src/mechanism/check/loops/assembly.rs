@@ -2,12 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::rank;
 use super::read::ReadLoop;
+use super::rounding;
 use super::samples::sample;
 use crate::fault::{Faults, wording};
-use crate::mechanism::CoordinateId;
-use crate::mechanism::closure::Closure;
+use crate::mechanism::closure::{Closure, LoopRow};
+use crate::mechanism::{CoordinateId, PositionId};
 use crate::random::Random;
 
 /// Starts of the search, the given position first.
@@ -15,6 +15,9 @@ const STARTS: u64 = 200;
 
 /// A residual below this is that of a closed position.
 const CLOSED: f64 = 1e-25;
+
+/// A rate below this part of the largest one of its row is a rounding error.
+const ROUNDING: f64 = 1e-24;
 
 /// A wheel whose lean has a smaller cosine lies flat.
 const FLAT: f64 = 1e-6;
@@ -25,8 +28,17 @@ const NEAR: usize = 8;
 /// A gap below this, relative to the size of the largest loop, would be one of rounded lengths.
 const ROUNDED: f64 = 1e-4;
 
-/// A position with its gap, m or rad.
+/// A position with its gap, m or rad: the largest row, of the best one the root of the sum of squares.
 type OpenPosition = (f64, Vec<Dd>);
+
+/// Returns the position from which the search for a closed one begins.
+pub(super) fn given(closure: &Closure, read: &[ReadLoop]) -> Vec<Dd> {
+    let mut given = closure.start.clone();
+    for (position, value, _) in read.iter().flat_map(|one| &one.near) {
+        given[position.0] = *value;
+    }
+    given
+}
 
 /// Sets a closed start, and closed positions at random. `kept` are the velocities that the file names as
 /// independent: their positions stay those of the start if they can. Returns by how much the start is open: 0, or a gap
@@ -37,12 +49,10 @@ pub(super) fn assemble(
     kept: &[CoordinateId],
     faults: &mut Faults,
 ) -> Option<f64> {
-    let mut given = closure.start.clone();
-    for (position, value) in read.iter().flat_map(|one| &one.near) {
-        given[position.0] = *value;
-    }
+    let given = given(closure, read);
     let rows = closure.position_rows();
     let moving = closure.moving();
+    let read_by_rows = read_by(closure, &rows);
     let others: Vec<usize> = moving
         .iter()
         .copied()
@@ -61,7 +71,9 @@ pub(super) fn assemble(
         let changed = if seed % 2 == 0 { &others } else { &moving };
         if seed > 0 {
             let step = |&j: &usize| (j, Dd::from_f64(spread * random.signed()));
-            closure.displace(&mut q, &changed.iter().map(step).collect::<Vec<_>>());
+            let mut steps: Vec<(usize, Dd)> = changed.iter().map(step).collect();
+            steps.retain(|(j, _)| read_by_rows.contains(j));
+            closure.displace(&mut q, &steps);
         }
         let mut left = closure.assemble(&rows, &mut q, &others);
         if left > CLOSED {
@@ -71,8 +83,11 @@ pub(super) fn assemble(
             if left < rounded && near.len() < NEAR {
                 near.push((left, q.clone()));
             }
-            if left < best.0 {
-                best = (left, q);
+            let (residuals, _) = closure.values(&rows, &q);
+            let squares = residuals.iter().map(|x| x.to_f64() * x.to_f64());
+            let distance = squares.sum::<f64>().sqrt();
+            if distance < best.0 {
+                best = (distance, q);
             }
             continue;
         }
@@ -85,6 +100,10 @@ pub(super) fn assemble(
                 closure.start = q;
                 closure.samples = sample(closure);
                 return Some(if left > CLOSED { left } else { 0.0 });
+            }
+            Some(one) if seed == 0 && is_determined(closure, &read[one]) => {
+                report_near(&read[one], faults);
+                return None;
             }
             Some(one) => wrong = wrong.or(Some(one)),
         }
@@ -106,8 +125,52 @@ pub(super) fn assemble(
     None
 }
 
+/// Returns the velocities that these rows read, somewhere; the others stay where they are.
+fn read_by(closure: &Closure, rows: &[LoopRow]) -> Vec<usize> {
+    let at = closure.open_positions().into_iter();
+    let rates = at.flat_map(|q| closure.values(rows, &q).1);
+    let sizes = rates.map(|row| row.iter().map(|x| x.to_f64().abs()).collect());
+    let sizes: Vec<Vec<f64>> = sizes.collect();
+    let reads = |row: &Vec<f64>, j: usize| {
+        let largest = row.iter().copied().fold(0.0, f64::max);
+        row[j] > ROUNDING * largest
+    };
+    let mut moving = closure.moving();
+    moving.retain(|&j| sizes.iter().any(|row| reads(row, j)));
+    moving
+}
+
+/// Returns whether the positions in `near` of a loop are more than it leaves free, so that they tell the branch.
+fn is_determined(closure: &Closure, one: &ReadLoop) -> bool {
+    let own = closure
+        .loops
+        .iter()
+        .position(|closes| closes.name == one.closes.name);
+    let rows = closure.position_rows();
+    let rows = rows.iter().filter(|row| Some(row.closes) == own).count();
+    let velocities: Vec<CoordinateId> = one.closes.velocities().collect();
+    let of_loop = |(p, ..): &&(PositionId, Dd, String)| {
+        let mut all = velocities.iter();
+        all.any(|j| closure.positions[j.0] == Some(*p))
+    };
+    let given = one.near.iter().filter(of_loop).count();
+    one.branch.is_some() && given + rows > velocities.len()
+}
+
+/// Reports a branch that contradicts the positions in `near`.
+fn report_near(one: &ReadLoop, faults: &mut Faults) {
+    let Some(branch) = &one.branch else { return };
+    let near = one.near.iter();
+    let near: Vec<(String, f64)> = near
+        .map(|(_, x, joint)| (joint.clone(), x.to_f64()))
+        .collect();
+    let words = branch.value.words();
+    let fault = wording::branch_contradicts_near(&branch.location, &one.closes.name, words, &near);
+    faults.push(fault);
+}
+
 /// Returns the first loop that is closed on another branch than that of the file, or turned over.
-fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usize> {
+pub(super) fn on_other_branch(closure: &Closure, read: &[ReadLoop], q: &[Dd]) -> Option<usize> {
     (0..read.len()).find(|&one| {
         let wanted = read[one].branch.as_ref();
         let other = wanted.is_some_and(|branch| !branch.value.contains(closure, one, q));
@@ -122,7 +185,7 @@ fn report_gap(
     faults: &mut Faults,
 ) {
     let rounded = ROUNDED * closure.size();
-    let moves = |(left, q): &OpenPosition| rank::almost_moves(closure, (q, *left), rounded);
+    let moves = |(left, q): &OpenPosition| rounding::almost_moves(closure, (q, *left), rounded);
     if let Some(almost) = near.iter().find_map(moves) {
         let one = &closure.loops[almost.closes];
         let gaps = (almost.gap, almost.open);
@@ -134,12 +197,18 @@ fn report_gap(
     let (residuals, _) = closure.values(&rows, &q);
     let sizes = residuals.iter().map(|x| x.to_f64().abs());
     let worst = sizes.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((row, _)) = worst else { return };
-    let row = &rows[row];
-    let one = &closure.loops[row.closes];
-    let names = (one.name.as_str(), row.name);
+    let Some((row, size)) = worst else { return };
+    let (closes, gap) = closure.widest_gap(&q);
+    let one = &closure.loops[closes];
     faults.push(match left < rounded {
-        true => wording::loop_closes_to_rounding(&one.location, names, left),
-        false => wording::loop_not_assembled(&one.location, names, left),
+        true => {
+            let one = &closure.loops[rows[row].closes];
+            let names = (one.name.as_str(), rows[row].name);
+            wording::loop_closes_to_rounding(&one.location, names, size)
+        }
+        false => {
+            let gap = (gap.distance, gap.angle);
+            wording::loop_not_assembled(&one.location, &one.name, gap)
+        }
     });
 }

@@ -80,7 +80,30 @@ fn crossed(
     Some(Branch::Crossed([a.segments.clone(), c.segments.clone()]))
 }
 
+/// Returns whether a loop without a branch is a parallelogram, or a rhombus.
+pub(super) fn is_parallelogram(
+    one: &LoopSpec,
+    (placed, tree): (&PlacedLoop<'_>, Tree<'_>),
+) -> bool {
+    let word = Located {
+        value: "parallel".to_owned(),
+        location: one.location.clone(),
+    };
+    let plain = |angle: &[Leader]| (angle.to_vec(), Dd::ZERO);
+    let sides = || parallel::sides_of(&word, (placed, tree), plain, &mut Faults::default());
+    one.branch.given().is_none() && sides().is_some_and(|sides| sides.opposite().is_some())
+}
+
 impl Branch {
+    /// Returns its word in a file, and that of the other branch.
+    pub(super) fn words(&self) -> [&'static str; 2] {
+        match self {
+            Branch::Left => ["left", "right"],
+            Branch::Right => ["right", "left"],
+            Branch::Crossed(_) => ["crossed", "parallel"],
+        }
+    }
+
     /// Returns whether a loop is on this branch at a position.
     pub(super) fn contains(&self, closure: &Closure, closes: usize, q: &[Dd]) -> bool {
         let side = |left: bool| {

@@ -91,6 +91,7 @@ pub(super) fn read(
         },
         length: Dd::ONE,
         axis: None,
+        crossed: false,
         reversible: false,
         contact: Some(contact),
         location: entry.location.clone(),
@@ -102,6 +103,7 @@ pub(super) fn read(
     Some(ReadLoop {
         closes,
         branch: None,
+        parallelogram: false,
         near: Vec::new(),
         redundant: false,
         tolerance: 0.0,

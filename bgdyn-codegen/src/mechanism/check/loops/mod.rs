@@ -8,11 +8,12 @@
 //!    one that holds at none is a fault, and so is a loop or a contact without other rows.
 //! 3. `assembly.rs`: a closed position, from the given ones, on the branch of the file; `samples.rs`: closed positions
 //!    at random from there.
-//! 4. `rank.rs`: rows that follow from others are left out, or are a fault. `single_positions.rs`: so is a loop or a
-//!    contact that closes only where it cannot move.
+//! 4. `rank.rs`: rows that follow from others are left out, or are a fault. `rounding.rs`: they would if lengths were
+//!    not rounded. `single_positions.rs`: a loop or a contact that closes only where it cannot move is a fault.
 //!    `combine.rs`: rows of contacts are combined so that fewer velocities appear in each.
 //! 5. `independents.rs`: the independent velocities: those of the file, else those closest to the base for which
 //!    the dependent columns are well conditioned.
+//!    `meeting.rs`: a start at which branches meet is a fault.
 //! 6. `blocks.rs`: the order in which blocks of rows are solved.
 //! 7. `actuated.rs`: the joints with drives.
 
@@ -25,11 +26,13 @@ mod branch;
 mod combine;
 mod contacts;
 mod independents;
+mod meeting;
 mod parallel;
 mod placed;
 mod planes;
 mod rank;
 mod read;
+mod rounding;
 mod samples;
 mod sides;
 mod single_positions;
@@ -93,11 +96,21 @@ pub(super) fn close(
         return None;
     }
     let kept = independents::named(spec, mechanism, faults)?;
+    let given = assembly::given(&closure, &read);
     let gap = assembly::assemble(&mut closure, &read, &kept, faults)?;
-    rank::leave_out(&mut closure, (&read, gap), faults)?;
+    let held = (gap == 0.0).then(|| rounding::held_by(&closure, &given));
+    let on_branch = |held: &rounding::Held| {
+        let q = &held.without.start;
+        assembly::on_other_branch(&held.without, &read, q).is_none()
+    };
+    match held.flatten().filter(on_branch) {
+        Some(held) => rounding::leave_out(&mut closure, &read, held, faults)?,
+        None => rank::leave_out(&mut closure, (&read, gap), faults)?,
+    }
     single_positions::refuse(&closure, faults)?;
     combine::combine(&mut closure);
     independents::choose(&mut closure, (spec, mechanism, &kept), faults)?;
+    meeting::refuse_at_start(&closure, &read, faults)?;
     blocks::arrange(&mut closure);
     closure.signs = closure.signs_at(&closure.start);
     closure.samples = samples::sample(&closure);

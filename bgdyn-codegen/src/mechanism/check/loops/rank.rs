@@ -14,7 +14,7 @@ use crate::fault::{Faults, wording};
 use crate::mechanism::closure::{Closure, FollowingRow, eliminate};
 
 /// Rows whose pivots are below this, relative to the first one, follow from others.
-const FOLLOWS: f64 = 1e-18;
+pub(super) const FOLLOWS: f64 = 1e-18;
 
 /// The same for loops that stay open, times their gap over their size.
 const FOLLOWS_TO_GAP: f64 = 1e3;
@@ -144,51 +144,12 @@ fn judge(closure: &Closure, (read, gap): (&[ReadLoop], f64), faults: &mut Faults
     }
 }
 
-/// What becomes of loops that almost close.
-pub(super) struct Almost {
-    /// The index of a loop with a row that the others would determine.
-    pub(super) closes: usize,
-    /// The gap at the position, m or rad.
-    pub(super) gap: f64,
-    /// The most by which it is open along the motion of the others, m or rad.
-    pub(super) open: f64,
-}
-
-/// Returns whether loops that stay open by a gap at q would move if they closed: without the rows that almost follow
-/// from others they do, and those stay closed to `most`.
-pub(super) fn almost_moves(closure: &Closure, (q, gap): (&[Dd], f64), most: f64) -> Option<Almost> {
-    if closure.nonholonomic() {
-        return None;
-    }
-    let at = [closure.values(&closure.rows, q).1];
-    let order: Vec<usize> = (0..closure.rows.len()).collect();
-    let tried = (0..5).map(|k| least(closure, gap * 10_f64.powi(k)));
-    tried.into_iter().find_map(|least| {
-        let (kept, left) = split(&at, &order, least);
-        if left.is_empty() {
-            return None;
-        }
-        let mut trial = closure.clone();
-        trial.start = q.to_vec();
-        keep(&mut trial, &best(&at, &order, kept.len()), &[]);
-        close_again(&mut trial);
-        let open = open_along(&trial).into_iter().fold(0.0, f64::max);
-        let moved = |sample: &Vec<Dd>| {
-            let mut steps = sample.iter().zip(&trial.start);
-            steps.any(|(x, y)| (*x - *y).to_f64().abs() > 0.1)
-        };
-        let moves = open <= most && trial.samples.iter().any(moved);
-        let closes = trial.following.first()?.row.closes;
-        moves.then_some(Almost { closes, gap, open })
-    })
-}
-
-fn least(closure: &Closure, gap: f64) -> f64 {
+pub(super) fn least(closure: &Closure, gap: f64) -> f64 {
     f64::max(FOLLOWS, FOLLOWS_TO_GAP * gap / closure.size())
 }
 
 /// Takes these rows, and leaves out the others; those in `always` follow from others at every position.
-fn keep(closure: &mut Closure, kept: &[usize], always: &[usize]) {
+pub(super) fn keep(closure: &mut Closure, kept: &[usize], always: &[usize]) {
     let rows = std::mem::take(&mut closure.rows);
     for (r, row) in rows.into_iter().enumerate() {
         if kept.contains(&r) {
@@ -203,7 +164,7 @@ fn keep(closure: &mut Closure, kept: &[usize], always: &[usize]) {
 }
 
 /// Closes the rows that are left, at the start and at closed positions at random.
-fn close_again(closure: &mut Closure) {
+pub(super) fn close_again(closure: &mut Closure) {
     let rows = closure.position_rows();
     let mut start = closure.start.clone();
     let moving = closure.moving();
@@ -213,7 +174,7 @@ fn close_again(closure: &mut Closure) {
 }
 
 /// Returns by how much each row that was left out is open, at most, at the start and the closed positions.
-fn open_along(closure: &Closure) -> Vec<f64> {
+pub(super) fn open_along(closure: &Closure) -> Vec<f64> {
     let left: Vec<_> = closure.following.iter().map(|one| one.row).collect();
     let mut most = vec![0.0; left.len()];
     for q in closure.samples.iter().chain([&closure.start]) {
@@ -227,7 +188,11 @@ fn open_along(closure: &Closure) -> Vec<f64> {
 
 /// Returns the rows that are independent of those before them, in this order, and the others: those that follow from
 /// them at all positions.
-fn split(jacobians: &[Jacobian], order: &[usize], least: f64) -> (Vec<usize>, Vec<usize>) {
+pub(super) fn split(
+    jacobians: &[Jacobian],
+    order: &[usize],
+    least: f64,
+) -> (Vec<usize>, Vec<usize>) {
     let mut independent: Vec<usize> = Vec::new();
     let mut following = Vec::new();
     for &r in order {
@@ -243,7 +208,7 @@ fn split(jacobians: &[Jacobian], order: &[usize], least: f64) -> (Vec<usize>, Ve
 }
 
 /// Returns as many rows, each the one with the largest part, at the worst position, that the others do not determine.
-fn best(jacobians: &[Jacobian], of: &[usize], count: usize) -> Vec<usize> {
+pub(super) fn best(jacobians: &[Jacobian], of: &[usize], count: usize) -> Vec<usize> {
     let mut parts: Vec<Jacobian> = jacobians.to_vec();
     let mut chosen: Vec<usize> = Vec::new();
     let sizes: Vec<Vec<f64>> = jacobians
@@ -335,7 +300,7 @@ fn report(closure: &Closure, (r, of): (usize, &[usize]), on: &[Jacobian], faults
 }
 
 /// Warns of loops that move by their lengths only; `off` is the number of rows that are independent somewhere.
-fn warn(closure: &Closure, off: usize, faults: &mut Faults) {
+pub(super) fn warn(closure: &Closure, off: usize, faults: &mut Faults) {
     let left = closure.following.iter().filter(|one| !one.always);
     let rows: Vec<_> = left.map(|one| one.row).collect();
     let Some(first) = rows.first() else { return };

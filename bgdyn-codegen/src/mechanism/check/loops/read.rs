@@ -16,8 +16,10 @@ pub(super) struct ReadLoop {
     pub(super) closes: KinematicLoop,
     /// The branch that the file names, at the word.
     pub(super) branch: Option<Located<Branch>>,
-    /// Positions to start from.
-    pub(super) near: Vec<(PositionId, Dd)>,
+    /// Whether it is a parallelogram without a branch.
+    pub(super) parallelogram: bool,
+    /// Positions to start from, with the names of their joints.
+    pub(super) near: Vec<(PositionId, Dd, String)>,
     /// Whether its rows may follow from others.
     pub(super) redundant: bool,
     /// The gap by which rows that follow from others may be open, m or rad; 0 without the key.
@@ -42,6 +44,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
     if !unsuited.is_empty() {
         return None;
     }
+    let parallelogram = branch::is_parallelogram(one, (&placed, tree));
     Some(ReadLoop {
         closes: KinematicLoop {
             name: placed.name.to_owned(),
@@ -50,10 +53,12 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
             chain: placed.chain,
             length: placed.length,
             axis,
+            crossed: matches!(&branch, Some(word) if matches!(word.value, Branch::Crossed(_))),
             reversible: false,
             contact: None,
             location: one.location.clone(),
         },
+        parallelogram,
         branch,
         near,
         redundant: redundant?,
@@ -62,7 +67,7 @@ pub(super) fn read(one: &LoopSpec, context: Context<'_>, faults: &mut Faults) ->
 }
 
 /// Reads the positions to start from.
-fn near(one: &LoopSpec, tree: Tree<'_>, faults: &mut Faults) -> Vec<(PositionId, Dd)> {
+fn near(one: &LoopSpec, tree: Tree<'_>, faults: &mut Faults) -> Vec<(PositionId, Dd, String)> {
     let own = |joint: &&Joint| joint.degrees.own_positions() && joint.kind.one_degree();
     let all = || tree.links().iter().map(|link| &link.joint).filter(own);
     let mut found = Vec::new();
@@ -81,7 +86,7 @@ fn near(one: &LoopSpec, tree: Tree<'_>, faults: &mut Faults) -> Vec<(PositionId,
         };
         match check_unit(number, &[dimension]) {
             Some(fault) => faults.push(fault),
-            None => found.push((position, number.value.value)),
+            None => found.push((position, number.value.value, joint.name.clone())),
         }
     }
     found

@@ -19,3 +19,14 @@ pub(super) fn sample(closure: &Closure) -> Vec<Vec<Dd>> {
     };
     (0..SAMPLES).map(next).collect()
 }
+
+/// Returns closed positions at random, each a short way from the start.
+pub(super) fn around(closure: &Closure) -> Vec<Vec<Dd>> {
+    let rows = closure.position_rows();
+    let near = |seed| {
+        let mut q = closure.start.clone();
+        closure.walk(&rows, &mut q, &mut Random(seed));
+        q
+    };
+    (0..SAMPLES).map(near).collect()
+}
