@@ -20,7 +20,7 @@ use crate::method::Method;
 
 /// How the motion of a site is computed.
 #[derive(Clone, Copy, PartialEq)]
-enum Way {
+enum MotionSource {
     /// From its Jacobian, in world axes.
     Jacobian,
     /// From the motion of its body, in the axes of the body: J̇ v only.
@@ -34,22 +34,22 @@ pub(super) fn function(
     method: Method,
     site: SiteId,
 ) -> Function {
-    let mut ways = vec![
-        ("plain", false, Way::Jacobian),
-        ("parallel axes grouped", true, Way::Jacobian),
+    let mut sources = vec![
+        ("plain", false, MotionSource::Jacobian),
+        ("parallel axes grouped", true, MotionSource::Jacobian),
     ];
     if matches!(method, Method::JacobianDotV(_)) {
-        ways.extend([
-            ("in body axes, plain", false, Way::Body),
-            ("in body axes, parallel axes grouped", true, Way::Body),
+        sources.extend([
+            ("in body axes, plain", false, MotionSource::Body),
+            ("in body axes, parallel axes grouped", true, MotionSource::Body),
         ]);
     }
-    let made = ways.into_iter().map(|(name, grouped, way)| {
-        let (made, outputs) = outputs(graph, geometry, (method, site), grouped, way);
+    let made = sources.into_iter().map(|(name, grouped, source)| {
+        let (made, outputs) = outputs(graph, geometry, (method, site), grouped, source);
         Function::flat(graph, method, format!("recursion: {name}"), made, outputs)
     });
     let made = made.min_by_key(|function| function.cost().weighted());
-    made.expect("there are several ways")
+    made.expect("there are several sources")
 }
 
 fn outputs(
@@ -57,19 +57,19 @@ fn outputs(
     geometry: &Geometry,
     (method, site): (Method, SiteId),
     grouped: bool,
-    way: Way,
+    source: MotionSource,
 ) -> (Graph, Vec<Signed>) {
     let b = Builder::new();
     let outputs = {
         let x = Arguments::new(&b, graph, method);
         let plan = Plan::of_kinematics(geometry, grouped);
         let frames = Frames::new(&b, graph, geometry, &plan, &x);
-        let outputs = match way {
-            Way::Jacobian => {
+        let outputs = match source {
+            MotionSource::Jacobian => {
                 let motion = motion(&b, graph, geometry, &frames, site);
                 motion.outputs(&b, graph, method, &x.v)
             }
-            Way::Body => {
+            MotionSource::Body => {
                 let motion = (&frames, &plan, GravityField::Zero);
                 acceleration((&b, graph, geometry), &frames, motion, site)
             }
