@@ -90,6 +90,9 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             | Shape::CheckedSlopesByTree
             | Shape::LinkWrenches => unreachable!("these methods are generated on request only"),
             Shape::Parts | Shape::CheckedParts => unreachable!("no scene is among the specs"),
+            Shape::Bundle | Shape::CheckedBundle => {
+                unreachable!("bundles are not among the functions")
+            }
         };
         let arguments = function.method.arguments().iter().map(|a| a.name());
         let arguments = arguments.collect::<Vec<_>>().join(", ");

@@ -27,29 +27,41 @@ enum MotionSource {
     Body,
 }
 
-/// Returns the cheapest one of the functions with and without groups.
+/// Returns the cheaper one of the functions with and without groups; of J̇ v from the motion of the body, if that costs
+/// less. Sums of angles, which only the other one has, do not count then.
 pub(super) fn function(
     graph: &Multibody,
     geometry: &Geometry,
     method: Method,
     site: SiteId,
 ) -> Function {
-    let mut sources = vec![
-        ("plain", false, MotionSource::Jacobian),
-        ("parallel axes grouped", true, MotionSource::Jacobian),
-    ];
-    if matches!(method, Method::JacobianDotV(_)) {
-        sources.extend([
-            ("in body axes, plain", false, MotionSource::Body),
-            ("in body axes, parallel axes grouped", true, MotionSource::Body),
-        ]);
-    }
-    let made = sources.into_iter().map(|(name, grouped, source)| {
+    let of = |source, grouped, name: &str| {
         let (made, outputs) = outputs(graph, geometry, (method, site), grouped, source);
         Function::flat(graph, method, format!("recursion: {name}"), made, outputs)
-    });
-    let made = made.min_by_key(|function| function.cost().weighted());
-    made.expect("there are several sources")
+    };
+    let cheaper = |plain: Function, grouped: Function| match grouped.cost().weighted()
+        < plain.cost().weighted()
+    {
+        true => grouped,
+        false => plain,
+    };
+    let (jacobian, body) = (MotionSource::Jacobian, MotionSource::Body);
+    let usual = cheaper(
+        of(jacobian, false, "plain"),
+        of(jacobian, true, "parallel axes grouped"),
+    );
+    if !matches!(method, Method::JacobianDotV(_)) {
+        return usual;
+    }
+    let other = cheaper(
+        of(body, false, "in body axes, plain"),
+        of(body, true, "in body axes, parallel axes grouped"),
+    );
+    let cost = |function: &Function| function.cost().unfinished().weighted();
+    match cost(&other) < cost(&usual) {
+        true => other,
+        false => usual,
+    }
 }
 
 fn outputs(
