@@ -60,7 +60,9 @@ fn seeds() -> Vec<String> {
     assert!(files.len() > 80);
     let texts = files
         .into_iter()
-        .map(|path| fs::read_to_string(path).expect("a text"));
+        .map(|path| fs::read_to_string(path).expect("a text"))
+        // The search for closed positions takes too long for thousands of texts.
+        .filter(|text| !text.contains("\nloops:"));
     texts.chain([DENSE.to_owned()]).collect()
 }
 
