@@ -5,7 +5,7 @@ static inline REAL @_checked_pivot(REAL value, REAL magnitude, int joint, int *r
     REAL least = magnitude * PIVOT_FLOOR;
     least = (least < `0`) ? `0` : least;
     if (!(value > least && value <= LARGEST) && *refused == 0) {
-        *refused = (value == value) ? joint : -1;
+        *refused = (value <= `0` || value > `0`) ? joint : -1;
     }
     return value;
 }
