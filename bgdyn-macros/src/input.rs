@@ -86,7 +86,7 @@ impl Input {
                 self.given.push(option);
                 continue;
             }
-            if self.given.contains(&option) {
+            if option != "bundle" && self.given.contains(&option) {
                 self.refuse(option.span(), format!("`{option}` is given twice"));
             }
             input.parse::<Token![=]>()?;

@@ -7,7 +7,7 @@ use crate::bond_graph::BondGraph;
 use crate::method::Method;
 use crate::name::is_identifier;
 
-/// A bundle in [`Options::bundles`]: `control = [mass_matrix, bias, pose_tool]`.
+/// A bundle in [`Options::bundles`](super::Options::bundles): `control = [mass_matrix, bias, pose_tool]`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BundleOption {
     /// The name of its method; that of the struct with its results in UpperCamelCase.

@@ -5,9 +5,9 @@ use std::fmt;
 /// An option whose value may be invalid for the mechanism or the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OptionName {
-    /// An entry of [`Options::methods`].
+    /// An entry of [`Options::methods`](super::Options::methods).
     Methods,
-    /// An entry of [`Options::frames`].
+    /// An entry of [`Options::frames`](super::Options::frames).
     Frames,
     /// The bundle with this index: 0 is its name, 1 its first method.
     Bundle(usize),
