@@ -5,9 +5,9 @@
 //! by the cost of the whole: one that costs more by itself can share more.
 
 use crate::bond_graph::BondGraph;
-use crate::choice::{Choice, Preference, prefer};
+use crate::choice::{Choice, Preference, preferred};
 use crate::column_loop::{ColumnLoop, OWN, ResultSource, SHARED};
-use crate::expr::{Cost, Graph, Leaf, Signed, copy_into, cost};
+use crate::expr::{Graph, Leaf, Signed, copy_into, cost};
 use crate::function::Function;
 use crate::method::Method;
 use crate::model::{Bundle, BundlePart};
@@ -22,45 +22,32 @@ pub fn bundle(
     preference: Preference,
 ) -> Option<Bundle> {
     let whole = Method::bundle(methods)?;
+    let preferred = methods.iter().map(|&m| preferred(choice, m, preference));
+    let chosen: Vec<Function> = preferred
+        .map(|function| Some(unrolled(&function?)))
+        .collect::<Option<_>>()?;
+    let each = merged(graph, whole, &chosen.iter().collect::<Vec<_>>());
     let function = match preference {
         Preference::Operations => {
-            let chosen = methods.iter().map(|&method| choice.function(method));
-            let chosen: Vec<Function> = chosen
-                .map(|function| Some(unrolled(&*function?)))
-                .collect::<Option<_>>()?;
-            let sharing = factor(merged(graph, whole, &most_sharing(choice, methods)));
-            let each = merged(graph, whole, &chosen);
+            let candidates = candidates(choice, methods, &chosen);
+            let sharing = factor(merged(graph, whole, &most_sharing(&candidates)));
             finish(cheapest([sharing, factor(each.clone()), each])?)
         }
-        Preference::Accuracy => {
-            let chosen = methods
-                .iter()
-                .map(|&method| prefer(choice, method, preference));
-            let chosen: Vec<Function> = chosen
-                .map(|function| Some(unrolled(&function?)))
-                .collect::<Option<_>>()?;
-            finish_in_order(merged(graph, whole, &chosen).in_order())
-        }
+        Preference::Accuracy => finish_in_order(each),
     };
-    let mut begin = 0;
     let closed = graph.closed.as_deref();
-    let lengths = methods
-        .iter()
-        .map(|&m| choice.function(m).map_or(0, |f| output_count(&f)));
-    let parts = methods
-        .iter()
-        .zip(lengths.collect::<Vec<_>>())
-        .map(|(&method, count)| {
-            let outputs = begin..begin + count;
-            begin += count;
-            let name = method.name_in(closed, &graph.sites);
-            BundlePart {
-                method,
-                name,
-                outputs,
-            }
-        });
-    let parts: Vec<BundlePart> = parts.collect();
+    let mut begin = 0;
+    let parts = methods.iter().zip(&chosen).map(|(&method, function)| {
+        let outputs = begin..begin + function.output_count();
+        begin = outputs.end;
+        let name = method.name_in(closed, &graph.sites);
+        BundlePart {
+            method,
+            name,
+            outputs,
+        }
+    });
+    let parts = parts.collect();
     let function = Function {
         name: name.into(),
         ..function
@@ -68,42 +55,50 @@ pub fn bundle(
     Some(Bundle { function, parts })
 }
 
-/// Returns functions, one for each method, with the least cost together before factoring. From the first candidates on,
-/// one after the other is replaced by the one with which the whole costs least, until none is.
-fn most_sharing(choice: &Choice<'_>, methods: &[Method]) -> Vec<Function> {
-    let candidates: Vec<Vec<Function>> = (methods.iter())
-        .map(|&method| {
-            let own = choice.accepted(method).into_iter();
-            let all = own.chain(choice.sharing(method, methods));
-            all.map(|function| unrolled(&function)).collect()
-        })
-        .collect();
-    let mut taken = vec![0; methods.len()];
-    let at = |taken: &[usize]| -> Vec<Function> {
-        let parts = candidates.iter().zip(taken);
-        parts.filter_map(|(all, &k)| all.get(k).cloned()).collect()
+/// Returns for each method the functions that can compute it; at least the one that is chosen for it alone.
+fn candidates(choice: &Choice<'_>, methods: &[Method], chosen: &[Function]) -> Vec<Vec<Function>> {
+    let of = |(&method, chosen): (&Method, &Function)| {
+        let own = choice.accepted(method).into_iter();
+        let all = own.chain(choice.sharing(method, methods));
+        let mut all: Vec<Function> = all.map(|function| unrolled(&function)).collect();
+        if all.is_empty() {
+            all.push(chosen.clone());
+        }
+        all
     };
-    let mut least = cost_of(&at(&taken)).weighted();
+    methods.iter().zip(chosen).map(of).collect()
+}
+
+/// Returns functions, one of each method's, with the least cost together before factoring. From the first candidates on,
+/// one after the other is replaced by the one with which the whole costs least, until none is.
+fn most_sharing(candidates: &[Vec<Function>]) -> Vec<&Function> {
+    let cost_of = |parts: &[&Function]| {
+        let (made, outputs) = in_one_graph(parts);
+        cost(&made, &outputs).weighted()
+    };
+    let mut taken: Vec<&Function> = candidates.iter().filter_map(|all| all.first()).collect();
+    let mut least = cost_of(&taken);
     loop {
         let before = least;
-        for part in 0..methods.len() {
-            for k in 0..candidates[part].len() {
+        for (part, all) in candidates.iter().enumerate() {
+            for candidate in all {
                 let mut tried = taken.clone();
-                tried[part] = k;
-                let cost = cost_of(&at(&tried)).weighted();
+                tried[part] = candidate;
+                let cost = cost_of(&tried);
                 if cost < least {
                     (least, taken) = (cost, tried);
                 }
             }
         }
         if least == before {
-            return at(&taken);
+            return taken;
         }
     }
 }
 
-/// Returns the functions of one block in one graph, with their results one after the other.
-fn merged(graph: &BondGraph, method: Method, parts: &[Function]) -> Function {
+/// Returns the functions of one block in one graph, with their results one after the other. It is not factored if one of
+/// them is not.
+fn merged(graph: &BondGraph, method: Method, parts: &[&Function]) -> Function {
     let (made, outputs) = in_one_graph(parts);
     let mut formulations: Vec<&str> = Vec::new();
     for part in parts {
@@ -111,16 +106,13 @@ fn merged(graph: &BondGraph, method: Method, parts: &[Function]) -> Function {
             formulations.push(&part.formulation);
         }
     }
-    Function::flat(graph, method, formulations.join(" + "), made, outputs)
+    Function {
+        ordered: parts.iter().any(|part| part.ordered),
+        ..Function::flat(graph, method, formulations.join(" + "), made, outputs)
+    }
 }
 
-/// Returns the cost of functions of one block in one graph.
-fn cost_of(parts: &[Function]) -> Cost {
-    let (made, outputs) = in_one_graph(parts);
-    cost(&made, &outputs)
-}
-
-fn in_one_graph(parts: &[Function]) -> (Graph, Vec<Signed>) {
+fn in_one_graph(parts: &[&Function]) -> (Graph, Vec<Signed>) {
     let mut made = Graph::default();
     let mut outputs: Vec<Signed> = Vec::new();
     for part in parts {
@@ -174,15 +166,4 @@ fn columns(graph: &mut Graph, group: &ColumnLoop, stage: &[Signed]) -> Vec<Vec<S
         })
     };
     group.own.iter().map(column).collect()
-}
-
-/// Returns the number of a function's results.
-fn output_count(function: &Function) -> usize {
-    match &function.loops {
-        Some(loops) => loops.parts.len(),
-        None => function
-            .blocks
-            .last()
-            .map_or(0, |block| block.outputs.len()),
-    }
 }

@@ -122,6 +122,14 @@ impl Function {
         self.loops.as_ref().map_or(&[], |loops| &loops.groups)
     }
 
+    /// Returns the number of its results.
+    pub fn output_count(&self) -> usize {
+        match &self.loops {
+            Some(loops) => loops.parts.len(),
+            None => self.blocks.last().map_or(0, |block| block.outputs.len()),
+        }
+    }
+
     /// Returns its name.
     pub fn name(&self) -> &str {
         &self.name

@@ -17,15 +17,21 @@ use crate::system::SceneEquations;
 pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<UnknownName>> {
     let bond_graph = bond_graph::build(&mechanism);
     options.check_formulation(&bond_graph)?;
-    let methods = options.select(&bond_graph)?;
+    let asked = options.select(&bond_graph);
+    let (methods, bundles) = match (asked, options.select_bundles(&bond_graph, mechanism.name())) {
+        (Ok(methods), Ok(bundles)) => (methods, bundles),
+        (methods, bundles) => {
+            let wrong = methods.err().into_iter().chain(bundles.err());
+            return Err(wrong.flatten().collect());
+        }
+    };
     let choice = Choice::new(&bond_graph, options.formulation);
     let chosen = methods
         .into_iter()
         .filter_map(|method| prefer(&choice, method, options.prefer));
     let functions = chosen.map(|f| named(f, &bond_graph)).collect();
-    let bundles = options.select_bundles(&bond_graph).into_iter();
-    let bundles = bundles.filter_map(|(name, methods)| {
-        bundle(&choice, &bond_graph, (&name, &methods), options.prefer)
+    let bundles = bundles.iter().filter_map(|(name, methods)| {
+        bundle(&choice, &bond_graph, (name, methods), options.prefer)
     });
     let bundles = bundles.collect();
     drop(choice);

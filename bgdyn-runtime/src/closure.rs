@@ -256,6 +256,17 @@ impl<Y: StateVector> Closing<Y> {
         q
     }
 
+    /// Returns the positions; where a loop does not close, these others.
+    #[inline]
+    pub fn or(self, others: Y) -> Y {
+        let mut q = self.q;
+        let closed = self.last.less(closed());
+        for (q, &other) in q.entries_mut().iter_mut().zip(others.entries()) {
+            *q = Y::Scalar::select(closed, *q, other);
+        }
+        q
+    }
+
     /// Returns the positions; all are NaN where a loop does not close: a function may read any of them, and shall not take
     /// them for closed ones.
     #[inline]

@@ -9,6 +9,7 @@ use bgdyn_codegen::random::Random;
 use crate::chaplygin_sleigh::ChaplyginSleigh;
 use crate::differential_drive::DifferentialDrive;
 use crate::snakeboard::{self, Snakeboard};
+use crate::whipple_bicycle::WhippleBicycle;
 
 /// The constants of the code are `f64` numbers, rounded one by one.
 const ROUNDED: f64 = 1e-14;
@@ -189,4 +190,20 @@ fn samples_are_spread_over_the_independent_velocities() {
     let q = model.sample(&SVector::from([0.75, 0.0, 1.0]));
     let pi = std::f64::consts::PI;
     assert_eq!(q.data.0[0], [0.5, 0.0, 0.0, -pi, pi]);
+}
+
+/// Where the sampled lean and steering leave a wheel above the ground, or below it, the last closed positions before are
+/// returned.
+#[test]
+fn samples_of_the_bicycle_touch_the_ground() {
+    let model = WhippleBicycle::<f64>::default();
+    let mut random = Random(20_261_128);
+    let mut spread = 0.0_f64;
+    for _ in 0..1000 {
+        let q = model.sample(&SVector::from_fn(|_, _| random.unit()));
+        let open = model.constraint_residual(&q).amax();
+        assert!(open < 1e-12, "{open:e} at {q:?}");
+        spread = spread.max((q - model.neutral()).amax());
+    }
+    assert!(spread > 1.0);
 }

@@ -18,4 +18,5 @@ mod prefer;
 
 pub use choose::Choice;
 pub use graph_methods::GraphMethods;
+pub(crate) use prefer::preferred;
 pub use prefer::{Preference, prefer};

@@ -35,12 +35,21 @@ impl Preference {
 /// Returns the function that is generated for a method, after the last passes; `None` if no formulation
 /// creates the method.
 pub fn prefer(choice: &Choice<'_>, method: Method, preference: Preference) -> Option<Function> {
+    let function = preferred(choice, method, preference)?;
+    Some(match preference {
+        Preference::Operations => finish(function),
+        Preference::Accuracy => finish_in_order(function),
+    })
+}
+
+/// Returns the same function before the last passes: in one block.
+pub(crate) fn preferred(
+    choice: &Choice<'_>,
+    method: Method,
+    preference: Preference,
+) -> Option<Function> {
     match preference {
-        Preference::Operations => choice
-            .function(method)
-            .map(|f| finish(Rc::unwrap_or_clone(f))),
-        Preference::Accuracy => {
-            most_accurate(choice.prepared.graph, method, choice.asked).map(finish_in_order)
-        }
+        Preference::Operations => choice.function(method).map(Rc::unwrap_or_clone),
+        Preference::Accuracy => most_accurate(choice.prepared.graph, method, choice.asked),
     }
 }

@@ -136,11 +136,12 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
                 let q = { #body };
                 #moved_along
             };
-            if closed.closure.nonholonomic() {
-                return quote! { #sampled #closed_again q };
+            let slips = closed.closure.nonholonomic();
+            if slips && !closes(closed) {
+                return quote! { #sampled q };
             }
             let (start, way) = (start(closed), independent_way(&of_tree));
-            quote! {
+            let sampled = quote! {
                 #sampled
                 let start = { #start };
                 let way = {
@@ -149,6 +150,25 @@ pub(super) fn contact_position_body(closed: &ClosedTree, name: &str) -> TokenStr
                 };
                 let share = T::from_f64(1.0 / __rt::closure::PARTS as f64);
                 let part = way.map(|x| x * share);
+            };
+            // Along rows on velocities wheels would leave the sampled positions: they close there, or next to them.
+            if slips {
+                return quote! {
+                    #sampled
+                    let mut own = __na::SVector::<T, NT>::from_element(T::from_f64(0.0));
+                    for (&j, &part) in INDEPENDENTS.iter().zip(part.iter()) {
+                        if let ::core::option::Option::Some(own) = own.get_mut(j) {
+                            *own = part;
+                        }
+                    }
+                    let close = |q| {
+                        __rt::closure::close_along(q, &DEPENDENTS, |q| self.closing_step(q), moved)
+                    };
+                    close(q).or(__rt::closure::walk(start, |q| close(moved(q, &own))))
+                };
+            }
+            quote! {
+                #sampled
                 __rt::closure::walk(start, |q| {
                     let q = __rt::closure::follow(q, |q| self.tree_velocity(q, &part), moved);
                     __rt::closure::close_along(q, &DEPENDENTS, |q| self.closing_step(q), moved)

@@ -16,23 +16,38 @@ pub struct BundleOption {
     pub methods: Vec<String>,
 }
 
-/// Names that other functions of a generated struct have.
-const TAKEN: [&str; 5] = [
+/// Names that functions of positions have, and types in generated C.
+const TAKEN: [&str; 14] = [
     "assemble",
     "close",
     "close_polygons",
     "default",
+    "difference",
+    "integrate",
+    "neutral",
+    "normalize",
+    "parameters",
+    "parameters_default",
+    "position_rates",
+    "sample",
     "set_base_motion",
+    "undetermined",
 ];
 
-/// Returns the name and the methods of each bundle; adds what is wrong with them to `unknown`.
+/// Endings of the names of tables in generated C, and of functions of single joints.
+const ENDINGS: [&str; 5] = ["_names", "_limits", "_loads", "_pose", "_rotation"];
+
+/// Returns the name and the methods of each bundle of the mechanism of this name.
+///
+/// # Errors
+/// All that is wrong with them.
 pub(super) fn selected(
     bundles: &[BundleOption],
     graph: &BondGraph,
-    unknown: &mut Vec<UnknownName>,
-) -> Vec<(String, Vec<Method>)> {
-    let mut selected = Vec::new();
-    let mut names = BTreeSet::new();
+    mechanism: &str,
+) -> Result<Vec<(String, Vec<Method>)>, Vec<UnknownName>> {
+    let (mut selected, mut unknown) = (Vec::new(), Vec::new());
+    let mut names = BTreeSet::from([mechanism]);
     for (k, bundle) in bundles.iter().enumerate() {
         let mut refuse = |index: usize, message: String| {
             unknown.push(UnknownName {
@@ -41,8 +56,9 @@ pub(super) fn selected(
                 message,
             });
         };
-        if let Some(message) = wrong_name(&bundle.name, graph, !names.insert(&bundle.name)) {
-            refuse(0, message);
+        let name = bundle.name.as_str();
+        if let Some(why) = wrong_name(name, graph, names.replace(name).is_some()) {
+            refuse(0, format!("`{name}` cannot name a bundle: {why}"));
         }
         let mut methods: Vec<Method> = Vec::new();
         for (index, name) in bundle.methods.iter().enumerate() {
@@ -52,37 +68,35 @@ pub(super) fn selected(
             }
         }
         if bundle.methods.is_empty() {
-            refuse(
-                0,
-                format!(
-                    "the bundle `{}` has no methods: write `{} = [mass_matrix, bias]`",
-                    bundle.name, bundle.name
-                ),
-            );
+            let example = format!("write `{name} = [mass_matrix, bias]`");
+            refuse(0, format!("the bundle `{name}` has no methods: {example}"));
         }
         selected.push((bundle.name.clone(), methods));
     }
-    selected
+    match unknown.is_empty() {
+        true => Ok(selected),
+        false => Err(unknown),
+    }
 }
 
 /// Returns why a bundle cannot have this name.
 fn wrong_name(name: &str, graph: &BondGraph, is_repeated: bool) -> Option<String> {
     if !is_identifier(name) {
-        return Some(format!(
-            "`{name}` cannot name a bundle: write it in snake_case"
-        ));
+        return Some("write it in snake_case".into());
     }
     if is_repeated {
-        return Some(format!("two bundles are named `{name}`"));
+        return Some("the mechanism, or another bundle, has this name".into());
     }
     let closed = graph.closed.as_deref();
     let possible = Method::possible_of(graph).into_iter();
-    let is_method = possible
-        .map(|m| m.name_in(closed, &graph.sites))
-        .any(|taken| taken == name);
-    (is_method || TAKEN.contains(&name)).then(|| {
-        format!("`{name}` cannot name a bundle: a function of the mechanism has this name")
-    })
+    let mut names = possible.map(|m| m.name_in(closed, &graph.sites));
+    if TAKEN.contains(&name) || names.any(|taken| taken == name) {
+        return Some("a function of the mechanism has this name".into());
+    }
+    let ending = ENDINGS.iter().find(|ending| name.ends_with(**ending))?;
+    Some(format!(
+        "names with `{ending}` are those of tables and of functions of joints"
+    ))
 }
 
 /// Returns the method with this name, if it can be a part of the bundle after `others`.

@@ -92,7 +92,6 @@ impl Options {
         if self.derivatives {
             wanted.extend(Method::derivatives_of(graph));
         }
-        bundles::selected(&self.bundles, graph, &mut unknown);
         if unknown.is_empty() {
             let all = Method::possible_of(graph).into_iter();
             Ok(all.filter(|m| wanted.contains(m)).collect())
@@ -103,9 +102,16 @@ impl Options {
 }
 
 impl Options {
-    /// Returns the names and the methods of the bundles to generate, as far as [`Options::select`] accepts them.
-    pub fn select_bundles(&self, graph: &BondGraph) -> Vec<(String, Vec<Method>)> {
-        bundles::selected(&self.bundles, graph, &mut Vec::new())
+    /// Returns the names and the methods of the bundles to generate for the mechanism of this name.
+    ///
+    /// # Errors
+    /// Every name that a bundle cannot have, and every method that cannot be in it.
+    pub fn select_bundles(
+        &self,
+        graph: &BondGraph,
+        mechanism: &str,
+    ) -> Result<Vec<(String, Vec<Method>)>, Vec<UnknownName>> {
+        bundles::selected(&self.bundles, graph, mechanism)
     }
 
     /// Returns whether the module has `assemble`: it is asked for by name, and some rows are conditions on positions.

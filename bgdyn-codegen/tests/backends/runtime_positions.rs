@@ -188,7 +188,14 @@ impl<T: CNumber> Reference<'_, T> {
             return q;
         }
         let moved = |q: &Vector<T>, v: &Vector<T>| integrated(&joints, q, v);
-        closure::close_along(q, &dependents, step, moved).or_all_nan()
+        let close = |q: Vector<T>| closure::close_along(q, &dependents, step, moved);
+        let (start, share) = (self.neutral(), T::from_f64(1.0 / closure::PARTS as f64));
+        let way = self.difference(&q, &start).map(|x| x * share);
+        let mut own = Vector::repeat(T::default());
+        for (j, &part) in closed.closure.independents.iter().zip(way.iter()) {
+            own[j.0] = part;
+        }
+        close(q).or(closure::walk(start, |q| close(moved(q, &own))))
     }
 
     /// Returns the neutral position, or with loops one at which all close.

@@ -61,7 +61,7 @@ impl FlatResult {
             return FlatResult::of_scene(function, role, &scene.layout, context.style);
         }
         let (shape, nv) = (function.shape(), context.nv);
-        let count = output_count(function);
+        let count = function.output_count();
         let destinations = matrix_destinations(shape, nv);
         let flat = |destination: &Destination| match *destination {
             Destination::Element(k) => k,
@@ -108,7 +108,7 @@ impl FlatResult {
         layout: &StateLayout,
         style: &Style,
     ) -> Self {
-        let result = SceneResult::new(role, layout, output_count(function));
+        let result = SceneResult::new(role, layout, function.output_count());
         let store = |(k, value): &(usize, String)| {
             let value = value
                 .parse()
@@ -211,15 +211,4 @@ fn size(shape: Shape) -> Option<&'static str> {
         Shape::Parts | Shape::CheckedParts => return None,
         Shape::Bundle | Shape::CheckedBundle => return None,
     })
-}
-
-/// Returns the number of a function's outputs.
-fn output_count(function: &Function) -> usize {
-    match &function.loops {
-        Some(loops) => loops.parts.len(),
-        None => function
-            .blocks
-            .last()
-            .map_or(0, |block| block.outputs.len()),
-    }
 }

@@ -57,17 +57,17 @@ pub(super) fn closed_sample(
         body: sampled(&joints, style),
     };
     let given = of_model(context.naming, style, true).map_or("", |_| "parameters, ");
-    let newton = format!("{}({given}found)", style.global("newton"));
+    let newton = |q: &str| format!("{}({given}{q})", style.global("newton"));
     let (way, body) = match slips {
         true => (
-            "Then they close; positions that close are NaN where a wheel or loop does not.",
+            "With wheels and loops closed; where they do not close, the last closed positions on the way from `neutral`.",
             along_constraints(closed, closes.then_some(newton), style),
         ),
         false => (
             "With loops the closed positions next to them on the way from `neutral`.",
             match closed.closure.closes_along() {
                 true => along_velocities(closed, given, style),
-                false => towards(closed, &newton, style),
+                false => towards(closed, &newton("found"), style),
             },
         ),
     };
@@ -187,11 +187,46 @@ pub(super) fn all_nan(condition: &str, style: &Style) -> [String; 5] {
     ]
 }
 
-/// Returns the statements that sample the independent velocities' joints, the others in the middle, and close.
-fn along_constraints(closed: &ClosedTree, newton: Option<String>, style: &Style) -> Vec<String> {
+/// Returns the statements that sample the independent velocities' joints, the others in the middle, and close by
+/// `newton`. Where that does not close, they go from the closed position of the start along the independent velocities,
+/// in equal parts as far as wheels and loops close.
+fn along_constraints(
+    closed: &ClosedTree,
+    newton: Option<impl Fn(&str) -> String>,
+    style: &Style,
+) -> Vec<String> {
     let mut lines = sampled_tree(closed, style);
     if let Some(newton) = newton {
-        lines.extend(all_nan(&format!("{newton} != 0"), style));
+        let real = style.real();
+        let [nq, nv, nt] = ["NQ", "NV", "NT"].map(|size| style.constant(size));
+        let start = closed.closure.start.iter();
+        let start: Vec<String> = start.map(|x| style.number(x.hi())).collect();
+        let independents = closed.closure.independents.iter().enumerate();
+        let share = style.number(1.0 / PARTS as f64);
+        lines.extend([
+            format!("{real} target[{nq}];"),
+            "memcpy(target, found, sizeof target);".into(),
+            format!("if ({} != 0) {{", newton("found")),
+            format!("    const {real} start[{nq}] = {{{}}};", start.join(", ")),
+            format!("    {real} way[{nv}];"),
+            format!("    {real} next[{nq}];"),
+            format!("    {}(target, start, way);", style.global("difference")),
+            format!("    for (int j = 0; j < {nt}; ++j) {{"),
+            format!("        moved[j] = {};", style.number(0.0)),
+            "    }".into(),
+        ]);
+        lines
+            .extend(independents.map(|(k, j)| format!("    moved[{}] = way[{k}] * {share};", j.0)));
+        lines.extend([
+            "    memcpy(found, start, sizeof found);".into(),
+            format!("    for (int part = 1; part <= {PARTS}; ++part) {{"),
+            format!("        {}(found, moved, next);", style.global("moved")),
+            format!("        if ({} == 0) {{", newton("next")),
+            "            memcpy(found, next, sizeof found);".into(),
+            "        }".into(),
+            "    }".into(),
+            "}".into(),
+        ]);
     }
     lines.push("memcpy(result, found, sizeof found);".into());
     lines

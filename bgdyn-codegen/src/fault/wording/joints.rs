@@ -11,12 +11,7 @@ pub(crate) fn axis_of_joint(location: &Location, keyword: &str) -> Fault {
 }
 
 pub(crate) fn no_second_axis(location: &Location, keyword: &str) -> Fault {
-    let article = match keyword {
-        "universal" => "a",
-        _ if keyword.starts_with(['a', 'e', 'i', 'o', 'u']) => "an",
-        _ => "a",
-    };
-    let message = format!("{article} {keyword} joint needs its second axis");
+    let message = format!("a joint of type `{keyword}` needs its second axis");
     Fault::new(location, "no-second-axis", message)
         .with_help("add `axis2: y`, in link axes at zero; the first motion carries it along")
 }

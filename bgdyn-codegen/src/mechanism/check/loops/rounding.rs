@@ -19,6 +19,9 @@ const ROUNDED: f64 = 2e-4;
 /// Gaps of positions near the given one, largest first, over what is rounding: at the first, motions are tried.
 const NEAR: [f64; 5] = [1.0, 1e-2, 1e-4, 1e-6, 1e-8];
 
+/// A position that differs from the start by more than this, rad or m, is another one.
+const MOVED: f64 = 0.1;
+
 /// What becomes of loops that almost close.
 pub(super) struct Almost {
     /// The index of a loop with a row that the others would determine.
@@ -48,14 +51,19 @@ pub(super) fn almost_moves(closure: &Closure, (q, gap): (&[Dd], f64), most: f64)
         keep(&mut trial, &best(&at, &order, kept.len()), &[]);
         close_again(&mut trial);
         let open = open_along(&trial).into_iter().fold(0.0, f64::max);
-        let moved = |sample: &Vec<Dd>| {
-            let mut steps = sample.iter().zip(&trial.start);
-            steps.any(|(x, y)| (*x - *y).to_f64().abs() > 0.1)
-        };
-        let moves = open <= most && trial.samples.iter().any(moved);
+        let moves = open <= most && moves(&trial);
         let closes = trial.following.first()?.row.closes;
         moves.then_some(Almost { closes, gap, open })
     })
+}
+
+/// Returns whether a sampled position is clearly another one than the start.
+fn moves(closure: &Closure) -> bool {
+    let moved = |sample: &Vec<Dd>| {
+        let mut steps = sample.iter().zip(&closure.start);
+        steps.any(|(x, y)| (*x - *y).to_f64().abs() > MOVED)
+    };
+    closure.samples.iter().any(moved)
 }
 
 /// Rows that hold loops by rounded lengths alone.
@@ -100,11 +108,7 @@ fn held_at(closure: &Closure, (all, q): (&[usize], &[Dd]), rounded: f64) -> Opti
         close_again(&mut without);
         without.samples = samples::around(&without);
         let open = open_along(&without);
-        let moved = |sample: &Vec<Dd>| {
-            let mut steps = sample.iter().zip(&without.start);
-            steps.any(|(x, y)| (*x - *y).to_f64().abs() > 0.1)
-        };
-        let moves = open.iter().all(|x| *x <= rounded) && without.samples.iter().any(moved);
+        let moves = open.iter().all(|x| *x <= rounded) && moves(&without);
         moves.then_some(Held { without, open })
     })
 }
