@@ -1,5 +1,6 @@
 //! Generates the mechanisms of `specs/`, each with the methods that are timed: `models.rs` contains their
-//! modules, `robots.rs` a call of the macro `robots!` with all of them, which the including file defines.
+//! modules, `robots.rs` a call of the macro `robots!` with all of them, which the including file defines. `bundles.rs`
+//! contains the modules of two arms with the methods of a controller, one by one and in a bundle.
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -44,6 +45,23 @@ fn main() {
     fs::write(out.join("models.rs"), models).unwrap();
     let robots = format!("robots! {{\n{robots}}}\n");
     fs::write(out.join("robots.rs"), robots).unwrap();
+    fs::write(out.join("bundles.rs"), bundles(&specs)).unwrap();
+}
+
+/// Writes the modules of the arms with a bundle, and returns the text that includes them.
+fn bundles(specs: &Path) -> String {
+    let mut text = String::new();
+    for (arm, site) in [("ur5", "flange"), ("panda", "tool")] {
+        let of_site = ["pose", "jacobian_world", "jacobian_dot_v_world"];
+        let of_site = of_site.map(|method| format!("{method}_{site}"));
+        let methods = ["mass_matrix", "bias"].map(String::from).into_iter();
+        let methods: Vec<String> = methods.chain(of_site).collect();
+        let build = Build::new(specs.join(format!("{arm}.yaml"))).module(&format!("{arm}_control"));
+        let build = build.methods(methods.clone()).bundle("control", methods);
+        let path = build.write().unwrap_or_else(|error| panic!("{error}"));
+        writeln!(text, "include!({path:?});").unwrap();
+    }
+    text
 }
 
 /// Returns the last frame on the last link, else the last link.
