@@ -19,6 +19,8 @@ pub struct Model {
     pub functions: Vec<Function>,
     /// Functions with the results of several methods.
     pub bundles: Vec<Bundle>,
+    /// The base parameters as formulas of the parameters of the bodies, if a method has columns or elements for them.
+    pub base_parameters: Vec<String>,
 }
 
 /// The results of several methods by one function.
@@ -57,6 +59,21 @@ impl Bundle {
 }
 
 impl Model {
+    /// Returns whether a method, or a part of a bundle, has columns or elements for parameters of the bodies.
+    pub fn has_regressors(&self) -> bool {
+        let parts = self.bundles.iter().flat_map(|bundle| &bundle.parts);
+        let methods = self.functions.iter().map(|f| f.method);
+        let mut methods = methods.chain(parts.map(|part| part.method));
+        methods.any(|method| matches!(method, Method::Regressor(_)))
+    }
+
+    /// Returns the names of the bodies whose parameters regressors have.
+    pub fn body_names(&self) -> Vec<&str> {
+        let links = self.bond_graph.moving_links().into_iter();
+        let frames = &self.bond_graph.frames;
+        links.map(|link| frames[link.0].name.as_str()).collect()
+    }
+
     /// Returns the function of a method.
     pub fn function(&self, method: Method) -> Option<&Function> {
         self.functions.iter().find(|f| f.method == method)

@@ -3,6 +3,7 @@
 use crate::bond_graph::{self, BondGraph};
 use crate::bundle::bundle;
 use crate::choice::{Choice, prefer};
+use crate::formulation::base_parameter_formulas;
 use crate::function::Function;
 use crate::mechanism::Mechanism;
 use crate::method::Method;
@@ -35,13 +36,18 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     });
     let bundles = bundles.collect();
     drop(choice);
-    Ok(Model {
+    let mut model = Model {
         assembles: options.assembles(&bond_graph),
         mechanism,
         bond_graph,
         functions,
         bundles,
-    })
+        base_parameters: Vec::new(),
+    };
+    if model.has_regressors() {
+        model.base_parameters = base_parameter_formulas(&model.bond_graph);
+    }
+    Ok(model)
 }
 
 /// Returns one function of a mechanism, without the others; `None` if the selected formulation does not

@@ -201,7 +201,8 @@ fn arguments<'a, T>(
         match argument {
             Argument::Q => from.q = values,
             Argument::V | Argument::TreeV => from.v = values,
-            Argument::A => from.a = values,
+            Argument::A | Argument::ReferenceA => from.a = values,
+            Argument::ReferenceV => from.x = values,
             // The others are a scene's.
             _ => from.u = values,
         }

@@ -1,7 +1,7 @@
 //! What `help` prints of methods: arguments and results with shapes, units and frames.
 
 use bgdyn_codegen::bond_graph::Site;
-use bgdyn_codegen::method::{Argument, Method, Shape};
+use bgdyn_codegen::method::{Argument, Method, ParameterSet, Regressor, Shape};
 
 use crate::spec::Spec;
 
@@ -34,6 +34,7 @@ pub fn of(spec: &Spec, method: Method) -> String {
         ("nc", _) => sizes.nc,
         ("na", _) => spec.mechanism.actuated_names().len(),
         ("np", Method::DriveEfforts(number)) => number,
+        ("10 nb", _) => 10 * spec.graph.moving_links().len(),
         ("n", Method::JointReactions | Method::ActuatedJointReactions(_)) => {
             spec.link_names().len()
         }
@@ -48,7 +49,8 @@ pub fn of(spec: &Spec, method: Method) -> String {
 pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
     let of_every = Method::possible(&[]).into_iter();
     let of_loops = Method::OF_LOOPS.into_iter().chain(Method::ON_REQUEST);
-    let all = of_every.chain(of_loops).chain([Method::DriveEfforts(0)]);
+    let all = of_every.chain(of_loops).chain([Method::DriveEfforts(0)])
+        .chain(Regressor::ALL.map(Method::Regressor));
     let one = |method: Method| {
         let name = method.name(&[]);
         let arguments = method.arguments().iter().map(|a| a.name()).collect();
@@ -132,6 +134,13 @@ fn meaning(argument: Argument) -> (&'static str, &'static str) {
         Argument::TreeV => ("nt", "velocities of the open tree: rad/s, m/s"),
         Argument::TreeTau => ("nt", "efforts on the joints of the open tree: N·m, N"),
         Argument::ActuatedTau => ("na", "efforts of the actuated joints: N·m, N"),
+        Argument::ReferenceV => ("nv", "velocities of a reference: rad/s, m/s"),
+        Argument::ReferenceA => ("nv", "accelerations of a reference: rad/s², m/s²"),
+        Argument::Direction => ("nv", "a number for each velocity"),
+        Argument::BodyParameters => (
+            "10 nb",
+            "parameters of the bodies: kg, kg·m, kg·m² about the origin of each link",
+        ),
         // Those of scenes are no methods here.
         _ => ("nv", "efforts along v: N·m, N"),
     }
@@ -152,6 +161,10 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::TreeVector | Shape::CheckedTree => one(&["nt"]),
         Shape::RowMatrix => one(&["nc", "nt"]),
         Shape::RowVector => one(&["nc"]),
+        Shape::ParameterColumns(ParameterSet::Bodies) => one(&["nv", "10 nb"]),
+        Shape::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
+        Shape::ParameterVector(ParameterSet::Bodies) => one(&["10 nb"]),
+        Shape::ParameterVector(ParameterSet::Base) => one(&["nbp"]),
         Shape::SquarePair => (
             Some("InverseDerivatives"),
             vec![("q", square.clone()), ("v", square)],

@@ -9,7 +9,7 @@ use bgdyn_codegen::engine::{Callable, Engine};
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::format::{Number, ParsedValue};
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::method::{Argument, Method};
+use bgdyn_codegen::method::{Argument, Method, PARAMETERS_PER_BODY};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::selection;
 use bgdyn_codegen::tape::Tape;
@@ -212,6 +212,7 @@ impl Spec {
             Argument::Q => self.mechanism.nq(),
             Argument::TreeV | Argument::TreeTau => self.sizes().nt,
             Argument::ActuatedTau => self.mechanism.actuated_names().len(),
+            Argument::BodyParameters => PARAMETERS_PER_BODY * self.graph.moving_links().len(),
             _ => self.sizes().nv,
         }
     }

@@ -9,8 +9,8 @@ use anyhow::Result;
 use bgdyn_codegen::bond_graph::{BondGraph, Coordinate};
 use bgdyn_codegen::engine::{Callable, Status};
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::mechanism::{Mechanism, Motion};
-use bgdyn_codegen::method::{Argument, Method, Shape};
+use bgdyn_codegen::mechanism::{LinkId, Mechanism, Motion};
+use bgdyn_codegen::method::{Argument, Method, PARAMETER_NAMES, Shape};
 use bgdyn_runtime::Cause;
 use serde_json::{Value, json};
 
@@ -60,6 +60,16 @@ fn field(argument: Argument) -> &'static str {
     }
 }
 
+/// Returns the names of the parameters of the bodies of regressors.
+fn body_parameters(graph: &BondGraph) -> Vec<String> {
+    let bodies = graph.moving_links().into_iter();
+    let of = |link: LinkId| {
+        let body = &graph.frames[link.0].name;
+        PARAMETER_NAMES.map(|name| format!("{body}.{name}"))
+    };
+    bodies.flat_map(of).collect()
+}
+
 /// A method of a mechanism.
 struct MethodCall<'a> {
     mechanism: &'a Mechanism,
@@ -96,12 +106,17 @@ fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
             Argument::Tau | Argument::TreeTau if state.get("tau_in").is_none() => {
                 vector(rates, state, "tau")?
             }
+            Argument::BodyParameters => vector(&body_parameters(graph), state, "pi")?,
+            // Adjoints have the same field.
+            Argument::Direction if state.get("s").is_none() => vector(rates, state, "l")?,
             _ => vector(rates, state, field(argument))?,
         };
         match argument {
             Argument::Q => inputs.q = values,
             Argument::V | Argument::TreeV => inputs.v = values,
-            Argument::A => inputs.a = values,
+            Argument::A | Argument::ReferenceA => inputs.a = values,
+            Argument::ReferenceV => inputs.x = values,
+            Argument::Direction | Argument::BodyParameters => inputs.u = values,
             Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => inputs.u = values,
             _ => return Err(plain("only a scene's function has this argument".into())),
         }
@@ -240,6 +255,8 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::LinkWrenches => wrenches(values),
         Shape::Square | Shape::Jacobian | Shape::TreeMatrix => rows(values, nv),
         Shape::RowMatrix => rows(values, nt),
+        Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
+        Shape::ParameterVector(_) => json!(values),
         Shape::SquarePair => json!(squares(values)),
         Shape::CheckedSquares => json!(squares(&values[nv..])),
         Shape::SlopesByTree => slopes(values),

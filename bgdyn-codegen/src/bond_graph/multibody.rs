@@ -1,6 +1,6 @@
 //! The bodies, joints, rotors and sites of a mechanism, as the recursion reads them.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, Scalar};
 
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::joint::{Column, DoubleDouble, JointConstants};
@@ -163,10 +163,43 @@ impl Multibody {
         self.frames.iter().find(|frame| !plain(frame))
     }
 
+    /// Returns the links that joints move, without those between two joints in series: with the links fixed to each they
+    /// are the bodies of regressors.
+    pub fn moving_links(&self) -> Vec<LinkId> {
+        let moves = |f: &LinkFrame| f.motion != Motion::None && !f.motion.is_given() && !f.hidden;
+        let frames = self.frames.iter().enumerate();
+        frames
+            .filter(|(_, frame)| moves(frame))
+            .map(|(i, _)| LinkId(i))
+            .collect()
+    }
+
     /// Returns the first link whose joint is prescribed.
     pub fn first_prescribed(&self) -> Option<&LinkFrame> {
         let mut frames = self.frames.iter().skip(usize::from(self.base.is_some()));
         frames.find(|frame| frame.motion.is_given())
+    }
+
+    /// Scales every quaternion to length 1; one of length 0 becomes the identity.
+    pub fn normalize<T: Scalar>(&self, q: &mut [T]) {
+        for frame in self.frames.iter().filter(|f| f.degrees.own_positions()) {
+            let Motion::Compound(motion) = frame.motion else {
+                continue;
+            };
+            let Some(first) = motion.quaternion() else {
+                continue;
+            };
+            let at = frame.degrees.positions[first].0;
+            let own = &mut q[at..at + 4];
+            let zero = T::from_f64(0.0);
+            let square = own.iter().fold(zero, |sum, &x| sum + x * x);
+            if square == zero {
+                own[3] = T::from_f64(1.0);
+            } else {
+                let length = square.sqrt();
+                own.iter_mut().for_each(|x| *x = *x / length);
+            }
+        }
     }
 
     /// Returns q̇ = N(q) v.

@@ -8,9 +8,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use bgdyn_runtime::{Dd, Scalar};
+use bgdyn_runtime::Dd;
 
-use crate::bond_graph::{BondGraph, Multibody};
+use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::formulation::geometry::{Body, geometry};
 use crate::math::{Vec3, angle_of};
@@ -150,7 +150,7 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
         _ => 1.0,
     };
     let mut q = all(nq, &turn);
-    normalize(graph, &mut q);
+    graph.normalize(&mut q);
     if let Some(closed) = &graph.closed {
         let closed_position = closed_position(&closed.closure, seed);
         for p in closed.closure.moved_positions() {
@@ -190,28 +190,6 @@ fn closed_position(closure: &Closure, seed: u64) -> Vec<Dd> {
     let mut q = near.clone();
     closure.walk(&closure.position_rows(), &mut q, &mut Random(seed));
     q
-}
-
-/// Scales every quaternion to length 1; one of length 0 becomes the identity.
-pub(crate) fn normalize<T: Scalar>(graph: &Multibody, q: &mut [T]) {
-    for frame in graph.frames.iter().filter(|f| f.degrees.own_positions()) {
-        let Motion::Compound(motion) = frame.motion else {
-            continue;
-        };
-        let Some(first) = motion.quaternion() else {
-            continue;
-        };
-        let at = frame.degrees.positions[first].0;
-        let own = &mut q[at..at + 4];
-        let zero = T::from_f64(0.0);
-        let square = own.iter().fold(zero, |sum, &x| sum + x * x);
-        if square == zero {
-            own[3] = T::from_f64(1.0);
-        } else {
-            let length = square.sqrt();
-            own.iter_mut().for_each(|x| *x = *x / length);
-        }
-    }
 }
 
 /// A joint with the position, rad, at which its axes are aligned.

@@ -290,6 +290,8 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
         Shape::TreeVector | Shape::RowVector => vector(values),
         Shape::TreeMatrix => matrix(nv, values),
         Shape::RowMatrix => matrix(sizes.of_tree.unwrap_or(nv), values),
+        Shape::ParameterColumns(_) => matrix(values.len() / nv.max(1), values),
+        Shape::ParameterVector(_) => vector(values),
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene makes its own results"),
         Shape::Bundle | Shape::CheckedBundle => unreachable!("each part has its own result"),
     }

@@ -35,6 +35,7 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         true => ident("Translation"),
     });
     let prescribed = prescribed_constants(&mechanism.prescribed_names());
+    let regressors = regressor_constants(model);
     let limits = (0..mechanism.nv()).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
         /// Number of positions.
@@ -54,6 +55,22 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         /// Limits of the moving joints; infinite where the spec states none.
         pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
         #prescribed
+        #regressors
+    }
+}
+
+/// Returns the names of the bodies and of the base parameters, for a model with regressors.
+fn regressor_constants(model: &Model) -> TokenStream {
+    if !model.has_regressors() {
+        return quote! {};
+    }
+    let (bodies, base) = (model.body_names(), &model.base_parameters);
+    let (nb, np) = (size(bodies.len()), size(base.len()));
+    quote! {
+        /// Names of the bodies of regressors: the links that joints move, each with all that is fixed to it.
+        pub const BODY_NAMES: [&str; #nb] = [#(#bodies),*];
+        /// The base parameters as formulas of the parameters of the bodies.
+        pub const BASE_PARAMETERS: [&str; #np] = [#(#base),*];
     }
 }
 

@@ -120,6 +120,9 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
             look(quote! { Modes }, quote! { &MODE_NAMES }, values)
         }
         Argument::Input | Argument::Modes => quote! {},
+        // Arguments of methods that always have a result.
+        Argument::ReferenceV | Argument::ReferenceA => quote! {},
+        Argument::Direction | Argument::BodyParameters => quote! {},
         Argument::Canonical => look(quote! { Canonical }, states, quote! { #name.as_slice() }),
         Argument::Time => look(quote! { Time }, quote! { &["t"] }, quote! { &[t] }),
         Argument::Accelerations => {

@@ -5,7 +5,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use crate::mechanism::Parameter;
-use crate::method::{Argument, Shape};
+use crate::method::{Argument, ParameterSet, Shape};
 
 /// Prefix of a doc attribute's text that becomes a comment, because tokens cannot contain comments.
 pub(super) const COMMENT: &str = "//";
@@ -93,6 +93,10 @@ pub(super) fn argument_type(argument: Argument) -> TokenStream {
         Argument::V | Argument::A | Argument::Tau => quote! { &__na::SVector<T, NV> },
         Argument::TreeV | Argument::TreeTau => quote! { &__na::SVector<T, NT> },
         Argument::ActuatedTau => quote! { &__na::SVector<T, NA> },
+        Argument::ReferenceV | Argument::ReferenceA | Argument::Direction => {
+            quote! { &__na::SVector<T, NV> }
+        }
+        Argument::BodyParameters => quote! { &__na::SVector<T, { 10 * BODY_NAMES.len() }> },
         Argument::State => quote! { &State<T> },
         Argument::Input => quote! { &Input<T> },
         Argument::Accelerations => quote! { &Coordinates<T> },
@@ -141,7 +145,23 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
         Shape::CheckedTreeAndRows => quote! { (__na::SVector<T, NT>, __na::SVector<T, NC>) },
         Shape::CheckedWrenches => quote! { [__rt::Wrench<T>; NR] },
         Shape::LinkWrenches => quote! { [__rt::Wrench<T>; LINK_NAMES.len()] },
+        Shape::ParameterColumns(set) => {
+            let columns = number_of(set);
+            quote! { __na::SMatrix<T, NV, #columns> }
+        }
+        Shape::ParameterVector(set) => {
+            let count = number_of(set);
+            quote! { __na::SVector<T, #count> }
+        }
         Shape::Parts | Shape::CheckedParts => unreachable!("a scene names its own results"),
         Shape::Bundle | Shape::CheckedBundle => unreachable!("a bundle has a struct of its own"),
+    }
+}
+
+/// Returns the number of these parameters.
+fn number_of(set: ParameterSet) -> TokenStream {
+    match set {
+        ParameterSet::Bodies => quote! { { 10 * BODY_NAMES.len() } },
+        ParameterSet::Base => quote! { { BASE_PARAMETERS.len() } },
     }
 }

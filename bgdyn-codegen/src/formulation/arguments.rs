@@ -4,7 +4,7 @@ use crate::bond_graph::{Multibody, Rotor};
 use crate::expr::{Builder, Expr, Leaf};
 use crate::math::Vec3;
 use crate::mechanism::{BaseMotion, ParameterId, Value};
-use crate::method::{Argument, Method};
+use crate::method::{Argument, Method, Regressor};
 
 /// The motion of a base that is given at run time, in base axes.
 #[derive(Clone, Copy)]
@@ -27,6 +27,10 @@ pub(super) struct Arguments<'g> {
     pub a: Vec<Expr<'g>>,
     /// Joint efforts.
     pub tau: Vec<Expr<'g>>,
+    /// Velocities of a reference.
+    pub reference_v: Vec<Expr<'g>>,
+    /// A number for each velocity.
+    pub direction: Vec<Expr<'g>>,
     /// Whether the active efforts are included.
     pub active: bool,
     /// The motion of the base, for methods that depend on it.
@@ -46,7 +50,12 @@ impl<'g> Arguments<'g> {
         // Kinetic energy and velocities of frames always use the true velocities, also without velocity
         // products.
         let kinematic = method.site().is_some()
-            || matches!(method, Method::KineticEnergy | Method::ProjectVelocity);
+            || matches!(
+                method,
+                Method::KineticEnergy
+                    | Method::ProjectVelocity
+                    | Method::Regressor(Regressor::Momentum | Regressor::BaseMomentum | Regressor::KineticEnergy)
+            );
         let turning = graph.velocity_products || kinematic;
         let efforts = match method {
             Method::ActuatedForward(number)
@@ -63,8 +72,13 @@ impl<'g> Arguments<'g> {
                 (takes(Argument::V) || takes(Argument::TreeV)) && turning,
                 Leaf::Velocity,
             ),
-            a: read(takes(Argument::A), Leaf::Acceleration),
+            a: read(
+                takes(Argument::A) || takes(Argument::ReferenceA),
+                Leaf::Acceleration,
+            ),
             tau: efforts,
+            reference_v: read(takes(Argument::ReferenceV) && turning, Leaf::State),
+            direction: read(takes(Argument::Direction), Leaf::Input),
             active: true,
             base: graph
                 .base
@@ -90,7 +104,7 @@ fn moves_with_base(method: Method) -> bool {
             | Method::ForwardDerivativesByTree
             | Method::JointReactions
             | Method::ActuatedJointReactions(_)
-    )
+    ) || matches!(method, Method::Regressor(regressor) if regressor.moves_with_base())
 }
 
 fn base_state<'g>(b: &'g Builder, motion: &BaseMotion) -> BaseState<'g> {

@@ -14,8 +14,8 @@ pub trait Formulation: Sync {
     fn summary(&self) -> &'static str;
 
     /// Returns whether it supports the method, or the method that this one is derived from.
-    fn knows(&self, _: Method) -> bool {
-        true
+    fn knows(&self, method: Method) -> bool {
+        !matches!(method, Method::Regressor(_))
     }
 
     /// Returns the first link whose joint it does not serve. By default it serves rotations and translations

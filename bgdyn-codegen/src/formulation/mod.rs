@@ -39,6 +39,7 @@ pub(crate) use prepared::{Candidate, Candidates};
 pub(crate) use prescribed::create;
 pub(crate) use recursion::expressions::mass_and_bias;
 pub(crate) use recursion::geometry;
+pub(crate) use recursion::regressor::base_parameter_formulas;
 pub(crate) use solve::ltdl as solve_symmetric;
 pub use velocity_map::RowChoice;
 pub(crate) use velocity_map::velocity_map;
@@ -47,7 +48,7 @@ pub(crate) use velocity_map::velocity_map;
 pub(crate) const LITERAL: &str = literal::NAME;
 
 /// All formulations that the user can select.
-pub static FORMULATIONS: [&dyn Formulation; 7] = [
+pub static FORMULATIONS: [&dyn Formulation; 8] = [
     &literal::Literal,
     &recursion::Recursion,
     &recursion::OwnInertia,
@@ -55,6 +56,7 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
     &recursion::Articulated::Own,
     &recursion::Articulated::Base,
     &subspaces::Subspaces,
+    &recursion::ParameterColumns,
 ];
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
@@ -80,6 +82,11 @@ pub(crate) fn mass_and_bias_of_any_joint(graph: &BondGraph) -> (Graph, Vec<Signe
 /// Returns the literal sum of equation (6), which every other formulation must equal.
 pub fn specification() -> &'static dyn Formulation {
     &literal::Literal
+}
+
+/// Returns the formulation of regressors.
+pub(crate) fn columns() -> &'static dyn Formulation {
+    &recursion::ParameterColumns
 }
 
 /// Returns the formulation with this name.

@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use super::recursion::geometry::{Geometry, geometry};
 use super::recursion::plan_search::BestPlan;
+use super::recursion::regressor::BaseParameters;
 use crate::bond_graph::BondGraph;
 use crate::function::Function;
 use crate::method::Method;
@@ -41,6 +42,7 @@ pub struct Prepared<'a> {
     /// The mechanism's bond graph.
     pub graph: &'a BondGraph,
     geometry: OnceCell<Geometry>,
+    base_parameters: OnceCell<BaseParameters>,
     /// The cheapest plans of the recursion.
     pub(super) plans: RefCell<BTreeMap<Method, BestPlan>>,
     chosen: RefCell<BTreeMap<Method, Chosen>>,
@@ -60,6 +62,7 @@ impl<'a> Prepared<'a> {
         Prepared {
             graph,
             geometry: OnceCell::new(),
+            base_parameters: OnceCell::new(),
             plans: RefCell::default(),
             chosen: RefCell::default(),
             of_tree: RefCell::default(),
@@ -133,6 +136,12 @@ impl<'a> Prepared<'a> {
     /// Returns the frames of the recursion.
     pub(crate) fn geometry(&self) -> &Geometry {
         self.geometry.get_or_init(|| geometry(self.graph))
+    }
+
+    /// Returns the base parameters.
+    pub(super) fn base_parameters(&self) -> &BaseParameters {
+        let find = || BaseParameters::new(self.graph, self.geometry());
+        self.base_parameters.get_or_init(find)
     }
 
     /// Returns the choice for a method, if it was made.

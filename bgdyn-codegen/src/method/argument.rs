@@ -17,6 +17,14 @@ pub enum Argument {
     TreeTau,
     /// Efforts of the actuated joints, where these are not the independent ones: N·m, N.
     ActuatedTau,
+    /// Velocities of a reference, v_r: rad/s, m/s.
+    ReferenceV,
+    /// Accelerations of a reference, a_r: rad/s², m/s².
+    ReferenceA,
+    /// A number for each velocity, s.
+    Direction,
+    /// Parameters of the bodies, π: kg, kg·m, kg·m².
+    BodyParameters,
     /// State of a scene.
     State,
     /// Inputs of a scene.
@@ -40,6 +48,10 @@ impl Argument {
             Argument::A => "a",
             Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => "tau",
             Argument::TreeV => "qd",
+            Argument::ReferenceV => "v_r",
+            Argument::ReferenceA => "a_r",
+            Argument::Direction => "s",
+            Argument::BodyParameters => "pi",
             Argument::State => "state",
             Argument::Input => "input",
             Argument::Accelerations => "acceleration",

@@ -7,6 +7,7 @@ mod argument;
 mod bundled;
 mod derivatives;
 mod loads;
+mod regressor;
 mod scene_function;
 mod shape;
 mod words;
@@ -14,6 +15,7 @@ mod words;
 use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
 pub use argument::Argument;
+pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, ParameterSet, Regressor};
 pub use scene_function::SceneFunction;
 pub use shape::Shape;
 
@@ -88,6 +90,8 @@ pub enum Method {
     ActuatedReactions(usize),
     /// Forces and moments at the joints of the tree of links, with drives at the actuated joints.
     ActuatedJointReactions(usize),
+    /// A method that is linear in the parameters of the bodies, or one of their vectors.
+    Regressor(Regressor),
     /// A function of a scene.
     Scene(SceneFunction),
     /// Several methods in one call.
@@ -105,6 +109,7 @@ pub fn names() -> Vec<String> {
     all.chain(Method::OF_LOOPS)
         .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
+        .chain(Regressor::ALL.map(Method::Regressor))
         .map(|method| method.name(&[]))
         .chain(Method::reduced_names())
         .collect()
@@ -179,6 +184,9 @@ impl Method {
                 other => other,
             };
         }
+        if graph.closed.is_none() && graph.released.is_none() {
+            all.extend(Regressor::ALL.map(Method::Regressor));
+        }
         if let Some(closed) = &graph.closed {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
@@ -222,7 +230,9 @@ impl Method {
         let own_name = |m: &Method| m.name_in(closed, sites);
         let found = possible.iter().find(|m| own_name(m) == name);
         found.copied().ok_or_else(|| {
-            if let Some(message) = without_multipliers(graph, name) {
+            if let Some(message) =
+                without_multipliers(graph, name).or_else(|| without_regressor(graph, name))
+            {
                 return message;
             }
             if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
@@ -290,6 +300,7 @@ impl Method {
             Method::ProjectVelocity => "project_velocity".into(),
             Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
             Method::JointReactions | Method::ActuatedJointReactions(_) => "joint_reactions".into(),
+            Method::Regressor(regressor) => regressor.name().into(),
             Method::Scene(role) => role.name().into(),
             Method::Bundle { .. } => "bundle".into(),
         }
@@ -320,6 +331,7 @@ impl Method {
             Method::ActuatedJointReactions(_) => &[Q, V, A, ActuatedTau],
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
             Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
+            Method::Regressor(regressor) => regressor.arguments(),
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,
@@ -375,6 +387,7 @@ impl Method {
             Method::ProjectVelocity => Shape::CheckedTree,
             Method::Reactions | Method::ActuatedReactions(_) => Shape::CheckedWrenches,
             Method::JointReactions | Method::ActuatedJointReactions(_) => Shape::LinkWrenches,
+            Method::Regressor(regressor) => regressor.shape(),
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse
@@ -402,6 +415,21 @@ fn without_multipliers(graph: &BondGraph, name: &str) -> Option<String> {
     asked.then(|| {
         format!(
             "`{name}`: the loop `{closes}` has no rows and no multipliers, because with `branch: parallel` it is closed by joints that follow; write `branch: left` or `branch: right`, or `near`, for the efforts that close it"
+        )
+    })
+}
+
+/// Returns why a mechanism does not have this regressor, if it is the name of one.
+fn without_regressor(graph: &BondGraph, name: &str) -> Option<String> {
+    let known = Regressor::ALL.iter().any(|regressor| regressor.name() == name);
+    let why = match (&graph.closed, &graph.released) {
+        (Some(_), _) => "a mechanism with loops, wheels or knife edges",
+        (_, Some(_)) => "a mechanism with prescribed joints",
+        _ => return None,
+    };
+    known.then(|| {
+        format!(
+            "`{name}`: {why} has no regressors; generate them for its open tree, and combine its rows by the `velocity_map`"
         )
     })
 }

@@ -1,5 +1,7 @@
 //! The shapes of results.
 
+use super::ParameterSet;
+
 /// The shape of a method's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -49,6 +51,10 @@ pub enum Shape {
     LinkWrenches,
     /// As many numbers as the mechanism has prescribed joints.
     Drives(usize),
+    /// A matrix with a row for each velocity and a column for each parameter, row by row.
+    ParameterColumns(ParameterSet),
+    /// A number for each parameter.
+    ParameterVector(ParameterSet),
     /// The named parts of a scene's result.
     Parts,
     /// The same, or an error with a coordinate.
@@ -78,6 +84,7 @@ impl Shape {
             Shape::SlopesByTree | Shape::CheckedSlopesByTree => 0,
             Shape::Drives(np) => np,
             Shape::CheckedActuated(na) => na,
+            Shape::ParameterColumns(_) | Shape::ParameterVector(_) => 0,
             Shape::Parts | Shape::CheckedParts | Shape::Bundle | Shape::CheckedBundle => 0,
         }
     }

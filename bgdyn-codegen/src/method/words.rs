@@ -108,6 +108,7 @@ impl Method {
                 "Force and moment on each link from its parent through its joint, about the link's origin, in link axes, at the accelerations `a` and under the efforts `tau` of the actuated joints, as in [`ACTUATED`]; links as in [`LINK_NAMES`]."
                     .into()
             }
+            Method::Regressor(regressor) => regressor.summary().into(),
             Method::Scene(role) => role.summary().into(),
             Method::Bundle { .. } => "The results of several methods, which share their computations.".into(),
         }
@@ -151,6 +152,7 @@ impl Method {
             | Method::ActuatedReactions(_)
             | Method::JointReactions
             | Method::ActuatedJointReactions(_) => "N, N·m",
+            Method::Regressor(regressor) => regressor.units(),
             Method::Scene(_) | Method::Bundle { .. } => "as its parts say",
         }
     }

@@ -4,7 +4,7 @@ use crate::bond_graph::ClosedTree;
 use crate::expr::Leaf;
 use crate::interface::SceneInterface;
 use crate::layout::{StateLayout, Variable};
-use crate::method::Argument;
+use crate::method::{Argument, PARAMETER_NAMES};
 use crate::model::Model;
 
 /// An argument with named components: of each component its leaf, and the name of its variable if it is read.
@@ -26,6 +26,8 @@ pub struct Naming<'a> {
     pub tree_joints: Vec<&'a str>,
     /// The actuated joints of a mechanism with loops, where they are not the independent ones.
     pub actuated: Vec<&'a str>,
+    /// The bodies of regressors.
+    pub bodies: Vec<&'a str>,
     /// Run-time parameters.
     pub parameters: Vec<&'a str>,
     /// The parts of a scene's state and inputs; `None` for a mechanism.
@@ -44,7 +46,11 @@ impl<'a> Naming<'a> {
         let closed = model.bond_graph.closed.as_deref();
         let of_tree = closed.iter().flat_map(|closed| &closed.tree.coordinates);
         let drives = closed.map_or_else(Vec::new, ClosedTree::drive_names);
+        let bodies = model.bond_graph.moving_links().into_iter();
         Naming {
+            bodies: bodies
+                .map(|link| model.bond_graph.frames[link.0].name.as_str())
+                .collect(),
             tree_joints: of_tree.map(|c| c.name.as_str()).collect(),
             actuated: drives,
             positions: positions.map(|p| p.name.as_str()).collect(),
@@ -65,6 +71,7 @@ impl<'a> Naming<'a> {
             joints: joints.collect(),
             tree_joints: Vec::new(),
             actuated: Vec::new(),
+            bodies: Vec::new(),
             parameters: scene.parameters.iter().map(|p| p.name.as_str()).collect(),
             layout: Some(layout),
             arrays: false,
@@ -80,13 +87,21 @@ impl<'a> Naming<'a> {
     }
 
     /// Returns the names of the components of a mechanism's argument, in order.
-    pub fn component_names(&self, argument: Argument) -> &[&'a str] {
-        match argument {
+    pub fn component_names(&self, argument: Argument) -> Vec<String> {
+        let names = match argument {
             Argument::Q => &self.positions,
             Argument::TreeV | Argument::TreeTau => &self.tree_joints,
             Argument::ActuatedTau => &self.actuated,
+            Argument::BodyParameters => return self.body_parameters(),
             _ => &self.joints,
-        }
+        };
+        names.iter().map(ToString::to_string).collect()
+    }
+
+    /// Returns the names of the parameters of the bodies, in order.
+    fn body_parameters(&self) -> Vec<String> {
+        let of = |body: &&str| PARAMETER_NAMES.map(|name| format!("{body}_{name}"));
+        self.bodies.iter().flat_map(of).collect()
     }
 
     /// Returns the leaves of an argument's components with names of variables for them; empty for an
@@ -97,10 +112,13 @@ impl<'a> Naming<'a> {
             Argument::V | Argument::TreeV => Leaf::Velocity,
             Argument::A => Leaf::Acceleration,
             Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => Leaf::Input,
+            Argument::ReferenceV => Leaf::State,
+            Argument::ReferenceA => Leaf::Acceleration,
+            Argument::Direction | Argument::BodyParameters => Leaf::Input,
             _ => return self.scene_components(argument),
         };
-        let names = self.component_names(argument).iter().enumerate();
-        let named = |(j, name): (usize, &&str)| (leaf(j), format!("{}_{name}", argument.name()));
+        let names = self.component_names(argument).into_iter().enumerate();
+        let named = |(j, name): (usize, String)| (leaf(j), format!("{}_{name}", argument.name()));
         names.map(named).collect()
     }
 

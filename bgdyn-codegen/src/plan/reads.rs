@@ -71,6 +71,8 @@ pub fn is_part(argument: Argument, leaf: Leaf) -> bool {
         Argument::Time => leaf == Leaf::Time,
         Argument::Q | Argument::V | Argument::A | Argument::Tau => false,
         Argument::TreeV | Argument::TreeTau | Argument::ActuatedTau => false,
+        Argument::ReferenceV | Argument::ReferenceA => false,
+        Argument::Direction | Argument::BodyParameters => false,
         Argument::Canonical | Argument::Modes => false,
     }
 }

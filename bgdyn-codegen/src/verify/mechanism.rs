@@ -9,12 +9,13 @@ use super::actuated;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times};
 use super::literal_values::{LiteralValues, State};
 use super::open_tree::{self, TreeLaw};
+use super::regressor;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::tree_states::of_method;
 use crate::expr::Inputs;
 use crate::function::{Function, in_triangle};
-use crate::method::Method;
+use crate::method::{Method, Regressor};
 use crate::model::Model;
 use crate::random::Random;
 
@@ -91,6 +92,9 @@ impl Subject<'_> {
     /// is skipped.
     fn check(&self, state: &State) -> Option<Difference> {
         let graph = self.literal.prepared.graph;
+        if let Method::Regressor(of) = self.function.method {
+            return self.check_regressor(of, state);
+        }
         let at = &of_method(graph, self.function.method, &state.at);
         let (found, refused) = self.function.evaluate(at.clone());
         if refused.is_some() {
@@ -134,6 +138,25 @@ impl Subject<'_> {
             differs((self.name, self.function), &sides.law, pair, size, at)
         })
         .next()
+    }
+
+    /// Returns the first law that a regressor violates at this state.
+    fn check_regressor(&self, of: Regressor, state: &State) -> Option<Difference> {
+        let at = &regressor::extended(&state.at);
+        let mut graph = self.literal.prepared.graph.clone();
+        graph.multibody.rotors.clear();
+        let without_rotors = LiteralValues::new(&graph);
+        let efforts = without_rotors.efforts(at, &at.v, &at.a);
+        let prepared = &self.literal.prepared;
+        let laws = regressor::laws(prepared, (of, self.function), at, &efforts)?;
+        laws.into_iter().find_map(|(text, found, expected, size)| {
+            let law = Law {
+                text,
+                allowed: EXACT,
+            };
+            let subject = (self.name, self.function);
+            differs(subject, &law, (&found, &expected), size, at)
+        })
     }
 
     /// Returns a difference if the function refuses every state and the literal sum refuses none of them.

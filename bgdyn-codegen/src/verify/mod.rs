@@ -12,6 +12,7 @@ mod dual;
 mod literal_values;
 mod mechanism;
 mod open_tree;
+mod regressor;
 mod scene;
 mod states;
 

@@ -43,7 +43,7 @@ pub(super) fn of_mechanism(graph: &BondGraph) -> Vec<Inputs<Dd>> {
     let mut random = Random(7);
     let chosen = GENERIC[..count].iter().enumerate().map(|(k, &i)| {
         let mut state = in_double_double(&generic[i]);
-        sample_states::normalize(graph, &mut state.q);
+        graph.normalize(&mut state.q);
         if let Some(closed) = &graph.closed {
             closed.closure.close(&mut state.q);
         }

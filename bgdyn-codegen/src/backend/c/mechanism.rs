@@ -8,7 +8,7 @@ use super::style::Style;
 use super::tables::{sizes, tables};
 use super::undetermined::{undetermined, undetermined_type};
 use crate::function::Function;
-use crate::method::{Method, Shape};
+use crate::method::{Method, ParameterSet, Shape};
 use crate::model::Model;
 use crate::plan::{Naming, summary_of, unread};
 
@@ -80,10 +80,12 @@ fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String>
 
 /// Returns a sentence with the tables of C in place of the constants of Rust.
 fn with_tables(sentence: &str, style: &Style) -> String {
-    const TABLES: [(&str, &str); 4] = [
+    const TABLES: [(&str, &str); 6] = [
         ("[`CONSTRAINT_NAMES`]", "constraint_names"),
         ("[`REACTION_NAMES`]", "reaction_names"),
         ("[`LINK_NAMES`]", "link_names"),
+        ("[`BODY_NAMES`]", "body_names"),
+        ("[`BASE_PARAMETERS`]", "base_parameter_names"),
         ("[`ACTUATED`]", "actuated_names"),
     ];
     let replaced = |text: String, (constant, table): &(&str, &str)| {
@@ -104,6 +106,8 @@ fn result_order(shape: Shape) -> Option<&'static str> {
         Shape::CheckedTreeAndRows => "Result: NT accelerations, then NC multipliers.",
         Shape::TreeMatrix => "Result: NT x NV.",
         Shape::RowMatrix => "Result: NC x NT.",
+        Shape::ParameterColumns(ParameterSet::Bodies) => "Result: NV x 10 NB, row by row.",
+        Shape::ParameterColumns(ParameterSet::Base) => "Result: NV x NBP, row by row.",
         Shape::CheckedWrenches => {
             "Result: for each loop and contact a force, then a moment, each x, y, z; axes as in docs/methods.md."
         }

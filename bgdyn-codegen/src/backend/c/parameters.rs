@@ -87,6 +87,8 @@ fn argument(argument: Argument, count: usize, style: &Style, is_read: bool) -> C
         Argument::V | Argument::A | Argument::Tau => style.constant("NV"),
         Argument::TreeV | Argument::TreeTau => style.constant("NT"),
         Argument::ActuatedTau => style.constant("NA"),
+        Argument::ReferenceV | Argument::ReferenceA | Argument::Direction => style.constant("NV"),
+        Argument::BodyParameters => style.sized("10 * NB"),
         Argument::State => style.sized("N + NM"),
         Argument::Canonical => style.constant("N"),
         Argument::Input => style.constant("NU"),

@@ -8,7 +8,7 @@ use super::style::Style;
 use super::words::field;
 use crate::function::Function;
 use crate::layout::StateLayout;
-use crate::method::{Method, SceneFunction, Shape};
+use crate::method::{Method, ParameterSet, SceneFunction, Shape};
 use crate::model::Bundle;
 use crate::plan::{Destination, matrix_destinations};
 
@@ -208,6 +208,10 @@ fn size(shape: Shape) -> Option<&'static str> {
         Shape::CheckedActuated(_) => "NA",
         Shape::Drives(_) => "NP",
         Shape::Scalar | Shape::Pose | Shape::Spatial => return None,
+        Shape::ParameterColumns(ParameterSet::Bodies) => "NV * 10 * NB",
+        Shape::ParameterColumns(ParameterSet::Base) => "NV * NBP",
+        Shape::ParameterVector(ParameterSet::Bodies) => "10 * NB",
+        Shape::ParameterVector(ParameterSet::Base) => "NBP",
         Shape::Parts | Shape::CheckedParts => return None,
         Shape::Bundle | Shape::CheckedBundle => return None,
     })

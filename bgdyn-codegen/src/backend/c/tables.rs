@@ -35,6 +35,10 @@ pub(super) fn sizes(context: &ModelContext<'_>) -> Vec<Size> {
     if model.functions.iter().any(is_of_links) {
         sizes.push(("NL", "links", link_names(context).len()));
     }
+    if model.has_regressors() {
+        sizes.push(("NB", "bodies of regressors", model.body_names().len()));
+        sizes.push(("NBP", "base parameters", model.base_parameters.len()));
+    }
     sizes
 }
 
@@ -83,6 +87,13 @@ pub(super) fn tables(context: &ModelContext<'_>) -> Vec<Table> {
             "NL",
             &links,
         ));
+    }
+    if model.has_regressors() {
+        let about = "Names of the bodies of regressors: the links that joints move, each with all that is fixed to it.";
+        tables.push(names(context, about, "body_names", "NB", &model.body_names()));
+        let base: Vec<&str> = model.base_parameters.iter().map(String::as_str).collect();
+        let about = "The base parameters as formulas of the parameters of the bodies.";
+        tables.push(names(context, about, "base_parameter_names", "NBP", &base));
     }
     tables.extend(limits(context));
     tables.retain(|table| !table.elements.is_empty());

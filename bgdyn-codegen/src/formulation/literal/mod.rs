@@ -8,6 +8,7 @@
 mod closed;
 mod closing_loads;
 mod coriolis;
+mod regressor;
 mod relative_poses;
 mod sum;
 
@@ -16,7 +17,7 @@ use super::{Formulation, Offer, Prepared, placed_sites, solve};
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::function::Function;
-use crate::method::Method;
+use crate::method::{Method, Regressor};
 use sum::LiteralSum;
 
 pub(super) const NAME: &str = "literal";
@@ -31,6 +32,19 @@ impl Formulation for Literal {
 
     fn summary(&self) -> &'static str {
         "equation (6) term by term, in fixed axes"
+    }
+
+    /// Other regressors are combinations of these three.
+    fn knows(&self, method: Method) -> bool {
+        let known = [
+            Regressor::Full,
+            Regressor::PotentialEnergy,
+            Regressor::Parameters,
+        ];
+        match method {
+            Method::Regressor(regressor) => known.contains(&regressor),
+            _ => true,
+        }
     }
 
     fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
@@ -71,6 +85,9 @@ impl Formulation for Literal {
                 }
                 Method::JointReactions => sum.joint_loads(&arguments, &[]),
                 Method::CoriolisMatrix => sum.coriolis_matrix(&arguments),
+                Method::Regressor(Regressor::Full) => sum.regressor(&arguments),
+                Method::Regressor(Regressor::PotentialEnergy) => sum.potential_energy_regressor(),
+                Method::Regressor(Regressor::Parameters) => sum.body_parameters(),
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => placed_sites::outputs(&b, graph, method, &arguments)?,

@@ -88,11 +88,20 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     /// Returns ∂ṙ_i/∂v_j and ρ_j^i: the columns of every joint on the path to link i, moved to its centre of
     /// mass, and summed over the joints that a coordinate moves.
     fn columns_to(&self, i: LinkId) -> BTreeMap<usize, Column<Expr<'g>>> {
+        self.columns_to_point(i, self.positions[i.0])
+    }
+
+    /// Returns the same for a point of link i.
+    pub(super) fn columns_to_point(
+        &self,
+        i: LinkId,
+        point: Vec3<Expr<'g>>,
+    ) -> BTreeMap<usize, Column<Expr<'g>>> {
         let mut sums: BTreeMap<usize, Column<Expr<'g>>> = BTreeMap::new();
         let mut on_path = Some(i);
         while let Some(l) = on_path {
             let frame = &self.graph.frames[l.0];
-            let lever = || self.positions[i.0] - self.placement.origins[l.0];
+            let lever = || point - self.placement.origins[l.0];
             for (j, column) in self.placement.columns(self.b, l.0, frame) {
                 let angular = column.angular;
                 let linear = match frame.motion {
@@ -119,7 +128,17 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
         }
     }
 
-    fn zero(&self) -> Vec3<Expr<'g>> {
+    /// Returns the origin of a link.
+    pub(super) fn origin(&self, link: LinkId) -> Vec3<Expr<'g>> {
+        self.placement.origins[link.0]
+    }
+
+    /// Returns the axes of a link.
+    pub(super) fn axes(&self, link: LinkId) -> Mat3<Expr<'g>> {
+        self.placement.rotations[link.0]
+    }
+
+    pub(super) fn zero(&self) -> Vec3<Expr<'g>> {
         Vec3([self.b.zero(); 3])
     }
 
@@ -350,7 +369,7 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
 
 /// Returns what the motion of the base adds to the acceleration of a point with this position and velocity
 /// relative to it, in base axes: f + ω̇ × r + ω × (ω × r) + 2 ω × ṙ. f contains gravity.
-fn carried_acceleration<'g>(
+pub(super) fn carried_acceleration<'g>(
     base: &BaseState<'g>,
     position: Vec3<Expr<'g>>,
     velocity: Vec3<Expr<'g>>,

@@ -105,18 +105,8 @@ pub(super) fn regroup<'g>(
     }
     for j in (0..bodies.len()).rev() {
         let body = &geometry.bodies[j];
-        let offset = b.vector(origin_offset(geometry, plan, j));
-        let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
-        // The moved part is the same in twisted axes as in own axes, about the same origin.
         let mut take = |own: &mut BodyInertia<'g>| {
-            let moved = match body.motion {
-                Motion::Rotation => take_from_rotation(b, own),
-                Motion::Translation => {
-                    take_from_translation(b, own, body.planar).turned(phase.into())
-                }
-                _ => take_from_compound(b, own, body, &graph.frames[body.link().0]),
-            };
-            let at_parent = moved.shifted(offset).rotated(b, body.twist);
+            let at_parent = take_to_parent(b, graph, geometry, (plan, j), own);
             if body.parent.is_none() {
                 energy = energy - b.vector(graph.gravity).dot(at_parent.first);
             }
@@ -135,6 +125,26 @@ pub(super) fn regroup<'g>(
         }
     }
     (bodies, energy)
+}
+
+/// Takes from body j the inertia that its parent moves alike, and returns it about the parent's origin, in its axes.
+pub(super) fn take_to_parent<'g>(
+    b: &'g Builder,
+    graph: &Multibody,
+    geometry: &Geometry,
+    (plan, j): (&Plan, usize),
+    own: &mut BodyInertia<'g>,
+) -> BodyInertia<'g> {
+    let body = &geometry.bodies[j];
+    let offset = b.vector(origin_offset(geometry, plan, j));
+    let phase = (b.constant(body.phase.0), b.constant(body.phase.1));
+    // The moved part is the same in twisted axes as in own axes, about the same origin.
+    let moved = match body.motion {
+        Motion::Rotation => take_from_rotation(b, own),
+        Motion::Translation => take_from_translation(b, own, body.planar).turned(phase.into()),
+        _ => take_from_compound(b, own, body, &graph.frames[body.link().0]),
+    };
+    moved.shifted(offset).rotated(b, body.twist)
 }
 
 /// Returns the parts of body j in the spec, of these links. A tensor is divided by its parameters: multiples of one
@@ -200,7 +210,7 @@ fn parameters(tensor: &Tensor) -> Vec<ParameterId> {
 }
 
 /// Returns a link's mass at its centre, in the axes in which the link's pose is given.
-fn point<'g>(b: &'g Builder, inertial: &Inertial, pose: &Pose) -> Point<'g> {
+pub(super) fn point<'g>(b: &'g Builder, inertial: &Inertial, pose: &Pose) -> Point<'g> {
     let com = inertial.com.map(|x| value(b, x));
     Point {
         mass: value(b, inertial.mass),

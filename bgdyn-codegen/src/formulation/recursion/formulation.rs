@@ -81,7 +81,9 @@ pub(super) fn makes(graph: &Multibody, method: Method) -> bool {
         Method::ForwardDynamicsDerivatives,
         Method::CoriolisMatrix,
     ];
-    method != Method::JointReactions && (graph.plain() || !partial.contains(&method))
+    method != Method::JointReactions
+        && !matches!(method, Method::Regressor(_))
+        && (graph.plain() || !partial.contains(&method))
 }
 
 /// Returns the function under the chosen plan.

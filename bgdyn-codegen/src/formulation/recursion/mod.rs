@@ -23,6 +23,7 @@
 //! | `common_axes.rs` | the mass matrix of long chains |
 //! | `articulated/` | forward dynamics by articulated bodies |
 //! | `rotors.rs` | rotors behind gears |
+//! | `regressor/` | regressors and base parameters |
 //!
 //! A plan states how far origins slide, the unit of length, which parallel joints have a common basis, for
 //! which bodies the inertia is rotated instead of the vectors, how far run-time parameters move inboard,
@@ -52,6 +53,7 @@ mod names;
 mod plan;
 pub(super) mod plan_search;
 mod plans;
+pub(super) mod regressor;
 mod rotation;
 mod rotors;
 mod standard_parameters;
@@ -59,4 +61,5 @@ mod standard_parameters;
 pub(super) use articulated::Articulated;
 pub(super) use common_axes::CommonAxes;
 pub(super) use formulation::Recursion;
+pub(super) use regressor::ParameterColumns;
 pub(super) use standard_parameters::OwnInertia;

@@ -49,7 +49,8 @@ impl Formulation for Subspaces {
     }
 
     fn knows(&self, method: Method) -> bool {
-        !method.differentiates_dynamics() && !matches!(method, Method::Scene(_))
+        !method.differentiates_dynamics()
+            && !matches!(method, Method::Scene(_) | Method::Regressor(_))
     }
 
     /// For rotations and translations alone the recursion with base parameters costs less; it does not know the loads

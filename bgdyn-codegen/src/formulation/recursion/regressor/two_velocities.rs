@@ -1,0 +1,169 @@
+//! The motion of the bodies with two velocities: the symmetric bilinear form of the velocity products.
+//!
+//! M a_r + C(q, v) v_r + g with Christoffel's C is (6) with (x y' + x' y) / 2 in place of each product x y of two
+//! velocities (Slotine and Li 1987).
+
+use bgdyn_runtime::Dd;
+
+use super::super::frames::{BodyFrame, Frames};
+use super::super::joint_columns::ColumnDirection;
+use super::super::motion::zero;
+use super::directions::Twist;
+use super::wrenches::Angular;
+use crate::expr::{Builder, Expr};
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::joint::Column;
+
+/// Motion of a body with two velocities, in its axes.
+pub(super) struct Bilinear<'g> {
+    /// U and ω̇.
+    pub angular: Angular<'g>,
+    /// Acceleration of its origin less gravity.
+    pub a: Vec3<Expr<'g>>,
+}
+
+/// Returns the motion of every body. `own` are the frames with v and a_r, `twists` the velocities of the bodies at v and
+/// at v_r, `rates` those of the joints.
+pub(super) fn motions<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    [first, second]: [&[Twist<'g>]; 2],
+    rates: [&[Expr<'g>]; 2],
+) -> Vec<Bilinear<'g>> {
+    let mut moving: Vec<Bilinear<'g>> = Vec::new();
+    for (j, frame) in frames.bodies.iter().enumerate() {
+        b.section(|| {
+            format!(
+                "{}: U and acceleration a of its origin less gravity, with two velocities",
+                frame.name
+            )
+        });
+        let at_rest = || (zero(b), Mat3([[b.zero(); 3]; 3]));
+        let ((omega_dot, u), a, omegas) = match frame.parent {
+            None if frame.given => (at_rest(), zero(b), [zero(b); 2]),
+            None => (at_rest(), -frames.gravity[j], [zero(b); 2]),
+            Some(p) => {
+                let parent = &moving[p];
+                let omegas = [first[p].angular, second[p].angular];
+                ((parent.angular.omega_dot, parent.angular.u), parent.a, omegas)
+            }
+        };
+        let before = Before { omega_dot, u, a, omegas };
+        let after = [first[j].angular, second[j].angular];
+        moving.push(outwards(b, frame, &before, after, rates));
+    }
+    moving
+}
+
+/// Motion of a parent, in its axes.
+struct Before<'g> {
+    omega_dot: Vec3<Expr<'g>>,
+    u: Mat3<Expr<'g>>,
+    a: Vec3<Expr<'g>>,
+    omegas: [Vec3<Expr<'g>>; 2],
+}
+
+/// Returns the motion of a body from that of its parent, its own two angular velocities, and the rates.
+///
+/// With ω = c + ω_J, the velocity c of the parent and ω_J, v_J of the joint:
+/// ω̇ = Rᵀω̇_p + c × ω_J + ω̇_J, a = Rᵀ(a_p + U_p p) + (2 c + ω_J) × v_J + v̇_J.
+fn outwards<'g>(
+    b: &'g Builder,
+    frame: &BodyFrame<'g>,
+    before: &Before<'g>,
+    omegas: [Vec3<Expr<'g>>; 2],
+    rates: [&[Expr<'g>]; 2],
+) -> Bilinear<'g> {
+    let back = frame.twist.transpose().map(|x| b.constant(x));
+    let turned = |v: Vec3<Expr<'g>>| frame.turn.apply_back(back * v);
+    let joints = rates.map(|rates| joint_velocity(b, frame, rates));
+    let carried = before.omegas.map(turned);
+    let change = joint_change(b, frame);
+    let coupled = half_sum(
+        carried[0].cross(joints[1].angular),
+        carried[1].cross(joints[0].angular),
+    );
+    let omega_dot = turned(before.omega_dot) + coupled + change.angular;
+    let across = |k: usize| (carried[k] + omegas[k]).cross(joints[1 - k].linear);
+    let a = turned(before.a + before.u * frame.position_in_parent)
+        + half_sum(across(0), across(1))
+        + change.linear;
+    Bilinear {
+        angular: angular(omegas, omega_dot),
+        a,
+    }
+}
+
+/// Returns U = [ω̇]× + sym([ω]×[ω']×) with its parts.
+fn angular<'g>([w, r]: [Vec3<Expr<'g>>; 2], omega_dot: Vec3<Expr<'g>>) -> Angular<'g> {
+    let half = Dd::from_f64(0.5);
+    let product = |i: usize, k: usize| match i == k {
+        true => w.0[i] * r.0[i],
+        false => (w.0[i] * r.0[k] + r.0[i] * w.0[k]) * half,
+    };
+    let [dx, dy, dz] = omega_dot.0;
+    let (xx, yy, zz) = (product(0, 0), product(1, 1), product(2, 2));
+    let (xy, xz, yz) = (product(0, 1), product(0, 2), product(1, 2));
+    Angular {
+        u: Mat3([
+            [-(yy + zz), xy - dz, xz + dy],
+            [xy + dz, -(xx + zz), yz - dx],
+            [xz - dy, yz + dx, -(xx + yy)],
+        ]),
+        differences: Vec3([zz - yy, xx - zz, yy - xx]),
+        omega_dot,
+        products: Vec3([yz, xz, xy]),
+    }
+}
+
+fn half_sum<'g>(x: Vec3<Expr<'g>>, y: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
+    (x + y).map(|e| e * Dd::from_f64(0.5))
+}
+
+/// Returns the velocity of a body relative to its parent, in its axes.
+fn joint_velocity<'g>(
+    b: &'g Builder,
+    frame: &BodyFrame<'g>,
+    rates: &[Expr<'g>],
+) -> Column<Expr<'g>> {
+    let mut sum = Column {
+        angular: zero(b),
+        linear: zero(b),
+    };
+    if let (true, Some([velocity, _])) = (frame.given, &frame.relative) {
+        return *velocity;
+    }
+    for column in &frame.columns {
+        let rate = rates[column.coordinate] * column.effort;
+        let (angular, linear) = (&mut sum.angular.0, &mut sum.linear.0);
+        match column.direction {
+            ColumnDirection::About(k) => angular[k] = angular[k] + rate,
+            ColumnDirection::Along(k) => linear[k] = linear[k] + rate,
+            ColumnDirection::Screw(pitch) => {
+                angular[2] = angular[2] + rate;
+                linear[2] = linear[2] + rate * pitch;
+            }
+        }
+    }
+    sum
+}
+
+/// Returns the acceleration of a body relative to its parent that its joint's accelerations give, in its axes.
+fn joint_change<'g>(b: &'g Builder, frame: &BodyFrame<'g>) -> Column<Expr<'g>> {
+    if let Some([_, change]) = &frame.relative {
+        return *change;
+    }
+    let mut change = Column {
+        angular: zero(b),
+        linear: zero(b),
+    };
+    match frame.columns[0].direction {
+        ColumnDirection::About(_) => change.angular.0[2] = frame.acceleration,
+        ColumnDirection::Along(_) => change.linear.0[2] = frame.acceleration,
+        ColumnDirection::Screw(pitch) => {
+            change.angular.0[2] = frame.acceleration;
+            change.linear.0[2] = frame.acceleration * pitch;
+        }
+    }
+    change
+}
