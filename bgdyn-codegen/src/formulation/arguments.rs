@@ -54,7 +54,9 @@ impl<'g> Arguments<'g> {
                 method,
                 Method::KineticEnergy
                     | Method::ProjectVelocity
-                    | Method::Regressor(Regressor::Momentum | Regressor::BaseMomentum | Regressor::KineticEnergy)
+                    | Method::Regressor(
+                        Regressor::Momentum | Regressor::BaseMomentum | Regressor::KineticEnergy
+                    )
             );
         let turning = graph.velocity_products || kinematic;
         let efforts = match method {

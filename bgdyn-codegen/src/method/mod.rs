@@ -421,7 +421,9 @@ fn without_multipliers(graph: &BondGraph, name: &str) -> Option<String> {
 
 /// Returns why a mechanism does not have this regressor, if it is the name of one.
 fn without_regressor(graph: &BondGraph, name: &str) -> Option<String> {
-    let known = Regressor::ALL.iter().any(|regressor| regressor.name() == name);
+    let known = Regressor::ALL
+        .iter()
+        .any(|regressor| regressor.name() == name);
     let why = match (&graph.closed, &graph.released) {
         (Some(_), _) => "a mechanism with loops, wheels or knife edges",
         (_, Some(_)) => "a mechanism with prescribed joints",

@@ -162,7 +162,9 @@ impl Regressor {
                 "Y_bᵀ s with the regressor Y_b of two velocities: the direction of an adaptation law."
             }
             Regressor::TransposedTimes => "Y_bᵀ s with the regressor Y_b of the base parameters.",
-            Regressor::Momentum => "Regressor of the momenta: M(q) v = Y_p π, beside those of the rotors.",
+            Regressor::Momentum => {
+                "Regressor of the momenta: M(q) v = Y_p π, beside those of the rotors."
+            }
             Regressor::BaseMomentum => {
                 "Regressor of the momenta by base parameters: M(q) v = Y_p π_b, beside those of the rotors."
             }

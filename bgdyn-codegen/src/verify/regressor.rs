@@ -97,7 +97,13 @@ pub(super) fn laws(
     at: &Inputs<Dd>,
     efforts: &[Dd],
 ) -> Option<Vec<RegressorLaw>> {
-    let literal = |of| create(crate::formulation::specification(), prepared, Method::Regressor(of));
+    let literal = |of| {
+        create(
+            crate::formulation::specification(),
+            prepared,
+            Method::Regressor(of),
+        )
+    };
     let mut random = Random(29);
     let count = 10 * prepared.graph.moving_links().len();
     let number = |_| Dd::from_f64(random.signed());
@@ -157,7 +163,12 @@ pub(super) fn laws(
             let moved = own.efforts(&at.v, &at.a);
             return Some(vec![
                 ("its literal form", found, expected, 0.0),
-                ("Y π = P(q, v, a) without rotors", moved, efforts.to_vec(), size),
+                (
+                    "Y π = P(q, v, a) without rotors",
+                    moved,
+                    efforts.to_vec(),
+                    size,
+                ),
             ]);
         }
         // Its laws are those of the regressors of base parameters.

@@ -90,7 +90,13 @@ pub(super) fn tables(context: &ModelContext<'_>) -> Vec<Table> {
     }
     if model.has_regressors() {
         let about = "Names of the bodies of regressors: the links that joints move, each with all that is fixed to it.";
-        tables.push(names(context, about, "body_names", "NB", &model.body_names()));
+        tables.push(names(
+            context,
+            about,
+            "body_names",
+            "NB",
+            &model.body_names(),
+        ));
         let base: Vec<&str> = model.base_parameters.iter().map(String::as_str).collect();
         let about = "The base parameters as formulas of the parameters of the bodies.";
         tables.push(names(context, about, "base_parameter_names", "NBP", &base));

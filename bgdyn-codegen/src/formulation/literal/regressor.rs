@@ -13,8 +13,8 @@ use crate::expr::{Expr, Tangent};
 use crate::formulation::arguments::{Arguments, value};
 use crate::formulation::joint_motion::{along, tangents};
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{LinkId, Motion, Pose};
 use crate::mechanism::joint::Column;
+use crate::mechanism::{LinkId, Motion, Pose};
 
 /// The motion of a link's origin and axes, fixed axes.
 struct LinkMotion<'g> {
@@ -92,7 +92,10 @@ impl<'g> LiteralSum<'_, 'g> {
             })
         };
         let part = |part: fn(&Column<Expr<'g>>) -> Vec3<Expr<'g>>| -> Vec<(usize, Vec3<Expr<'g>>)> {
-            moduli.iter().map(|(j, column)| (*j, part(column))).collect()
+            moduli
+                .iter()
+                .map(|(j, column)| (*j, part(column)))
+                .collect()
         };
         let mut second = |moduli: &[(usize, Vec3<Expr<'g>>)]| {
             let rates: Vec<_> = moduli.iter().map(|(k, m)| (*k, rate_of(*m))).collect();
@@ -178,7 +181,10 @@ impl<'g> LiteralSum<'_, 'g> {
             if let (Motion::None, Some((_, pose))) = (frame.motion, on) {
                 let rotation = pose.rotation * frame.origin.rotation;
                 let translation = pose.translation + pose.rotation * frame.origin.translation;
-                let pose = Pose { rotation, translation };
+                let pose = Pose {
+                    rotation,
+                    translation,
+                };
                 found.push((LinkId(i), pose));
             }
         }

@@ -60,8 +60,7 @@ impl BaseParameters {
         let plan = Plan::of_kinematics(geometry, false);
         let candidates = transported(graph, geometry, &plan);
         let columns = sampled_columns(graph, geometry, &plan, &candidates);
-        let mut parameters: Vec<Option<BaseParameter>> =
-            candidates.into_iter().map(Some).collect();
+        let mut parameters: Vec<Option<BaseParameter>> = candidates.into_iter().map(Some).collect();
         for (dropped, coefficients) in independent(&columns).dependent {
             let Some(of) = parameters[dropped].take() else {
                 continue;
@@ -161,9 +160,7 @@ fn one<'g>(b: &'g Builder, body: &Body, slide: Dd, parameter: usize) -> BodyIner
         }
     }
     let shift = Vec3([b.zero(), b.zero(), b.constant(-slide)]);
-    inertia
-        .rotated(b, body.axes.transpose())
-        .shifted(shift)
+    inertia.rotated(b, body.axes.transpose()).shifted(shift)
 }
 
 /// Returns the columns of these parameters at random states, one below the other.

@@ -54,17 +54,21 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the motion of each body: what wrenches depend on, and the acceleration (velocity) of its origin.
-    fn moving(&self, motion: Motion) -> Vec<(Angular<'g>, Vec3<Expr<'g>>)> {
+    pub(super) fn moving(&self, motion: Motion) -> Vec<(Angular<'g>, Vec3<Expr<'g>>)> {
         let (b, frames, x) = (self.b, &self.frames, &self.x);
         match motion {
             Motion::Given => {
                 let moving = motions(b, frames, GravityField::Gravity).into_iter();
-                moving.map(|body| (Angular::from(&body.own), body.a_own)).collect()
+                moving
+                    .map(|body| (Angular::from(&body.own), body.a_own))
+                    .collect()
             }
             Motion::Momentum => {
                 let twists = self.velocities(&x.v).into_iter();
                 let momentum = |twist: Twist<'g>| Angular::of_momentum(b, twist.angular);
-                twists.map(|twist| (momentum(twist), twist.linear)).collect()
+                twists
+                    .map(|twist| (momentum(twist), twist.linear))
+                    .collect()
             }
             Motion::TwoVelocities => {
                 let rates = [&x.v[..], &x.reference_v[..]];
@@ -159,7 +163,11 @@ impl<'a, 'g> Columns<'a, 'g> {
 
     /// Returns the columns of the parameters in the axes of the link from those in the axes of the body, which has the
     /// same origin: h and I turn.
-    pub(super) fn in_link_axes(&self, body: usize, own: &[Vec<Expr<'g>>; 10]) -> Vec<Vec<Expr<'g>>> {
+    pub(super) fn in_link_axes(
+        &self,
+        body: usize,
+        own: &[Vec<Expr<'g>>; 10],
+    ) -> Vec<Vec<Expr<'g>>> {
         /// Index of entry (i, k) of I among the parameters.
         const TENSOR: [[usize; 3]; 3] = [[4, 5, 7], [5, 6, 8], [7, 8, 9]];
         let turn = self.geometry.bodies[body].axes.map(|x| self.b.constant(x));
@@ -192,11 +200,11 @@ impl<'a, 'g> Columns<'a, 'g> {
         columns
     }
 
-    fn empty(&self) -> Vec<Expr<'g>> {
+    pub(super) fn empty(&self) -> Vec<Expr<'g>> {
         vec![self.b.zero(); self.graph.coordinates.len()]
     }
 
-    fn add(
+    pub(super) fn add(
         &self,
         column: &mut [Expr<'g>],
         directions: &[Direction<'g>],
@@ -209,7 +217,7 @@ impl<'a, 'g> Columns<'a, 'g> {
         }
     }
 
-    fn rows(&self, columns: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
+    pub(super) fn rows(&self, columns: &[Vec<Expr<'g>>]) -> Vec<Expr<'g>> {
         let rows = 0..self.graph.coordinates.len();
         rows.flat_map(|j| columns.iter().map(move |column| column[j]))
             .collect()

@@ -142,9 +142,10 @@ pub(super) fn twists<'g>(
             linear: velocity.linear,
         });
         let carried = given.into_iter().fold(carried, Twist::plus);
-        let own = frame.columns.iter().map(|column| {
-            Twist::of_column(b, column, rates[column.coordinate] * column.effort)
-        });
+        let own = frame
+            .columns
+            .iter()
+            .map(|column| Twist::of_column(b, column, rates[column.coordinate] * column.effort));
         all.push(own.fold(carried, Twist::plus));
     }
     all

@@ -6,6 +6,7 @@
 //! | `directions.rs` | the directions in which coordinates move the bodies, carried outwards |
 //! | `two_velocities.rs` | the motion of the bodies with two velocities |
 //! | `columns.rs` | the columns: products of directions and wrenches |
+//! | `transported.rs` | the columns of all parameters, some as sums of columns of the parent |
 //! | `base.rs` | the base parameters π_b = K π |
 //! | `independent.rs`, `sample.rs` | which columns are independent at random states |
 //! | `gravity.rs` | potential energy by parameters |
@@ -18,6 +19,7 @@ mod gravity;
 mod independent;
 mod parameters;
 mod sample;
+mod transported;
 mod two_velocities;
 mod wrenches;
 
@@ -61,13 +63,28 @@ impl Formulation for ParameterColumns {
             return None;
         };
         let graph = prepared.graph;
-        let b = Builder::new();
-        let outputs: Vec<Signed> = {
-            let made = outputs(&b, prepared, regressor);
-            made.into_iter().map(|e| e.signed()).collect()
+        let of = |transport: bool| {
+            let b = Builder::new();
+            let outputs: Vec<Signed> = {
+                let made = outputs(&b, prepared, regressor, transport);
+                made.into_iter().map(|e| e.signed()).collect()
+            };
+            let name = match transport {
+                true => format!("{}: some from those of the parent", self.name()),
+                false => self.name().into(),
+            };
+            Function::flat(graph, method, name, b.into_graph(), outputs)
         };
-        let name = self.name().into();
-        Some(Function::flat(graph, method, name, b.into_graph(), outputs))
+        let plain = of(false);
+        if !matches!(
+            regressor,
+            Regressor::Full | Regressor::Gravity | Regressor::Momentum
+        ) {
+            return Some(plain);
+        }
+        let transported = of(true);
+        let cheaper = transported.cost().weighted() < plain.cost().weighted();
+        Some(if cheaper { transported } else { plain })
     }
 }
 
@@ -75,16 +92,19 @@ fn outputs<'g>(
     b: &'g Builder,
     prepared: &Prepared<'_>,
     regressor: Regressor,
+    transport: bool,
 ) -> Vec<Expr<'g>> {
     let (graph, geometry) = (prepared.graph, prepared.geometry());
-    let columns = || {
-        let plan = Plan::of_kinematics(geometry, false);
-        Columns::new(b, graph, geometry, &plan, Method::Regressor(regressor))
+    let plan = Plan::of_kinematics(geometry, false);
+    let columns = || Columns::new(b, graph, geometry, &plan, Method::Regressor(regressor));
+    let whole = |motion| match transport {
+        true => columns().whole_transported(motion, &plan),
+        false => columns().whole(motion),
     };
     let base = || &prepared.base_parameters().parameters[..];
     match regressor {
-        Regressor::Full | Regressor::Gravity => columns().whole(Motion::Given),
-        Regressor::Momentum => columns().whole(Motion::Momentum),
+        Regressor::Full | Regressor::Gravity => whole(Motion::Given),
+        Regressor::Momentum => whole(Motion::Momentum),
         Regressor::Base | Regressor::BaseGravity => columns().matrix(Motion::Given, base()),
         Regressor::Adaptive => columns().matrix(Motion::TwoVelocities, base()),
         Regressor::BaseMomentum => columns().matrix(Motion::Momentum, base()),

@@ -60,7 +60,10 @@ pub(crate) fn base_parameter_formulas(graph: &Multibody) -> Vec<String> {
 fn formula(row: &Row, bodies: &[&str]) -> String {
     let mut text = String::new();
     for (&k, &factor) in row {
-        let (body, name) = (bodies[k / PARAMETERS_PER_BODY], PARAMETER_NAMES[k % PARAMETERS_PER_BODY]);
+        let (body, name) = (
+            bodies[k / PARAMETERS_PER_BODY],
+            PARAMETER_NAMES[k % PARAMETERS_PER_BODY],
+        );
         let negative = factor < Dd::ZERO;
         text += match (text.is_empty(), negative) {
             (true, false) => "",

@@ -12,6 +12,7 @@ use super::directions::Twist;
 use super::wrenches::Angular;
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
+use crate::mechanism::Motion;
 use crate::mechanism::joint::Column;
 
 /// Motion of a body with two velocities, in its axes.
@@ -45,10 +46,19 @@ pub(super) fn motions<'g>(
             Some(p) => {
                 let parent = &moving[p];
                 let omegas = [first[p].angular, second[p].angular];
-                ((parent.angular.omega_dot, parent.angular.u), parent.a, omegas)
+                (
+                    (parent.angular.omega_dot, parent.angular.u),
+                    parent.a,
+                    omegas,
+                )
             }
         };
-        let before = Before { omega_dot, u, a, omegas };
+        let before = Before {
+            omega_dot,
+            u,
+            a,
+            omegas,
+        };
         let after = [first[j].angular, second[j].angular];
         moving.push(outwards(b, frame, &before, after, rates));
     }
@@ -78,6 +88,8 @@ fn outwards<'g>(
     let turned = |v: Vec3<Expr<'g>>| frame.turn.apply_back(back * v);
     let joints = rates.map(|rates| joint_velocity(b, frame, rates));
     let carried = before.omegas.map(turned);
+    // The joint's axis in the parent's axes.
+    let u_along_axis = before.u * frame.twist.map(|x| b.constant(x)).column(2);
     let change = joint_change(b, frame);
     let coupled = half_sum(
         carried[0].cross(joints[1].angular),
@@ -88,22 +100,76 @@ fn outwards<'g>(
     let a = turned(before.a + before.u * frame.position_in_parent)
         + half_sum(across(0), across(1))
         + change.linear;
-    Bilinear {
-        angular: angular(omegas, omega_dot),
-        a,
+    let angular = match frame.axial && frame.motion != Motion::Translation {
+        true => angular_about_z(omegas, turned(u_along_axis), omega_dot.0[2]),
+        false => angular(omegas, omega_dot),
+    };
+    Bilinear { angular, a }
+}
+
+/// Returns U with its parts by the common-axis method: the points of the joint's axis have the same acceleration in both
+/// bodies, so the column `u` of U along it is that of the parent, also with two velocities.
+fn angular_about_z<'g>(
+    omegas: [Vec3<Expr<'g>>; 2],
+    u: Vec3<Expr<'g>>,
+    dz: Expr<'g>,
+) -> Angular<'g> {
+    let Products {
+        xx, zz, xy, xz, yz, ..
+    } = products(omegas);
+    let [ux, uy, uz] = u.0;
+    let (dx, dy) = (yz - uy, ux - xz);
+    let across = xx - zz;
+    let (u_xx, u_yy) = (uz + across, -(xx + zz));
+    Angular {
+        u: Mat3([
+            [u_xx, xy - dz, ux],
+            [xy + dz, u_yy, uy],
+            [xz - dy, yz + dx, uz],
+        ]),
+        differences: Vec3([uz - u_yy, across, u_yy - u_xx]),
+        omega_dot: Vec3([dx, dy, dz]),
+        products: Vec3([yz, xz, xy]),
     }
 }
 
-/// Returns U = [ω̇]× + sym([ω]×[ω']×) with its parts.
-fn angular<'g>([w, r]: [Vec3<Expr<'g>>; 2], omega_dot: Vec3<Expr<'g>>) -> Angular<'g> {
+/// The symmetric products of the components of two velocities.
+struct Products<'g> {
+    xx: Expr<'g>,
+    yy: Expr<'g>,
+    zz: Expr<'g>,
+    xy: Expr<'g>,
+    xz: Expr<'g>,
+    yz: Expr<'g>,
+}
+
+fn products<'g>([w, r]: [Vec3<Expr<'g>>; 2]) -> Products<'g> {
     let half = Dd::from_f64(0.5);
     let product = |i: usize, k: usize| match i == k {
         true => w.0[i] * r.0[i],
         false => (w.0[i] * r.0[k] + r.0[i] * w.0[k]) * half,
     };
+    Products {
+        xx: product(0, 0),
+        yy: product(1, 1),
+        zz: product(2, 2),
+        xy: product(0, 1),
+        xz: product(0, 2),
+        yz: product(1, 2),
+    }
+}
+
+/// Returns U = [ω̇]× + sym([ω]×[ω']×) with its parts.
+fn angular<'g>(omegas: [Vec3<Expr<'g>>; 2], omega_dot: Vec3<Expr<'g>>) -> Angular<'g> {
     let [dx, dy, dz] = omega_dot.0;
-    let (xx, yy, zz) = (product(0, 0), product(1, 1), product(2, 2));
-    let (xy, xz, yz) = (product(0, 1), product(0, 2), product(1, 2));
+    let Products {
+        xx,
+        yy,
+        zz,
+        xy,
+        xz,
+        yz,
+    } = products(omegas);
     Angular {
         u: Mat3([
             [-(yy + zz), xy - dz, xz + dy],
