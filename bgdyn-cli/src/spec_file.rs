@@ -266,6 +266,9 @@ pub(crate) struct GeneratorArgs {
     /// Generate the first derivatives as well
     #[arg(long)]
     derivatives: bool,
+    /// Generate regressors, the parameters of the bodies and base parameters as well
+    #[arg(long)]
+    identification: bool,
     /// For a scene: generate the Jacobian ∂ẏ/∂y and ∂ẏ/∂t as well
     #[arg(long)]
     jacobian: bool,
@@ -291,6 +294,7 @@ impl GeneratorArgs {
     pub(crate) fn options(&self) -> Result<Options> {
         Ok(Options {
             derivatives: self.derivatives,
+            identification: self.identification,
             jacobian: self.jacobian,
             canonical: self.canonical,
             methods: self.methods.clone(),

@@ -128,6 +128,12 @@ impl Build {
         self
     }
 
+    /// Sets whether regressors, the parameters of the bodies and base parameters are generated.
+    pub fn identification(mut self, wanted: bool) -> Self {
+        self.options.identification = wanted;
+        self
+    }
+
     /// Sets whether the Jacobian of a scene's rates is generated: [`Options::jacobian`].
     pub fn jacobian(mut self, wanted: bool) -> Self {
         self.options.jacobian = wanted;

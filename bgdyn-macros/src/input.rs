@@ -11,7 +11,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// All options.
-const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, verify, visibility";
+const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, identification, jacobian, methods, module, prefer, verify, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -118,6 +118,7 @@ impl Input {
     fn option(&mut self, option: &Ident, input: ParseStream<'_>) -> syn::Result<()> {
         match option.to_string().as_str() {
             "derivatives" => self.options.derivatives = input.parse::<LitBool>()?.value,
+            "identification" => self.options.identification = input.parse::<LitBool>()?.value,
             "jacobian" => self.options.jacobian = input.parse::<LitBool>()?.value,
             "canonical" => self.options.canonical = input.parse::<LitBool>()?.value,
             "formulation" => {

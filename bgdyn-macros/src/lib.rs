@@ -37,6 +37,7 @@ use input::Input;
 /// | `methods = [inverse_dynamics, pose_tool]` | these methods instead of the usual ones; `dynamics` means those of the trait `Dynamics`, which is implemented only if all of them are generated |
 /// | `frames = [tool, forearm]` | pose, velocity, Jacobian and J̇ v of these links and frames instead of the named frames and tips |
 /// | `derivatives = true` | first derivatives of inverse and forward dynamics |
+/// | `identification = true` | regressors, the parameters of the bodies, base parameters |
 /// | `jacobian = true` | for a scene: ∂ẏ/∂y, ∂ẏ/∂t and the trait `Slope`; its integration method may generate them already |
 /// | `canonical = true` | for a scene: momenta in place of velocities and the trait `Canonical`; its integration method may generate them already |
 /// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |

@@ -184,9 +184,7 @@ impl Method {
                 other => other,
             };
         }
-        if graph.closed.is_none() && graph.released.is_none() {
-            all.extend(Regressor::ALL.map(Method::Regressor));
-        }
+        all.extend(Method::regressors_of(graph).unwrap_or_default());
         if let Some(closed) = &graph.closed {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
@@ -202,6 +200,22 @@ impl Method {
         // Joints carry the loads of these loops, which no equation contains.
         all.retain(|method| graph.parallel.is_empty() || !method.loads_joints());
         all
+    }
+
+    /// Returns the regressors of a mechanism.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn regressors_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
+        match (&graph.closed, &graph.released) {
+            (Some(_), _) => Err(
+                "a mechanism with loops, wheels or knife edges has no regressors; generate those of its open tree, and combine their rows by the `velocity_map`",
+            ),
+            (_, Some(_)) => Err(
+                "a mechanism with prescribed joints has no regressors; generate those of the mechanism in which these joints are free",
+            ),
+            _ => Ok(Regressor::ALL.map(Method::Regressor).to_vec()),
+        }
     }
 
     /// Returns every method that a mechanism without loops and prescribed joints can have.
@@ -421,17 +435,7 @@ fn without_multipliers(graph: &BondGraph, name: &str) -> Option<String> {
 
 /// Returns why a mechanism does not have this regressor, if it is the name of one.
 fn without_regressor(graph: &BondGraph, name: &str) -> Option<String> {
-    let known = Regressor::ALL
-        .iter()
-        .any(|regressor| regressor.name() == name);
-    let why = match (&graph.closed, &graph.released) {
-        (Some(_), _) => "a mechanism with loops, wheels or knife edges",
-        (_, Some(_)) => "a mechanism with prescribed joints",
-        _ => return None,
-    };
-    known.then(|| {
-        format!(
-            "`{name}`: {why} has no regressors; generate them for its open tree, and combine its rows by the `velocity_map`"
-        )
-    })
+    let known = Regressor::ALL.iter().any(|of| of.name() == name);
+    let why = Method::regressors_of(graph).err().filter(|_| known)?;
+    Some(format!("`{name}`: {why}"))
 }

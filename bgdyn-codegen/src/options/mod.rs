@@ -34,6 +34,8 @@ pub struct Options {
     pub prefer: Preference,
     /// Whether to generate first derivatives of inverse and forward dynamics.
     pub derivatives: bool,
+    /// Whether to generate the regressors, the parameters of the bodies and the base parameters.
+    pub identification: bool,
     /// Whether to generate the Jacobian of a scene's rates, if its integrator does not need it anyway.
     pub jacobian: bool,
     /// Whether to generate the canonical form of a scene, with the same condition.
@@ -57,6 +59,7 @@ impl Default for Options {
             formulation: None,
             prefer: Preference::default(),
             derivatives: false,
+            identification: false,
             jacobian: false,
             canonical: false,
             methods: None,
@@ -91,6 +94,15 @@ impl Options {
         }
         if self.derivatives {
             wanted.extend(Method::derivatives_of(graph));
+        }
+        if self.identification {
+            match Method::regressors_of(graph) {
+                Ok(regressors) => wanted.extend(regressors),
+                Err(why) => {
+                    let message = format!("`identification`: {why}");
+                    unknown.push(UnknownName::whole("identification", message));
+                }
+            }
         }
         if unknown.is_empty() {
             let all = Method::possible_of(graph).into_iter();
@@ -207,6 +219,11 @@ impl Options {
             (self.methods.is_some(), "methods", "a scene has its own"),
             (self.frames.is_some(), "frames", "see the key `outputs`"),
             (self.derivatives, "derivatives", "see `jacobian`"),
+            (
+                self.identification,
+                "identification",
+                "generate the regressors of its mechanism",
+            ),
             (
                 !self.bundles.is_empty(),
                 "bundle",

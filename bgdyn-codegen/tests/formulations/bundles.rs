@@ -148,6 +148,7 @@ fn copy(model: &Model) -> Model {
         assembles: model.assembles,
         functions: model.functions.clone(),
         bundles: Vec::new(),
+        base_parameters: Vec::new(),
     }
 }
 

@@ -13,4 +13,5 @@ mod noisy_axes;
 mod parameters;
 mod properties;
 mod regressions;
+mod regressors;
 mod singular;

@@ -3,6 +3,7 @@
 //! numbers; random numbers never meet them.
 
 use bgdyn_codegen::formulation;
+use bgdyn_codegen::method::Regressor;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::selection::model;
@@ -92,6 +93,32 @@ fn tidy(seed: u64) -> String {
         );
     }
     text
+}
+
+/// Checks all regressors of joints of every type, on bases at rest and moving ones.
+fn has_regressors(seed: u64) {
+    let text = tidy(seed);
+    let robot = Robot::read(&text);
+    let options = Options {
+        methods: Some(Vec::new()),
+        identification: true,
+        ..Options::default()
+    };
+    let model = model(robot.mechanism, &options).expect("a model");
+    assert_eq!(model.functions.len(), Regressor::ALL.len());
+    let found = check_model(&model);
+    assert!(found.is_empty(), "{text}\n{}", explain(&found));
+}
+
+#[test]
+fn tidy_mechanisms_have_regressors() {
+    (0..24).for_each(has_regressors);
+}
+
+#[test]
+#[ignore = "a long run, see `.ci/long`"]
+fn three_hundred_tidy_mechanisms_have_regressors() {
+    (1000..1300).for_each(has_regressors);
 }
 
 fn accepted(seed: u64) {

@@ -30,6 +30,7 @@ fn whole(text: &str, way: Way) -> Model {
         assembles: false,
         functions: functions.collect(),
         bundles: Vec::new(),
+        base_parameters: Vec::new(),
         bond_graph: (*robot.graph).clone(),
         mechanism: robot.mechanism,
     }

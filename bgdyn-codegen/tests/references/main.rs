@@ -4,5 +4,6 @@
 mod common;
 mod golden;
 mod golden_poses;
+mod golden_regressors;
 mod lagrange_oracle;
 mod paper_oracle;

@@ -43,6 +43,8 @@ pub(super) struct Entry {
 pub(in crate::formulation) struct BaseParameter {
     /// The entries with this value: its column is the sum of theirs.
     pub(super) entries: Vec<Entry>,
+    /// Whether it is the entries' value with the opposite sign: axes of bodies may be opposite to those of links.
+    pub(super) negative: bool,
     /// Its row of K.
     pub row: Row,
 }
@@ -71,8 +73,20 @@ impl BaseParameters {
                 }
             }
         }
-        BaseParameters {
-            parameters: parameters.into_iter().flatten().collect(),
+        let mut parameters: Vec<BaseParameter> = parameters.into_iter().flatten().collect();
+        parameters.iter_mut().for_each(BaseParameter::turn);
+        BaseParameters { parameters }
+    }
+}
+
+impl BaseParameter {
+    /// Turns the sign of a first moment or a product of inertia whose first coefficient is negative.
+    fn turn(&mut self) {
+        let signed = |entry: &Entry| matches!(entry.index, 2..=4 | 8..=10);
+        let negative = self.row.values().next().is_some_and(|x| *x < Dd::ZERO);
+        if negative && self.entries.iter().all(signed) {
+            self.negative = true;
+            self.row.values_mut().for_each(|x| *x = -*x);
         }
     }
 }
@@ -106,6 +120,7 @@ fn transported(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Vec<BaseP
                 Some(other) => other.entries.push(entry),
                 None => found.push(BaseParameter {
                     entries: vec![entry],
+                    negative: false,
                     row,
                 }),
             }

@@ -109,7 +109,10 @@ impl<'a, 'g> Columns<'a, 'g> {
                     let wrench = &wrenches[entry.body][entry.index];
                     self.add(&mut column, &directions[entry.body], wrench);
                 }
-                column
+                match parameter.negative {
+                    true => column.into_iter().map(|x| -x).collect(),
+                    false => column,
+                }
             })
             .collect();
         self.rows(&columns)
@@ -126,7 +129,8 @@ impl<'a, 'g> Columns<'a, 'g> {
         let entry = |body: usize, index: usize| twists[body].component(&wrenches[body][index]);
         let products = parameters.iter().map(|parameter| {
             let entries = parameter.entries.iter();
-            entries.fold(self.b.zero(), |sum, e| sum + entry(e.body, e.index))
+            let sum = entries.fold(self.b.zero(), |sum, e| sum + entry(e.body, e.index));
+            if parameter.negative { -sum } else { sum }
         });
         products.collect()
     }

@@ -28,11 +28,18 @@ pub(crate) use parameters::base_parameter_formulas;
 
 use super::plan::Plan;
 use crate::bond_graph::{LinkFrame, Multibody};
-use crate::expr::{Builder, Expr, Signed};
+use crate::expr::{Builder, Expr, Signed, evaluate};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::{Method, Regressor};
 use columns::{Columns, Motion};
+use sample::random_states;
+
+/// Number of states at which an output that is always zero is found.
+const STATES: usize = 4;
+
+/// A sum below this is the rounding error of a zero in double-double.
+const ZERO: f64 = 1e-24;
 
 /// The columns of regressors.
 pub(in crate::formulation) struct ParameterColumns;
@@ -69,6 +76,7 @@ impl Formulation for ParameterColumns {
                 let made = outputs(&b, prepared, regressor, transport);
                 made.into_iter().map(|e| e.signed()).collect()
             };
+            let outputs = without_hidden_zeros(&b, graph, regressor, outputs);
             let name = match transport {
                 true => format!("{}: some from those of the parent", self.name()),
                 false => self.name().into(),
@@ -86,6 +94,31 @@ impl Formulation for ParameterColumns {
         let cheaper = transported.cost().weighted() < plain.cost().weighted();
         Some(if cheaper { transported } else { plain })
     }
+}
+
+/// Returns the outputs with a zero in place of each sum that is zero at random states, like the effort of gravity about a
+/// vertical axis.
+fn without_hidden_zeros(
+    b: &Builder,
+    graph: &Multibody,
+    regressor: Regressor,
+    outputs: Vec<Signed>,
+) -> Vec<Signed> {
+    if regressor.arguments().is_empty() || regressor == Regressor::BaseParameters {
+        return outputs;
+    }
+    let mut largest = vec![0.0_f64; outputs.len()];
+    for state in random_states(graph, STATES) {
+        let values = b.with_graph(|graph| evaluate(graph, &outputs, &state, &mut None));
+        for (most, value) in largest.iter_mut().zip(values) {
+            *most = most.max(value.to_f64().abs());
+        }
+    }
+    let zero = b.zero().signed();
+    let pairs = outputs.into_iter().zip(largest);
+    pairs
+        .map(|(output, size)| if size < ZERO { zero } else { output })
+        .collect()
 }
 
 fn outputs<'g>(

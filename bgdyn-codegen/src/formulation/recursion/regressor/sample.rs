@@ -26,7 +26,7 @@ pub(super) fn random_states(graph: &Multibody, count: usize) -> Vec<Inputs<Dd>> 
                 .map(|_| Dd::from_f64(size * random.signed()))
                 .collect()
         };
-        let (v, a) = (all(2.0), all(5.0));
+        let (v, a, x, u) = (all(2.0), all(5.0), all(2.0), all(1.0));
         let mut parameters: Vec<Dd> = graph.parameters.iter().map(|p| p.default).collect();
         for p in graph.base.iter().flat_map(BaseMotion::parameters) {
             parameters[p.0] = Dd::from_f64(5.0 * random.signed());
@@ -35,6 +35,8 @@ pub(super) fn random_states(graph: &Multibody, count: usize) -> Vec<Inputs<Dd>> 
             q,
             v,
             a,
+            x,
+            u,
             parameters,
             ..Inputs::default()
         }

@@ -42,7 +42,10 @@ pub(super) fn motions<'g>(
         let at_rest = || (zero(b), Mat3([[b.zero(); 3]; 3]));
         let ((omega_dot, u), a, omegas) = match frame.parent {
             None if frame.given => (at_rest(), zero(b), [zero(b); 2]),
-            None => (at_rest(), -frames.gravity[j], [zero(b); 2]),
+            None => {
+                let twist = frame.twist.map(|x| b.constant(x));
+                (at_rest(), twist * -frames.gravity[j], [zero(b); 2])
+            }
             Some(p) => {
                 let parent = &moving[p];
                 let omegas = [first[p].angular, second[p].angular];

@@ -1,0 +1,163 @@
+//! Tests regressors: laws on random trees with noisy numbers, run-time parameters and rotors; their numbers of base
+//! parameters; counts of operations.
+
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::{Method, Regressor};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::selection::model;
+use bgdyn_codegen::verify::{check_functions, check_model, explain};
+use nalgebra::DMatrix;
+
+use crate::common::random::Draft;
+use crate::common::rng::Rng;
+use crate::common::{Robot, golden};
+
+/// Singular values of independent columns are larger than this share of the largest one, others smaller than
+/// [`DEPENDENT`].
+const INDEPENDENT: f64 = 1e-6;
+const DEPENDENT: f64 = 1e-12;
+
+fn regressors() -> Options {
+    Options {
+        methods: Some(Vec::new()),
+        identification: true,
+        ..Options::default()
+    }
+}
+
+fn passes(robot: Robot, what: &str) {
+    let model = model(robot.mechanism, &regressors()).expect("a model");
+    let found = check_model(&model);
+    assert!(found.is_empty(), "{what}\n{}", explain(&found));
+}
+
+#[test]
+fn regressors_of_random_trees_equal_equation_6() {
+    let mut rng = Rng::new(101);
+    for _ in 0..24 {
+        let text = Draft::random(&mut rng, 6).yaml();
+        passes(Robot::read(&text, None), &text);
+    }
+}
+
+#[test]
+fn regressors_of_the_golden_robots_equal_equation_6() {
+    for (name, robot) in golden::robots_up_to(8) {
+        passes(robot, &name);
+    }
+}
+
+#[test]
+fn every_turned_sign_is_refused() {
+    let robot = golden::robot("puma560");
+    let model = model(robot.mechanism, &regressors()).expect("a model");
+    for function in &model.functions {
+        for k in (0..function.output_count()).step_by(7) {
+            let mut wrong: Function = function.clone();
+            let last = wrong.blocks.last_mut().expect("a block");
+            let output = &mut last.outputs[k];
+            if wrong.graph.constant_of(*output).is_some() {
+                continue;
+            }
+            output.negative = !output.negative;
+            let found = check_functions("puma560", &model.bond_graph, &[wrong]);
+            assert_eq!(found.len(), 1, "{} output {k}", function.name);
+        }
+    }
+}
+
+/// Returns the rank of the columns of all parameters at random states, each scaled to length 1; `None` where axes that are
+/// almost parallel leave it unclear in `f64`.
+fn rank(robot: &Robot) -> Option<usize> {
+    let function = robot.emitted(Method::Regressor(Regressor::Full));
+    let (nv, columns) = (robot.nv(), 10 * robot.graph.moving_links().len());
+    let states = 2 * columns / nv + 8;
+    let mut rng = Rng::new(7);
+    let mut rows: Vec<f64> = Vec::new();
+    for _ in 0..states {
+        let mut any = |size: f64| (0..nv).map(|_| rng.within(size)).collect::<Vec<f64>>();
+        let (q, v, a) = (any(3.0), any(2.0), any(4.0));
+        rows.extend(
+            function
+                .evaluate(Inputs {
+                    q,
+                    v,
+                    a,
+                    ..Inputs::default()
+                })
+                .0,
+        );
+    }
+    let mut all = DMatrix::from_row_slice(states * nv, columns, &rows);
+    let longest = all.column_iter().map(|c| c.norm()).fold(0.0, f64::max);
+    for mut column in all.column_iter_mut() {
+        // A column of rounding errors is zero.
+        let length = column.norm();
+        column *= if length > DEPENDENT * longest {
+            1.0 / length
+        } else {
+            0.0
+        };
+    }
+    let values = all.singular_values();
+    let shares: Vec<f64> = values.iter().map(|x| x / values[0]).collect();
+    let unclear = |x: &f64| (DEPENDENT..INDEPENDENT).contains(x);
+    let kept = shares.iter().filter(|x| **x >= INDEPENDENT);
+    (!shares.iter().any(unclear)).then_some(kept.count())
+}
+
+#[test]
+fn as_many_base_parameters_as_independent_columns() {
+    let mut checked = 0;
+    for (name, robot) in golden::robots_up_to(8) {
+        let base = robot.emitted(Method::Regressor(Regressor::BaseParameters));
+        assert_eq!(Some(base.output_count()), rank(&robot), "{name}");
+        checked += 1;
+    }
+    let mut rng = Rng::new(31);
+    for _ in 0..24 {
+        let text = Draft::random(&mut rng, 6).yaml();
+        let robot = Robot::read(&text, None);
+        if robot.nv() == 0 {
+            continue;
+        }
+        let base = robot.emitted(Method::Regressor(Regressor::BaseParameters));
+        let Some(rank) = rank(&robot) else {
+            continue;
+        };
+        assert_eq!(base.output_count(), rank, "{text}");
+        checked += 1;
+    }
+    assert!(checked > 25, "{checked}");
+}
+
+/// Multiplications and additions by robot, before loops and blocks: base regressor, that of two velocities, Y_bᵀ s, all
+/// parameters.
+const COUNTS: [(&str, [usize; 4]); 6] = [
+    ("scara_rrpr", [59, 61, 62, 68]),
+    ("stanford_gen", [535, 587, 372, 598]),
+    ("puma_gen", [626, 678, 443, 723]),
+    ("ur5_gen", [519, 570, 425, 599]),
+    ("panda_gen", [1087, 1159, 522, 1303]),
+    ("iiwa_gen", [1003, 1075, 489, 1146]),
+];
+
+#[test]
+fn counts_do_not_grow() {
+    let methods = [
+        Regressor::Base,
+        Regressor::Adaptive,
+        Regressor::TransposedTimes,
+        Regressor::Full,
+    ];
+    for (name, known) in COUNTS {
+        let robot = golden::robot(name);
+        let counts = methods.map(|of| {
+            let operations = robot.emitted(Method::Regressor(of)).operations();
+            assert_eq!(operations.div + operations.sqrt, 0);
+            operations.mul + operations.add
+        });
+        assert_eq!(counts, known, "{name}");
+    }
+}
