@@ -76,7 +76,11 @@ fn random_rows(model: &Model<'_>, free: &[Unknown]) -> DMatrix<f64> {
     let mut of_bodies = DMatrix::zeros(n, BODY_PARAMETERS * model.rows.bodies());
     for s in 0..states {
         let spread = |linear: bool| if linear { 0.5 } else { 2.5 };
-        let q: Vec<f64> = model.joints.iter().map(|j| random.within(spread(j.linear))).collect();
+        let q: Vec<f64> = model
+            .joints
+            .iter()
+            .map(|j| random.within(spread(j.linear)))
+            .collect();
         let v: Vec<f64> = (0..n).map(|_| random.within(2.0)).collect();
         let a: Vec<f64> = (0..n).map(|_| random.within(4.0)).collect();
         model.rows.effort_rows(&q, &v, &a, &mut of_bodies);

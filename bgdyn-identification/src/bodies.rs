@@ -37,7 +37,9 @@ impl Cone {
     /// Returns C Σ Cᵀ.
     fn relative(&self, x: &DVector<f64>) -> Matrix4<f64> {
         let terms = self.units.iter().enumerate();
-        terms.fold(Matrix4::zeros(), |sum, (k, unit)| sum + unit * x[self.first + k])
+        terms.fold(Matrix4::zeros(), |sum, (k, unit)| {
+            sum + unit * x[self.first + k]
+        })
     }
 
     /// Returns the Hessian ½ ∂²|C Σ Cᵀ − 1|² of the distance, and half the negative gradient at zero.
@@ -88,7 +90,9 @@ impl BodyProblem {
             for _ in 0..STEPS {
                 let (mut g, mut h) = (2.0 * (&hessian * &x - &linear), 2.0 * &hessian);
                 self.add_barrier(&x, mu, &mut g, &mut h);
-                let Some(direction) = newton(&h, &g) else { break };
+                let Some(direction) = newton(&h, &g) else {
+                    break;
+                };
                 let decrement = -g.dot(&direction);
                 steps += 1;
                 if decrement < 1e-9 * mu {
@@ -114,7 +118,12 @@ impl BodyProblem {
             }
             mu /= 10.0;
         }
-        Bodies { values: x, hessian, of_file, steps }
+        Bodies {
+            values: x,
+            hessian,
+            of_file,
+            steps,
+        }
     }
 
     fn prior_terms(&self) -> (DMatrix<f64>, DVector<f64>) {
@@ -123,8 +132,11 @@ impl BodyProblem {
         for cone in &self.cones {
             let (own, towards) = cone.distance();
             let f = cone.first;
-            hessian.fixed_view_mut::<10, 10>(f, f).copy_from(&(self.prior * own));
-            pull.fixed_rows_mut::<10>(f).copy_from(&(self.prior * towards));
+            hessian
+                .fixed_view_mut::<10, 10>(f, f)
+                .copy_from(&(self.prior * own));
+            pull.fixed_rows_mut::<10>(f)
+                .copy_from(&(self.prior * towards));
         }
         (hessian, pull)
     }
@@ -152,7 +164,9 @@ impl BodyProblem {
     fn add_barrier(&self, x: &DVector<f64>, mu: f64, g: &mut DVector<f64>, h: &mut DMatrix<f64>) {
         for cone in &self.cones {
             let inside = cone.relative(x) - Matrix4::identity() * SMALLEST;
-            let Some(inverse) = inside.try_inverse() else { continue };
+            let Some(inverse) = inside.try_inverse() else {
+                continue;
+            };
             let turned = cone.units.map(|unit| inverse * unit);
             for i in 0..BODY_PARAMETERS {
                 g[cone.first + i] -= mu * turned[i].trace();
@@ -194,8 +208,17 @@ mod tests {
 
     fn problem(row: [f64; 10], y: f64, prior: f64) -> Bodies {
         let cone = Cone::new(0, &file()).expect("a body");
-        let (rows, y) = (DMatrix::from_row_slice(1, 10, &row), DVector::from_element(1, y));
-        let problem = BodyProblem { rows, y, cones: vec![cone], positive: vec![], prior };
+        let (rows, y) = (
+            DMatrix::from_row_slice(1, 10, &row),
+            DVector::from_element(1, y),
+        );
+        let problem = BodyProblem {
+            rows,
+            y,
+            cones: vec![cone],
+            positive: vec![],
+            prior,
+        };
         problem.solve(DVector::from_column_slice(file().as_slice()))
     }
 

@@ -56,14 +56,19 @@ pub fn even(log: &Log) -> EvenLog {
     let resample = |x: &[f64], cubic: bool| -> Vec<f64> {
         let mut at = 0;
         let times = (0..count).map(|i| log.time[0] + i as f64 * step);
-        times.map(|t| interpolate(&log.time, x, t, &mut at, cubic)).collect()
+        times
+            .map(|t| interpolate(&log.time, x, t, &mut at, cubic))
+            .collect()
     };
     let cleaned: Vec<(Vec<f64>, usize)> = log.tau.iter().map(|tau| without_spikes(tau)).collect();
     EvenLog {
         step,
         start: log.time[0],
         q: log.q.iter().map(|q| resample(q, cubic)).collect(),
-        tau: cleaned.iter().map(|(tau, _)| resample(tau, false)).collect(),
+        tau: cleaned
+            .iter()
+            .map(|(tau, _)| resample(tau, false))
+            .collect(),
         spikes: cleaned.iter().map(|(_, count)| *count).collect(),
     }
 }
@@ -74,7 +79,7 @@ fn without_spikes(x: &[f64]) -> (Vec<f64>, usize) {
         .map(|i| median(x[i.saturating_sub(HALF)..(i + HALF + 1).min(x.len())].to_vec()))
         .collect();
     let off: Vec<f64> = x.iter().zip(&smooth).map(|(x, s)| (x - s).abs()).collect();
-    let bound = SPIKE * 1.4826 * median(off.clone()) + 1e-12;
+    let bound = SPIKE * 1.4826 * median(off.clone()) + 1e-3 * median(x.iter().map(|x| x.abs()).collect());
     let mut clean = x.to_vec();
     let mut spikes = 0;
     for i in 0..x.len() {
@@ -112,7 +117,9 @@ fn interpolate(times: &[f64], x: &[f64], t: f64, at: &mut usize, cubic: bool) ->
     let four = i - 1..i + 3;
     let weight = |k: usize| -> f64 {
         let others = four.clone().filter(|j| *j != k);
-        others.map(|j| (t - times[j]) / (times[k] - times[j])).product()
+        others
+            .map(|j| (t - times[j]) / (times[k] - times[j]))
+            .product()
     };
     four.clone().map(|k| weight(k) * x[k]).sum()
 }
@@ -132,7 +139,9 @@ mod tests {
 
     #[test]
     fn uneven_stamps_of_a_cubic_are_evened_exactly() {
-        let time: Vec<f64> = (0..60).map(|i| f64::from(i) + 0.2 * f64::from(i * 7 % 5 - 2)).collect();
+        let time: Vec<f64> = (0..60)
+            .map(|i| f64::from(i) + 0.2 * f64::from(i * 7 % 5 - 2))
+            .collect();
         let x: Vec<f64> = time.iter().map(|t| t * t * t - 4.0 * t).collect();
         let mut at = 0;
         for t in [5.0, 17.3, 40.0] {

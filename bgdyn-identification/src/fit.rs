@@ -37,9 +37,19 @@ pub struct Fit {
 
 /// Fits base parameters to efforts `tau`. `columns` are the base columns of the samples, `file` the numbers that
 /// invisible parameters keep. Rows of joints slower than `still` have no weight.
-pub fn fit(samples: &Samples, columns: &DMatrix<f64>, tau: &[f64], file: &DVector<f64>, still: f64) -> Fit {
+pub fn fit(
+    samples: &Samples,
+    columns: &DMatrix<f64>,
+    tau: &[f64],
+    file: &DVector<f64>,
+    still: f64,
+) -> Fit {
     let n = samples.joints;
-    let used: Vec<f64> = samples.v.iter().map(|v| f64::from(v.abs() >= still)).collect();
+    let used: Vec<f64> = samples
+        .v
+        .iter()
+        .map(|v| f64::from(v.abs() >= still))
+        .collect();
     let mut sigma = vec![1.0; n];
     let mut huber = used.clone();
     let mut last = None;
@@ -65,27 +75,47 @@ pub fn fit(samples: &Samples, columns: &DMatrix<f64>, tau: &[f64], file: &DVecto
 /// Returns τ − Y π.
 pub fn residuals(columns: &DMatrix<f64>, tau: &[f64], values: &DVector<f64>) -> Vec<f64> {
     let predicted = columns * values;
-    tau.iter().zip(predicted.iter()).map(|(t, p)| t - p).collect()
+    tau.iter()
+        .zip(predicted.iter())
+        .map(|(t, p)| t - p)
+        .collect()
 }
 
 fn weighted(columns: &DMatrix<f64>, tau: &[f64], weights: &[f64], file: &DVector<f64>) -> Fit {
     let p = columns.ncols();
     let mut scales = vec![0.0; p];
     for (c, scale) in scales.iter_mut().enumerate() {
-        let square = columns.column(c).iter().zip(weights).map(|(x, w)| (x * w).powi(2));
+        let column = columns.column(c);
+        let square = column.iter().zip(weights).map(|(x, w)| (x * w).powi(2));
         *scale = square.sum::<f64>().sqrt();
     }
-    let inverse: Vec<f64> = scales.iter().map(|s| if *s > 0.0 { 1.0 / s } else { 0.0 }).collect();
+    let inverse: Vec<f64> = scales
+        .iter()
+        .map(|s| if *s > 0.0 { 1.0 / s } else { 0.0 })
+        .collect();
     let mut triangle = Triangle::new(p);
     for (i, weight) in weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
         let row = columns.row(i);
-        triangle.push(row.iter().zip(&inverse).map(|(x, s)| x * s), tau[i], *weight);
+        triangle.push(
+            row.iter().zip(&inverse).map(|(x, s)| x * s),
+            tau[i],
+            *weight,
+        );
     }
     let (r, y) = triangle.finish();
     let order: Vec<usize> = (0..p).collect();
     let visible = independent(&r, &order, VISIBLE);
     let (values, condition) = solve(&r, &y, &scales, &visible, file);
-    Fit { values, visible, sigma: Vec::new(), weights: weights.to_vec(), scales, r, y, condition }
+    Fit {
+        values,
+        visible,
+        sigma: Vec::new(),
+        weights: weights.to_vec(),
+        scales,
+        r,
+        y,
+        condition,
+    }
 }
 
 /// Solves R z = y for the visible parameters, with the others as in the file.

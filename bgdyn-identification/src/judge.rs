@@ -22,11 +22,19 @@ pub struct JointResidual {
 
 /// Judges predicted efforts, in the order of the samples.
 pub fn judge(samples: &Samples, predicted: &[f64]) -> Vec<JointResidual> {
-    (0..samples.joints).map(|j| judge_joint(samples, predicted, j)).collect()
+    (0..samples.joints)
+        .map(|j| judge_joint(samples, predicted, j))
+        .collect()
 }
 
 fn judge_joint(samples: &Samples, predicted: &[f64], j: usize) -> JointResidual {
-    let own = |x: &[f64]| x.iter().skip(j).step_by(samples.joints).copied().collect::<Vec<f64>>();
+    let own = |x: &[f64]| {
+        x.iter()
+            .skip(j)
+            .step_by(samples.joints)
+            .copied()
+            .collect::<Vec<f64>>()
+    };
     let (tau, predicted) = (own(&samples.tau), own(predicted));
     let rest: Vec<f64> = tau.iter().zip(&predicted).map(|(t, p)| t - p).collect();
     let square: f64 = rest.iter().map(|r| r * r).sum();

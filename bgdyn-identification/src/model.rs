@@ -5,8 +5,9 @@ use nalgebra::{DMatrix, SMatrix, SVector};
 /// Parameters of a body.
 pub const BODY_PARAMETERS: usize = 10;
 /// Their names, in order: mass, first moments, tensor about the origin of the link's frame, in link axes.
-pub const PARAMETER_NAMES: [&str; BODY_PARAMETERS] =
-    ["m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz"];
+pub const PARAMETER_NAMES: [&str; BODY_PARAMETERS] = [
+    "m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz",
+];
 /// Names of the columns of a joint, in order.
 pub const JOINT_COLUMNS: [&str; 4] = ["rotor", "viscous", "coulomb", "offset"];
 
@@ -119,8 +120,10 @@ impl Model<'_> {
     pub fn rows_of_links(&self, of_bodies: &DMatrix<f64>) -> DMatrix<f64> {
         let mut rows = DMatrix::zeros(of_bodies.nrows(), BODY_PARAMETERS * self.links.len());
         for (l, link) in self.links.iter().enumerate() {
-            let own = of_bodies.columns(BODY_PARAMETERS * link.body, BODY_PARAMETERS) * link.in_body;
-            rows.columns_mut(BODY_PARAMETERS * l, BODY_PARAMETERS).copy_from(&own);
+            let own =
+                of_bodies.columns(BODY_PARAMETERS * link.body, BODY_PARAMETERS) * link.in_body;
+            rows.columns_mut(BODY_PARAMETERS * l, BODY_PARAMETERS)
+                .copy_from(&own);
         }
         rows
     }

@@ -36,7 +36,12 @@ pub struct Samples {
 }
 
 /// Returns the filtered rows of a log; tells the finished share to `progress`.
-pub fn prepare(model: &Model<'_>, log: &EvenLog, cut: f64, progress: &mut dyn FnMut(f64)) -> Samples {
+pub fn prepare(
+    model: &Model<'_>,
+    log: &EvenLog,
+    cut: f64,
+    progress: &mut dyn FnMut(f64),
+) -> Samples {
     let sections = butterworth(cut, 1.0 / log.step);
     let pad = (MEMORY / (cut * log.step)) as usize;
     let smooth = |x: &[Vec<f64>]| -> Vec<Vec<f64>> {
@@ -69,13 +74,20 @@ pub fn prepare(model: &Model<'_>, log: &EvenLog, cut: f64, progress: &mut dyn Fn
         done = until;
         progress(done as f64 / kept.len() as f64);
     }
-    let pick = |x: &[Vec<f64>]| kept.iter().flat_map(|&i| x.iter().map(move |x| x[i])).collect();
+    let pick = |x: &[Vec<f64>]| {
+        kept.iter()
+            .flat_map(|&i| x.iter().map(move |x| x[i]))
+            .collect()
+    };
     Samples {
         joints: n,
         tau: pick(&tau),
         q: pick(&motion.q),
         v: pick(&motion.v),
-        time: kept.iter().map(|&i| log.start + i as f64 * log.step).collect(),
+        time: kept
+            .iter()
+            .map(|&i| log.start + i as f64 * log.step)
+            .collect(),
         step: every as f64 * log.step,
         rows: of_links(model, &rows),
     }
@@ -116,13 +128,21 @@ impl<'a> Series<'a> {
         let count = range.len();
         let filled = of_bodies.iter_mut().filter(|s| !s.is_empty());
         filled.for_each(|s| s.resize(count, 0.0));
-        Series { motion, range, of_bodies }
+        Series {
+            motion,
+            range,
+            of_bodies,
+        }
     }
 
     /// Returns column, joint and series: those of the bodies at first, then those of the joints.
     fn all(&self, columns: usize) -> impl Iterator<Item = (usize, usize, Vec<f64>)> + '_ {
         let n = self.motion.q.len();
-        let bodies = self.of_bodies.iter().enumerate().filter(|(_, x)| !x.is_empty());
+        let bodies = self
+            .of_bodies
+            .iter()
+            .enumerate()
+            .filter(|(_, x)| !x.is_empty());
         let bodies = bodies.map(move |(k, x)| (k / n, k % n, x.clone()));
         let joints = (0..4).flat_map(move |c| (0..n).map(move |j| (c, j)));
         let joints = joints.map(move |(c, j)| {
@@ -142,6 +162,7 @@ fn of_links(model: &Model<'_>, rows: &DMatrix<f64>) -> DMatrix<f64> {
     let of_links = model.rows_of_links(&rows.columns(0, bodies).into());
     let links = of_links.ncols();
     let mut all = of_links.resize_horizontally(links + joints, 0.0);
-    all.columns_mut(links, joints).copy_from(&rows.columns(bodies, joints));
+    all.columns_mut(links, joints)
+        .copy_from(&rows.columns(bodies, joints));
     all
 }

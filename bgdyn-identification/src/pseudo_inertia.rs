@@ -26,8 +26,16 @@ pub fn parameters(sigma: &Matrix4<f64>) -> Parameters {
     let i = Matrix3::from_diagonal_element(d.trace()) - d;
     let h = [sigma[(0, 3)], sigma[(1, 3)], sigma[(2, 3)]];
     Parameters::from([
-        sigma[(3, 3)], h[0], h[1], h[2],
-        i[(0, 0)], i[(0, 1)], i[(1, 1)], i[(0, 2)], i[(1, 2)], i[(2, 2)],
+        sigma[(3, 3)],
+        h[0],
+        h[1],
+        h[2],
+        i[(0, 0)],
+        i[(0, 1)],
+        i[(1, 1)],
+        i[(0, 2)],
+        i[(1, 2)],
+        i[(2, 2)],
     ])
 }
 
@@ -55,15 +63,27 @@ pub fn transport(rotation: &Matrix3<f64>, translation: &Vector3<f64>) -> Transpo
 pub fn from_centre(mass: f64, c: &Vector3<f64>, tensor: &Matrix3<f64>) -> Parameters {
     let i = tensor + steiner(mass, c);
     Parameters::from([
-        mass, mass * c.x, mass * c.y, mass * c.z,
-        i[(0, 0)], i[(0, 1)], i[(1, 1)], i[(0, 2)], i[(1, 2)], i[(2, 2)],
+        mass,
+        mass * c.x,
+        mass * c.y,
+        mass * c.z,
+        i[(0, 0)],
+        i[(0, 1)],
+        i[(1, 1)],
+        i[(0, 2)],
+        i[(1, 2)],
+        i[(2, 2)],
     ])
 }
 
 /// Returns mass, centre and tensor about it. Without mass the centre is the origin.
 pub fn to_centre(p: &Parameters) -> (f64, Vector3<f64>, Matrix3<f64>) {
     let h = Vector3::new(p[1], p[2], p[3]);
-    let c = if p[0] == 0.0 { Vector3::zeros() } else { h / p[0] };
+    let c = if p[0] == 0.0 {
+        Vector3::zeros()
+    } else {
+        h / p[0]
+    };
     let origin = Matrix3::new(p[4], p[5], p[7], p[5], p[6], p[8], p[7], p[8], p[9]);
     (p[0], c, origin - steiner(p[0], &c))
 }
@@ -89,7 +109,8 @@ pub fn made_definite(p: &Parameters) -> (Parameters, bool) {
         return (*p, false);
     }
     let raised = eigen.eigenvalues.map(|x| x.max(RAISED * trace));
-    let sigma = eigen.eigenvectors * Matrix4::from_diagonal(&raised) * eigen.eigenvectors.transpose();
+    let sigma =
+        eigen.eigenvectors * Matrix4::from_diagonal(&raised) * eigen.eigenvectors.transpose();
     (parameters(&sigma), true)
 }
 
@@ -118,7 +139,11 @@ mod tests {
         let p = Vector3::new(0.2, 0.5, -0.4);
         let moved = transport(&rotation, &p) * box_parameters();
         let (mass, c, tensor) = to_centre(&box_parameters());
-        let expected = from_centre(mass, &(rotation * c + p), &(rotation * tensor * rotation.transpose()));
+        let expected = from_centre(
+            mass,
+            &(rotation * c + p),
+            &(rotation * tensor * rotation.transpose()),
+        );
         assert!((moved - expected).amax() < 1e-14);
     }
 

@@ -24,7 +24,8 @@ const HIGHEST: f64 = 0.2;
 pub fn default_cut(log: &EvenLog) -> f64 {
     let rate = 1.0 / log.step;
     let cuts = log.q.iter().map(|q| cut_of(q, rate));
-    cuts.fold(0.0, f64::max).clamp(1.0_f64.min(HIGHEST * rate), HIGHEST * rate)
+    cuts.fold(0.0, f64::max)
+        .clamp(1.0_f64.min(HIGHEST * rate), HIGHEST * rate)
 }
 
 fn cut_of(q: &[f64], rate: f64) -> f64 {
@@ -77,7 +78,13 @@ mod tests {
         let step = TAU / 131_072.0;
         let q = |i: i32| 0.8 * (TAU * 0.5 * f64::from(i) / 500.0).sin();
         let q: Vec<f64> = (0..10_000).map(|i| (q(i) / step).round() * step).collect();
-        let log = EvenLog { step: 2e-3, start: 0.0, q: vec![q], tau: vec![], spikes: vec![] };
+        let log = EvenLog {
+            step: 2e-3,
+            start: 0.0,
+            q: vec![q],
+            tau: vec![],
+            spikes: vec![],
+        };
         let cut = default_cut(&log);
         assert!((2.4..3.2).contains(&cut), "{cut} Hz");
     }

@@ -1,6 +1,6 @@
 //! Motions that show nothing, and efforts with the wrong sign.
 
-use nalgebra::{DMatrix, DVector, Matrix5, Vector5};
+use nalgebra::{DVector, Matrix5, Vector5};
 
 use crate::fault::LogFault;
 use crate::log::Quality;
@@ -13,19 +13,29 @@ const STILL: f64 = 2e-3;
 const WRONG: f64 = -0.3;
 
 /// Returns the faults of a prepared motion.
-pub fn suspect(model: &Model<'_>, samples: &Samples, quality: &Quality, unknowns: usize) -> Vec<LogFault> {
+pub fn suspect(
+    model: &Model<'_>,
+    samples: &Samples,
+    quality: &Quality,
+    unknowns: usize,
+) -> Vec<LogFault> {
     let n = samples.joints;
     let mut faults = Vec::new();
     let fastest = samples.v.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if fastest < STILL {
-        let message = format!("no joint moves: the fastest has {} rad/s or m/s", crate::log::short(fastest));
-        let help = "a log at rest shows weights only: record a motion that moves all joints at once";
+        let message = format!(
+            "no joint moves: the fastest has {} rad/s or m/s",
+            crate::log::short(fastest)
+        );
+        let help =
+            "a log at rest shows weights only: record a motion that moves all joints at once";
         faults.push(LogFault::whole("nothing-excited", message).with_help(help));
     }
     if samples.tau.len() < 2 * unknowns {
         let message = format!(
             "{} rows of the log leave {} independent equations for {unknowns} unknowns",
-            quality.rows, samples.tau.len()
+            quality.rows,
+            samples.tau.len()
         );
         let help = "record a longer motion, or raise --cut";
         faults.push(LogFault::whole("too-short", message).with_help(help));
@@ -34,19 +44,34 @@ pub fn suspect(model: &Model<'_>, samples: &Samples, quality: &Quality, unknowns
         return faults;
     }
     let all = model.unknowns();
-    let file = DVector::from_iterator(all.len(), all.iter().map(|u| match u {
-        Unknown::Link(..) => model.file(*u),
-        Unknown::Joint(..) => 0.0,
-    }));
+    let file = DVector::from_iterator(
+        all.len(),
+        all.iter().map(|u| match u {
+            Unknown::Link(..) => model.file(*u),
+            Unknown::Joint(..) => 0.0,
+        }),
+    );
     let predicted = &samples.rows * file;
     let factors: Vec<Option<f64>> = (0..n).map(|j| factor(samples, &predicted, j)).collect();
-    let wrong: Vec<usize> = (0..n).filter(|j| factors[*j].is_some_and(|f| f < WRONG)).collect();
+    let wrong: Vec<usize> = (0..n)
+        .filter(|j| factors[*j].is_some_and(|f| f < WRONG))
+        .collect();
     if !wrong.is_empty() {
         let names: Vec<String> = wrong
             .iter()
-            .map(|&j| format!("`{}` ({})", model.joints[j].name, crate::log::short(factors[j].unwrap_or(0.0))))
+            .map(|&j| {
+                format!(
+                    "`{}` ({})",
+                    model.joints[j].name,
+                    crate::log::short(factors[j].unwrap_or(0.0))
+                )
+            })
             .collect();
-        let all = if wrong.len() == n { "" } else { " at some joints" };
+        let all = if wrong.len() == n {
+            ""
+        } else {
+            " at some joints"
+        };
         let message = format!(
             "the efforts are those of the negative model{all}; factor of the file's efforts: {}",
             names.join(", ")
@@ -65,9 +90,17 @@ fn factor(samples: &Samples, predicted: &DVector<f64>, j: usize) -> Option<f64> 
     let (mut normal, mut right, mut square) = (Matrix5::zeros(), Vector5::zeros(), 0.0);
     let rows: Vec<usize> = (j..samples.tau.len()).step_by(n).collect();
     let row = |i: usize| {
-        Vector5::new(predicted[i], samples.rows[(i, joint(0))], samples.rows[(i, joint(1))], samples.rows[(i, joint(2))], samples.rows[(i, joint(3))])
+        Vector5::new(
+            predicted[i],
+            samples.rows[(i, joint(0))],
+            samples.rows[(i, joint(1))],
+            samples.rows[(i, joint(2))],
+            samples.rows[(i, joint(3))],
+        )
     };
-    let scales = rows.iter().fold(Vector5::zeros(), |s: Vector5<f64>, &i| s + row(i).component_mul(&row(i)));
+    let scales = rows.iter().fold(Vector5::zeros(), |s: Vector5<f64>, &i| {
+        s + row(i).component_mul(&row(i))
+    });
     let scales = scales.map(|s| if s > 0.0 { 1.0 / s.sqrt() } else { 0.0 });
     for &i in &rows {
         let x = row(i).component_mul(&scales);
@@ -80,9 +113,4 @@ fn factor(samples: &Samples, predicted: &DVector<f64>, j: usize) -> Option<f64> 
     let left = (square - solved.dot(&right)).max(0.0) / rows.len() as f64;
     let deviation = (inverse[(0, 0)] * left).sqrt();
     (deviation < 0.2 * solved[0].abs()).then(|| solved[0] * scales[0])
-}
-
-/// Returns the rows of the base columns.
-pub fn columns_of(samples: &Samples, unknowns: &[usize]) -> DMatrix<f64> {
-    samples.rows.select_columns(unknowns)
 }

@@ -34,7 +34,10 @@ impl Biquad {
 /// # Panics
 /// If the cut is not between 0 and half the rate.
 pub fn butterworth(cut: f64, rate: f64) -> [Biquad; 2] {
-    assert!(cut > 0.0 && cut < 0.5 * rate, "the cut is below half the rate");
+    assert!(
+        cut > 0.0 && cut < 0.5 * rate,
+        "the cut is below half the rate"
+    );
     let w = (PI * cut / rate).tan();
     // Damping of the pole pairs of order 4: 2 sin(π/8), 2 sin(3π/8).
     [1.0, 3.0].map(|k: f64| {
@@ -43,7 +46,10 @@ pub fn butterworth(cut: f64, rate: f64) -> [Biquad; 2] {
         let b = w * w * scale;
         Biquad {
             b: [b, 2.0 * b, b],
-            a: [2.0 * (w * w - 1.0) * scale, (1.0 - damping * w + w * w) * scale],
+            a: [
+                2.0 * (w * w - 1.0) * scale,
+                (1.0 - damping * w + w * w) * scale,
+            ],
         }
     })
 }

@@ -44,7 +44,11 @@ mod tests {
         let warped = |f: f64| (std::f64::consts::PI * f / 1000.0).tan();
         for f in [1.0, 5.0, 10.0, 20.0] {
             let expected = 1.0 / (1.0 + (warped(f) / warped(10.0)).powi(8));
-            assert!((gain(f) - expected).abs() < 1e-6, "{f} Hz: {} for {expected}", gain(f));
+            assert!(
+                (gain(f) - expected).abs() < 1e-6,
+                "{f} Hz: {} for {expected}",
+                gain(f)
+            );
         }
     }
 

@@ -41,7 +41,9 @@ impl ColumnNames {
         let mut names = ColumnNames::default();
         for part in text.split(',') {
             let Some((key, pattern)) = part.split_once('=') else {
-                return Err(format!("`{part}` is no `KEY=PATTERN`, such as `q=joint_{{}}_pos`"));
+                return Err(format!(
+                    "`{part}` is no `KEY=PATTERN`, such as `q=joint_{{}}_pos`"
+                ));
             };
             let (place, braces) = match key.trim() {
                 "time" => (&mut names.time, false),
@@ -50,7 +52,9 @@ impl ColumnNames {
                 other => return Err(format!("no key `{other}`: there are `time`, `q`, `tau`")),
             };
             if braces && pattern.matches("{}").count() != 1 {
-                return Err(format!("`{pattern}` needs one `{{}}`, for the name of the joint"));
+                return Err(format!(
+                    "`{pattern}` needs one `{{}}`, for the name of the joint"
+                ));
             }
             *place = pattern.trim().to_owned();
         }
@@ -67,6 +71,8 @@ impl ColumnNames {
         let number = number.to_string();
         let close = pattern.replace("_{}", "{}");
         let names = [(pattern, name), (pattern, &number), (&close, &number)];
-        names.map(|(pattern, own)| pattern.replace("{}", own)).to_vec()
+        names
+            .map(|(pattern, own)| pattern.replace("{}", own))
+            .to_vec()
     }
 }

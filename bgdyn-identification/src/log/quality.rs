@@ -58,7 +58,10 @@ fn channel(joint: &JointPart, q: &[f64]) -> Channel {
     let rest = 1.0 - moved.len() as f64 / q.len().saturating_sub(1).max(1) as f64;
     Channel {
         name: joint.name.clone(),
-        range: [q.iter().copied().fold(f64::INFINITY, f64::min), q.iter().copied().fold(f64::NEG_INFINITY, f64::max)],
+        range: [
+            q.iter().copied().fold(f64::INFINITY, f64::min),
+            q.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ],
         limits: joint.range,
         rest,
         step: moved.into_iter().fold(f64::INFINITY, f64::min),

@@ -54,7 +54,12 @@ pub fn read(table: impl Read, expected: &Expected<'_>) -> Result<Log, Vec<LogFau
     let Some(columns) = columns(&header, expected, &mut faults) else {
         return Err(faults.into_vec());
     };
-    let mut table = Table { columns, width: header.len(), rows: Vec::new(), lines: Vec::new() };
+    let mut table = Table {
+        columns,
+        width: header.len(),
+        rows: Vec::new(),
+        lines: Vec::new(),
+    };
     for (row, record) in records.enumerate() {
         match record {
             Ok(record) if row == 0 && table.is_units(&record) => {
@@ -67,7 +72,9 @@ pub fn read(table: impl Read, expected: &Expected<'_>) -> Result<Log, Vec<LogFau
     let log = table.log();
     if log.time.len() < 2 && faults.is_empty() {
         let message = format!("the log has {} rows", log.time.len());
-        faults.push(LogFault::whole("empty-log", message).with_help("record a motion of at least 5 s"));
+        faults.push(
+            LogFault::whole("empty-log", message).with_help("record a motion of at least 5 s"),
+        );
     }
     match faults.is_empty() {
         true => Ok(log),
@@ -81,21 +88,35 @@ fn unreadable(error: &csv::Error) -> LogFault {
 }
 
 /// Returns the columns: time, positions, efforts.
-fn columns(header: &csv::StringRecord, expected: &Expected<'_>, faults: &mut LogFaults) -> Option<Vec<Column>> {
+fn columns(
+    header: &csv::StringRecord,
+    expected: &Expected<'_>,
+    faults: &mut LogFaults,
+) -> Option<Vec<Column>> {
     let line = header.position().map_or(1, |p| p.line() as usize);
     let mut columns = Vec::new();
     let mut find = |quantity: Quantity, name: &str, number: usize, linear: bool| {
         let names = expected.names.of_joint(quantity, name, number);
-        let found: Vec<usize> = (0..header.len()).filter(|i| names.iter().any(|n| n == &header[*i])).collect();
+        let found: Vec<usize> = (0..header.len())
+            .filter(|i| names.iter().any(|n| n == &header[*i]))
+            .collect();
         match found[..] {
-            [at] => columns.push(Column { at, quantity, linear, factor: 1.0 }),
+            [at] => columns.push(Column {
+                at,
+                quantity,
+                linear,
+                factor: 1.0,
+            }),
             [] => {
                 let whose = match quantity {
                     Quantity::Time => "the time".to_owned(),
                     Quantity::Position => format!("the position of joint `{name}`"),
                     Quantity::Effort => format!("the effort of joint `{name}`"),
                 };
-                let message = format!("no column with {whose}: `{}` was looked for", names.join("`, `"));
+                let message = format!(
+                    "no column with {whose}: `{}` was looked for",
+                    names.join("`, `")
+                );
                 let has: Vec<&str> = header.iter().collect();
                 let help = format!(
                     "the columns are {}; other names by --columns q=PATTERN,tau=PATTERN,time=NAME",
@@ -104,7 +125,12 @@ fn columns(header: &csv::StringRecord, expected: &Expected<'_>, faults: &mut Log
                 faults.push(LogFault::at(line, 1, "missing-column", message).with_help(help));
             }
             _ => {
-                let message = format!("column {} and column {} are the same: `{}`", found[0] + 1, found[1] + 1, &header[found[1]]);
+                let message = format!(
+                    "column {} and column {} are the same: `{}`",
+                    found[0] + 1,
+                    found[1] + 1,
+                    &header[found[1]]
+                );
                 let fault = LogFault::at(line, found[1] + 1, "repeated-column", message);
                 faults.push(fault.with_help("take one out"));
             }
@@ -135,7 +161,12 @@ impl Table {
         !number.any(|is| is)
     }
 
-    fn take_units(&mut self, record: &csv::StringRecord, expected: &Expected<'_>, faults: &mut LogFaults) {
+    fn take_units(
+        &mut self,
+        record: &csv::StringRecord,
+        expected: &Expected<'_>,
+        faults: &mut LogFaults,
+    ) {
         let line = record.position().map_or(2, |p| p.line() as usize);
         for column in &mut self.columns {
             let text = record.get(column.at).unwrap_or("").trim_matches(['[', ']']);
@@ -143,7 +174,9 @@ impl Table {
                 Ok(factor) => column.factor = factor,
                 Err(why) => {
                     let fault = LogFault::at(line, column.at + 1, "wrong-unit", why);
-                    faults.push(fault.with_help("correct the row of units, or take it out: then numbers are in SI units"));
+                    faults.push(fault.with_help(
+                        "correct the row of units, or take it out: then numbers are in SI units",
+                    ));
                 }
             }
         }
@@ -153,7 +186,12 @@ impl Table {
         let line = record.position().map_or(0, |p| p.line() as usize);
         if record.len() != self.width {
             let message = format!("{} values instead of {}", record.len(), self.width);
-            let fault = LogFault::at(line, record.len().min(self.width) + 1, "wrong-count", message);
+            let fault = LogFault::at(
+                line,
+                record.len().min(self.width) + 1,
+                "wrong-count",
+                message,
+            );
             faults.push(fault.with_help("each row has one value for each name of the header"));
             return;
         }
@@ -165,7 +203,9 @@ impl Table {
                 _ => {
                     let message = format!("`{text}` is not a finite number");
                     let fault = LogFault::at(line, column.at + 1, "not-finite", message);
-                    faults.push(fault.with_help("take the row out: single lost rows are interpolated"));
+                    faults.push(
+                        fault.with_help("take the row out: single lost rows are interpolated"),
+                    );
                 }
             }
         }
@@ -177,12 +217,20 @@ impl Table {
     }
 
     fn check_time(&self, time: f64, line: usize, faults: &mut LogFaults) {
-        let Some(before) = self.rows.last().map(|row| row[0]) else { return };
+        let Some(before) = self.rows.last().map(|row| row[0]) else {
+            return;
+        };
         if time <= before {
-            let word = if time == before { "stands" } else { "runs back" };
+            let word = if time == before {
+                "stands"
+            } else {
+                "runs back"
+            };
             let message = format!("the time {word}: {time} s after {before} s");
             let fault = LogFault::at(line, self.columns[0].at + 1, "time-order", message);
-            faults.push(fault.with_help("sort the rows and take doubled ones out, or cut the log where the clock was set"));
+            faults.push(fault.with_help(
+                "sort the rows and take doubled ones out, or cut the log where the clock was set",
+            ));
         }
     }
 
