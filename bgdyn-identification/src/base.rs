@@ -7,6 +7,8 @@ use crate::model::{BODY_PARAMETERS, Model, Unknown, joint_columns};
 
 /// A column is a combination of others if less than this share of it is left.
 const RANK: f64 = 1e-8;
+/// A column smaller than this share of the largest is zero.
+const ZERO: f64 = 1e-12;
 /// The order in which parameters of a body are taken: Ixx, Ixy, Ixz, Iyz, Izz, mx, my, mz, Iyy, m.
 const ORDER: [usize; BODY_PARAMETERS] = [4, 5, 7, 8, 9, 1, 2, 3, 6, 0];
 
@@ -45,7 +47,7 @@ impl Base {
                 let size = factor.abs();
                 let size = match (size - 1.0).abs() < 1e-9 {
                     true => String::new(),
-                    false => format!("{} ", (size * 1e4).round() / 1e4),
+                    false => format!("{} ", crate::log::short(size)),
                 };
                 text += &format!(" {sign} {size}{}", model.name(self.free[k]));
             }
@@ -104,11 +106,11 @@ fn random_rows(model: &Model<'_>, free: &[Unknown]) -> DMatrix<f64> {
 pub fn independent(rows: &DMatrix<f64>, order: &[usize], rank: f64) -> Vec<usize> {
     let mut kept = Vec::new();
     let mut q: Vec<DVector<f64>> = Vec::new();
-    let largest = rows.column_iter().map(|c| c.norm()).fold(0.0, f64::max);
+    let largest = largest_column(rows);
     for &j in order {
         let mut column: DVector<f64> = rows.column(j).into();
         let size = column.norm();
-        if size <= 1e-12 * largest {
+        if size <= ZERO * largest {
             continue;
         }
         for _ in 0..2 {
@@ -127,6 +129,10 @@ pub fn independent(rows: &DMatrix<f64>, order: &[usize], rank: f64) -> Vec<usize
     kept
 }
 
+fn largest_column(rows: &DMatrix<f64>) -> f64 {
+    rows.column_iter().map(|c| c.norm()).fold(0.0, f64::max)
+}
+
 /// Returns K with `rows` = `rows[kept]` · K, by QR. Entries that are rounding errors are zero.
 fn combinations(rows: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {
     let own = rows.select_columns(kept);
@@ -139,10 +145,12 @@ fn combinations(rows: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {
     let mut map = qr.q().tr_mul(rows);
     let solved = qr.r().solve_upper_triangular_mut(&mut map);
     assert!(solved, "kept columns are independent");
+    let largest = largest_column(rows);
     for i in 0..map.nrows() {
         for j in 0..map.ncols() {
             let size = rows.column(j).norm();
-            map[(i, j)] = match map[(i, j)].abs() < 1e-9 * size {
+            let is_zero = size <= ZERO * largest || map[(i, j)].abs() < 1e-7 * size;
+            map[(i, j)] = match is_zero {
                 true => 0.0,
                 false => map[(i, j)] / scales[i],
             };

@@ -79,7 +79,8 @@ fn without_spikes(x: &[f64]) -> (Vec<f64>, usize) {
         .map(|i| median(x[i.saturating_sub(HALF)..(i + HALF + 1).min(x.len())].to_vec()))
         .collect();
     let off: Vec<f64> = x.iter().zip(&smooth).map(|(x, s)| (x - s).abs()).collect();
-    let bound = SPIKE * 1.4826 * median(off.clone()) + 1e-3 * median(x.iter().map(|x| x.abs()).collect());
+    // Where a slope is steeper than the noise most samples are the median themselves: the 90 % quantile is robust too.
+    let bound = SPIKE * quantile(off.clone(), 0.9) / 1.645 + 1e-12;
     let mut clean = x.to_vec();
     let mut spikes = 0;
     for i in 0..x.len() {
@@ -92,11 +93,16 @@ fn without_spikes(x: &[f64]) -> (Vec<f64>, usize) {
 }
 
 /// Returns the median; 0 for no numbers.
-pub fn median(mut x: Vec<f64>) -> f64 {
-    let middle = x.len() / 2;
+pub fn median(x: Vec<f64>) -> f64 {
+    quantile(x, 0.5)
+}
+
+/// Returns the number below which this share is; 0 for no numbers.
+fn quantile(mut x: Vec<f64>, share: f64) -> f64 {
+    let at = (share * x.len() as f64) as usize;
     match x.is_empty() {
         true => 0.0,
-        false => *x.select_nth_unstable_by(middle, f64::total_cmp).1,
+        false => *x.select_nth_unstable_by(at, f64::total_cmp).1,
     }
 }
 
@@ -130,7 +136,9 @@ mod tests {
 
     #[test]
     fn a_spike_is_replaced_and_a_curve_is_not() {
-        let mut x: Vec<f64> = (0..200).map(|i| (0.05 * f64::from(i)).sin()).collect();
+        let mut x: Vec<f64> = (0..200)
+            .map(|i| (0.05 * f64::from(i)).sin() + 0.02 * f64::from(i * 7 % 5 - 2))
+            .collect();
         x[77] += 3.0;
         let (clean, spikes) = without_spikes(&x);
         assert_eq!(spikes, 1);

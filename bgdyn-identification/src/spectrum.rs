@@ -76,7 +76,10 @@ mod tests {
     fn the_cut_follows_the_motion_and_not_the_noise() {
         // 0.5 Hz with the steps of an encoder of 17 bits, at 500 Hz: noise has most of the power of the accelerations.
         let step = TAU / 131_072.0;
-        let q = |i: i32| 0.8 * (TAU * 0.5 * f64::from(i) / 500.0).sin();
+        let q = |i: i32| {
+            0.8 * (TAU * 0.5 * f64::from(i) / 500.0).sin()
+                + 0.3 * (0.1234 * f64::from(i) / 500.0).cos()
+        };
         let q: Vec<f64> = (0..10_000).map(|i| (q(i) / step).round() * step).collect();
         let log = EvenLog {
             step: 2e-3,

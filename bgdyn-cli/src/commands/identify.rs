@@ -71,19 +71,26 @@ impl Identify {
     pub(crate) fn run(self) -> Result<()> {
         let (wanted, options) = (self.wanted()?, self.options()?);
         let names = self.columns.as_deref().map(ColumnNames::parse).transpose();
-        let names = names.map_err(|why| Usage(format!("--columns: {why}")))?.unwrap_or_default();
+        let names = names
+            .map_err(|why| Usage(format!("--columns: {why}")))?
+            .unwrap_or_default();
         let file = SpecFile::open(&self.spec)?;
         if file.is_scene() {
             bail!("{} is a scene: give its mechanism", shown(&self.spec));
         }
         let (machine, faults) = read_machine(&file.text, Some(&file.stem));
         tell(&file.render(&faults));
-        let machine = machine.ok_or_else(|| anyhow!("{} has {}", shown(&self.spec), faults.tally()))?;
+        let machine =
+            machine.ok_or_else(|| anyhow!("{} has {}", shown(&self.spec), faults.tally()))?;
         let identified = IdentifiedMachine::new(&machine, &wanted)
             .map_err(|faults| anyhow!("{}: {}", shown(&self.spec), faults.join("\nbgdyn: ")))?;
         let model = identified.model();
         let log = self.read(&self.log, &model, &names);
-        let test = self.test.as_ref().map(|path| self.read(path, &model, &names)).transpose();
+        let test = self
+            .test
+            .as_ref()
+            .map(|path| self.read(path, &model, &names))
+            .transpose();
         // Faults of both logs, before either stops.
         let (log, test) = match (log, test) {
             (Err(first), Err(second)) => bail!("{first:#}\nbgdyn: {second:#}"),
@@ -94,28 +101,46 @@ impl Identify {
         self.finish(&file, &identified, &found)
     }
 
-    fn finish(&self, file: &SpecFile, identified: &IdentifiedMachine, found: &Identification) -> Result<()> {
+    fn finish(
+        &self,
+        file: &SpecFile,
+        identified: &IdentifiedMachine,
+        found: &Identification,
+    ) -> Result<()> {
         let model = identified.model();
         if let Some(output) = &self.output {
-            let written = write(&file.text, identified, found).map_err(|why| anyhow!("{}: {why}", shown(&self.spec)))?;
-            let stem = output.file_stem().map_or("written".into(), |s| s.to_string_lossy().into_owned());
+            let written = write(&file.text, identified, found)
+                .map_err(|why| anyhow!("{}: {why}", shown(&self.spec)))?;
+            let stem = output
+                .file_stem()
+                .map_or("written".into(), |s| s.to_string_lossy().into_owned());
             let text = written.named(&stem);
             let (machine, faults) = read_machine(&text, Some(&stem));
             if machine.is_none() {
                 tell(&faults.render(&shown(output), &text));
-                bail!("the spec with the numbers found has {}: nothing was written", faults.tally());
+                bail!(
+                    "the spec with the numbers found has {}: nothing was written",
+                    faults.tally()
+                );
             }
-            std::fs::write(output, text).with_context(|| format!("{} cannot be written", shown(output)))?;
+            std::fs::write(output, text)
+                .with_context(|| format!("{} cannot be written", shown(output)))?;
         }
         if let Some(folder) = &self.report {
-            std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be created", folder.display()))?;
+            std::fs::create_dir_all(folder)
+                .with_context(|| format!("{} cannot be created", folder.display()))?;
             let path = folder.join(format!("{}.html", file.stem));
             let text = page::page(&file.stem, &model, found, &summary(identified, found));
-            std::fs::write(&path, text).with_context(|| format!("{} cannot be written", path.display()))?;
+            std::fs::write(&path, text)
+                .with_context(|| format!("{} cannot be written", path.display()))?;
         }
         match self.json {
             true => print(&format!("{:#}\n", json(&model, found))),
-            false => print(&format!("{}\n{}", summary(identified, found), table(&model, found))),
+            false => print(&format!(
+                "{}\n{}",
+                summary(identified, found),
+                table(&model, found)
+            )),
         }
     }
 
@@ -127,15 +152,23 @@ impl Identify {
                 "coulomb" => columns[2] = true,
                 "offset" => columns[3] = true,
                 "none" if self.friction.len() == 1 => {}
-                other => bail!(Usage(format!("`--friction {other}`: there are viscous, coulomb, offset, none"))),
+                other => bail!(Usage(format!(
+                    "`--friction {other}`: there are viscous, coulomb, offset, none"
+                ))),
             }
         }
-        Ok(Wanted { only: self.only.clone(), columns })
+        Ok(Wanted {
+            only: self.only.clone(),
+            columns,
+        })
     }
 
     fn options(&self) -> Result<Options> {
         if !(self.prior > 0.0 && self.prior.is_finite()) {
-            bail!(Usage(format!("`--prior {}`: write a number greater than 0", self.prior)));
+            bail!(Usage(format!(
+                "`--prior {}`: write a number greater than 0",
+                self.prior
+            )));
         }
         let speed = match &self.skip_below {
             None => 0.0,
@@ -154,8 +187,14 @@ impl Identify {
     fn read(&self, path: &Path, model: &Model<'_>, names: &ColumnNames) -> Result<Log> {
         let text = crate::spec_file::read_text(path)?;
         let joints = model.joints.iter().map(|j| (j.name.clone(), j.linear));
-        let unit = |text: &str, quantity: Quantity, linear: bool| unit(text, quantity, linear, self.gains.is_some());
-        let expected = Expected { joints: joints.collect(), names: names.clone(), unit: &unit };
+        let unit = |text: &str, quantity: Quantity, linear: bool| {
+            unit(text, quantity, linear, self.gains.is_some())
+        };
+        let expected = Expected {
+            joints: joints.collect(),
+            names: names.clone(),
+            unit: &unit,
+        };
         let mut log = read(text.as_bytes(), &expected).map_err(|faults| refusal(path, &faults))?;
         if let Some(gains) = &self.gains {
             let gains = read_gains(gains, model)?;
@@ -167,9 +206,16 @@ impl Identify {
     }
 }
 
-fn run_steps(model: &Model<'_>, log: &Log, test: Option<&Log>, options: &Options) -> Result<Identification, Vec<LogFault>> {
+fn run_steps(
+    model: &Model<'_>,
+    log: &Log,
+    test: Option<&Log>,
+    options: &Options,
+) -> Result<Identification, Vec<LogFault>> {
     let mut progress = Progress::new("identifying");
-    identify(model, log, test, options, &mut |_, share| progress.at(share))
+    identify(model, log, test, options, &mut |_, share| {
+        progress.at(share)
+    })
 }
 
 /// Returns the factor of a unit of the second row.
@@ -184,20 +230,34 @@ fn unit(text: &str, quantity: Quantity, linear: bool, current: bool) -> Result<f
     };
     let text = if text == "Nm" { "N*m" } else { text };
     let factor = value(&format!("1 {text}"), &[dimension]);
-    factor.map(|f| f.to_f64()).map_err(|why| format!("`{text}` is no unit of {what}: {why}"))
+    factor
+        .map(|f| f.to_f64())
+        .map_err(|why| format!("`{text}` is no unit of {what}: {why}"))
 }
 
 /// Reads factors from currents to efforts.
 fn read_gains(path: &Path, model: &Model<'_>) -> Result<Vec<f64>> {
     let text = crate::spec_file::read_text(path)?;
     let rows = crate::table::rows(&text);
-    let find = |name: &str| rows.iter().find(|row| row.cells.first().is_some_and(|cell| cell == name));
+    let find = |name: &str| {
+        rows.iter()
+            .find(|row| row.cells.first().is_some_and(|cell| cell == name))
+    };
     let gain = |name: &str| -> Result<f64, String> {
-        let row = find(name).ok_or_else(|| format!("{}: no row for joint `{name}`", shown(path)))?;
+        let row =
+            find(name).ok_or_else(|| format!("{}: no row for joint `{name}`", shown(path)))?;
         let cell = row.cells.get(1).map_or("", String::as_str);
         let (line, column) = row.position(1);
-        let number = cell.parse::<f64>().ok().filter(|x| x.is_finite() && *x != 0.0);
-        number.ok_or_else(|| format!("{}:{line}:{column}: `{cell}` is no factor: write a number that is not 0", shown(path)))
+        let number = cell
+            .parse::<f64>()
+            .ok()
+            .filter(|x| x.is_finite() && *x != 0.0);
+        number.ok_or_else(|| {
+            format!(
+                "{}:{line}:{column}: `{cell}` is no factor: write a number that is not 0",
+                shown(path)
+            )
+        })
     };
     let gains: Vec<Result<f64, String>> = model.joints.iter().map(|j| gain(&j.name)).collect();
     let faults: Vec<String> = gains.iter().filter_map(|g| g.clone().err()).collect();
@@ -214,5 +274,9 @@ fn refusal(path: &Path, faults: &[LogFault]) -> anyhow::Error {
         tell(&format!("{}{separator}{fault}\n", shown(path)));
     }
     let word = if faults.len() == 1 { "fault" } else { "faults" };
-    anyhow!("{} has {} {word}; nothing was written", shown(path), faults.len())
+    anyhow!(
+        "{} has {} {word}; nothing was written",
+        shown(path),
+        faults.len()
+    )
 }

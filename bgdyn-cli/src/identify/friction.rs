@@ -34,7 +34,9 @@ const KEYS: [(&str, &str, usize); 6] = [
 pub(crate) fn effect_numbers(effects: &[Declaration]) -> Vec<EffectNumber> {
     let mut numbers = Vec::new();
     for effect in effects {
-        let Some(joint) = text(effect, "joint") else { continue };
+        let Some(joint) = text(effect, "joint") else {
+            continue;
+        };
         if text(effect, "reference").is_some() {
             continue;
         }
@@ -42,11 +44,20 @@ pub(crate) fn effect_numbers(effects: &[Declaration]) -> Vec<EffectNumber> {
             if effect.effect.keyword() != word {
                 continue;
             }
-            let Some(value) = number(effect, key) else { continue };
+            let Some(value) = number(effect, key) else {
+                continue;
+            };
             let ratio = number(effect, "ratio").unwrap_or(1.0);
             let factor = if column == 0 { ratio * ratio } else { 1.0 };
             let (name, joint) = (effect.name.value.clone(), joint.clone());
-            numbers.push(EffectNumber { name, joint, column, key, value, factor });
+            numbers.push(EffectNumber {
+                name,
+                joint,
+                column,
+                key,
+                value,
+                factor,
+            });
         }
     }
     numbers

@@ -38,7 +38,12 @@ pub(crate) fn json(model: &Model<'_>, found: &Identification) -> Value {
             Some(json!({ "joint": joint.name, "name": JOINT_COLUMNS[c], "file": n.file, "value": n.value, "deviation": n.deviation }))
         })
     });
-    let map: Vec<Vec<f64>> = found.map.map.row_iter().map(|r| r.iter().copied().collect()).collect();
+    let map: Vec<Vec<f64>> = found
+        .map
+        .map
+        .row_iter()
+        .map(|r| r.iter().copied().collect())
+        .collect();
     let free: Vec<String> = found.map.free.iter().map(|u| model.name(*u)).collect();
     json!({
         "log": { "rows": quality.rows, "rate": quality.rate, "jitter": quality.jitter, "lost": quality.lost },

@@ -55,10 +55,18 @@ impl IdentifiedMachine {
             columns: wanted.columns,
         };
         found.take_links(mechanism, wanted);
-        let unknown = wanted.only.iter().filter(|name| !found.links.iter().any(|l| &l.name == *name));
+        let unknown = wanted
+            .only
+            .iter()
+            .filter(|name| !found.links.iter().any(|l| &l.name == *name));
         let names: Vec<&str> = found.links.iter().map(|l| l.name.as_str()).collect();
         let faults: Vec<String> = unknown
-            .map(|name| format!("`--only {name}`: no moving link with a mass of this name: there are {}", names.join(", ")))
+            .map(|name| {
+                format!(
+                    "`--only {name}`: no moving link with a mass of this name: there are {}",
+                    names.join(", ")
+                )
+            })
             .collect();
         match faults.is_empty() {
             true => Ok(found),
@@ -68,10 +76,13 @@ impl IdentifiedMachine {
 
     fn take_links(&mut self, mechanism: &Mechanism, wanted: &Wanted) {
         for (link, place) in mechanism.links().iter().zip(&self.places) {
-            let Some((body, rotation, translation)) = place else { continue };
+            let Some((body, rotation, translation)) = place else {
+                continue;
+            };
             let file = of_file(link, mechanism);
             if file.amax() == 0.0 {
-                let own = !link.hidden && rotation.is_identity(0.0) && *translation == Vector3::zeros();
+                let own =
+                    !link.hidden && rotation.is_identity(0.0) && *translation == Vector3::zeros();
                 self.massless.extend(own.then(|| link.name.clone()));
                 continue;
             }
@@ -96,12 +107,18 @@ impl IdentifiedMachine {
     }
 }
 
-fn joints(mechanism: &Mechanism, graph: &bond_graph::BondGraph, effects: &[EffectNumber]) -> Vec<JointPart> {
+fn joints(
+    mechanism: &Mechanism,
+    graph: &bond_graph::BondGraph,
+    effects: &[EffectNumber],
+) -> Vec<JointPart> {
     let of_link = |name: &str| mechanism.links().iter().find(|l| l.joint.name == name);
     let joints = graph.coordinates.iter();
     joints
         .map(|coordinate| {
-            let limits = of_link(&coordinate.name).map(|l| l.joint.limits).unwrap_or_default();
+            let limits = of_link(&coordinate.name)
+                .map(|l| l.joint.limits)
+                .unwrap_or_default();
             let mut file = [0.0; 4];
             for effect in effects.iter().filter(|e| e.joint == coordinate.name) {
                 file[effect.column] += effect.value * effect.factor;
@@ -127,5 +144,9 @@ fn of_file(link: &Link, mechanism: &Mechanism) -> bgdyn_identification::model::P
     let e = link.inertial.inertia.entries.map(|x| number(&x));
     let tensor = Matrix3::new(e[0], e[3], e[4], e[3], e[1], e[5], e[4], e[5], e[2]);
     let axes = Matrix3::from_fn(|i, j| link.inertial.inertia.axes.0[i][j].to_f64());
-    from_centre(number(&link.inertial.mass), &c, &(axes * tensor * axes.transpose()))
+    from_centre(
+        number(&link.inertial.mass),
+        &c,
+        &(axes * tensor * axes.transpose()),
+    )
 }

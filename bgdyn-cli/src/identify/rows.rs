@@ -62,7 +62,14 @@ impl TreeRows {
         }
         let gravity = vector(&graph.gravity.0);
         let joints = graph.coordinates.len();
-        Ok((TreeRows { joints, bodies, gravity }, places))
+        Ok((
+            TreeRows {
+                joints,
+                bodies,
+                gravity,
+            },
+            places,
+        ))
     }
 }
 
@@ -77,8 +84,13 @@ fn refuse(graph: &BondGraph) -> Result<(), String> {
     } else if graph.released.is_some() {
         "prescribed joints"
     } else if let Some(frame) = graph.frames.iter().find(|f| !along_axis(f)) {
-        return Err(format!("link `{}` has a joint of several degrees of freedom", frame.name));
-    } else if graph.positions.len() != graph.coordinates.len() || !graph.positions.iter().enumerate().all(own) {
+        return Err(format!(
+            "link `{}` has a joint of several degrees of freedom",
+            frame.name
+        ));
+    } else if graph.positions.len() != graph.coordinates.len()
+        || !graph.positions.iter().enumerate().all(own)
+    {
         "positions whose rates are not velocities"
     } else {
         return Ok(());
@@ -124,10 +136,17 @@ fn moving(
         rotation,
         translation,
         axis: Unit::new_normalize(vector(&frame.axis.0)),
-        positions: degrees.positions.iter().zip(ratios).map(|(p, r)| (p.0, r.to_f64())).collect(),
+        positions: degrees
+            .positions
+            .iter()
+            .zip(ratios)
+            .map(|(p, r)| (p.0, r.to_f64()))
+            .collect(),
         offset: degrees.offset().to_f64(),
         pitch,
-        columns: columns.map(|(j, c)| (j.0, vector(&c.angular.0), vector(&c.linear.0))).collect(),
+        columns: columns
+            .map(|(j, c)| (j.0, vector(&c.angular.0), vector(&c.linear.0)))
+            .collect(),
     }
 }
 
@@ -137,7 +156,10 @@ fn vector(x: &[bgdyn_runtime::Dd; 3]) -> Vector3<f64> {
 
 fn pose(pose: &Pose) -> (Matrix3<f64>, Vector3<f64>) {
     let r = &pose.rotation.0;
-    (Matrix3::from_fn(|i, j| r[i][j].to_f64()), vector(&pose.translation.0))
+    (
+        Matrix3::from_fn(|i, j| r[i][j].to_f64()),
+        vector(&pose.translation.0),
+    )
 }
 
 /// A body's motion in its own axes; `a` is the acceleration of its origin less gravity.
@@ -150,22 +172,45 @@ struct BodyMotion {
 }
 
 impl MovingBody {
-    fn motion(&self, before: Option<&BodyMotion>, gravity: &Vector3<f64>, (q, v, a): (&[f64], &[f64], &[f64])) -> BodyMotion {
-        let x = self.positions.iter().fold(self.offset, |x, (p, ratio)| x + ratio * q[*p]);
-        let turn = self.rotation * Rotation3::from_axis_angle(&self.axis, self.pitch[0] * x).into_inner();
+    fn motion(
+        &self,
+        before: Option<&BodyMotion>,
+        gravity: &Vector3<f64>,
+        (q, v, a): (&[f64], &[f64], &[f64]),
+    ) -> BodyMotion {
+        let x = self
+            .positions
+            .iter()
+            .fold(self.offset, |x, (p, ratio)| x + ratio * q[*p]);
+        let turn =
+            self.rotation * Rotation3::from_axis_angle(&self.axis, self.pitch[0] * x).into_inner();
         let at = self.translation + turn * (self.axis.into_inner() * (self.pitch[1] * x));
         let back = turn.transpose();
-        let rest = BodyMotion { w: Vector3::zeros(), dw: Vector3::zeros(), a: -gravity, twists: Vec::new() };
+        let rest = BodyMotion {
+            w: Vector3::zeros(),
+            dw: Vector3::zeros(),
+            a: -gravity,
+            twists: Vec::new(),
+        };
         let before = before.unwrap_or(&rest);
         let (w0, dw0) = (back * before.w, back * before.dw);
         let sum = |of: &[f64], angular: bool| {
-            let own = self.columns.iter().map(|(j, turn, shift)| if angular { turn * of[*j] } else { shift * of[*j] });
+            let own = self.columns.iter().map(|(j, turn, shift)| {
+                if angular {
+                    turn * of[*j]
+                } else {
+                    shift * of[*j]
+                }
+            });
             own.fold(Vector3::zeros(), |s, x| s + x)
         };
         let (w_own, v_own) = (sum(v, true), sum(v, false));
         // Of the origin: carried, Coriolis, and along the joint.
         let carried = before.a + before.dw.cross(&at) + before.w.cross(&before.w.cross(&at));
-        let twists = before.twists.iter().map(|(j, w, u)| (*j, back * w, back * (u + w.cross(&at))));
+        let twists = before
+            .twists
+            .iter()
+            .map(|(j, w, u)| (*j, back * w, back * (u + w.cross(&at))));
         BodyMotion {
             w: w0 + w_own,
             dw: dw0 + sum(a, true) + w0.cross(&w_own),
@@ -196,8 +241,16 @@ fn wrenches(body: &BodyMotion) -> [(Vector3<f64>, Vector3<f64>); 10] {
         (zero, times(dw) + w.cross(&times(w)))
     };
     [
-        (*a, zero), moment(0), moment(1), moment(2),
-        tensor(0, 0), tensor(0, 1), tensor(1, 1), tensor(0, 2), tensor(1, 2), tensor(2, 2),
+        (*a, zero),
+        moment(0),
+        moment(1),
+        moment(2),
+        tensor(0, 0),
+        tensor(0, 1),
+        tensor(1, 1),
+        tensor(0, 2),
+        tensor(1, 2),
+        tensor(2, 2),
     ]
 }
 
