@@ -47,7 +47,7 @@ impl Base {
                 let size = factor.abs();
                 let size = match (size - 1.0).abs() < 1e-9 {
                     true => String::new(),
-                    false => format!("{} ", crate::log::short(size)),
+                    false => format!("{} ", crate::fault::short(size)),
                 };
                 text += &format!(" {sign} {size}{}", model.name(self.free[k]));
             }

@@ -1,6 +1,7 @@
 //! Equal steps: spikes of the efforts are replaced, and all series are taken at multiples of the median step.
 
 use crate::log::Log;
+use crate::statistics::{median, quantile};
 
 /// Half the width of the running median.
 const HALF: usize = 2;
@@ -90,20 +91,6 @@ fn without_spikes(x: &[f64]) -> (Vec<f64>, usize) {
         }
     }
     (clean, spikes)
-}
-
-/// Returns the median; 0 for no numbers.
-pub fn median(x: Vec<f64>) -> f64 {
-    quantile(x, 0.5)
-}
-
-/// Returns the number below which this share is; 0 for no numbers.
-fn quantile(mut x: Vec<f64>, share: f64) -> f64 {
-    let at = (share * x.len() as f64) as usize;
-    match x.is_empty() {
-        true => 0.0,
-        false => *x.select_nth_unstable_by(at, f64::total_cmp).1,
-    }
 }
 
 /// Returns the value at a time: on the line between the neighbours, or on the cubic through four of them (Lagrange).

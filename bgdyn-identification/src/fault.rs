@@ -100,3 +100,9 @@ impl LogFaults {
         self.all.into_iter().chain(more).collect()
     }
 }
+
+/// Returns a number with four digits.
+pub(crate) fn short(x: f64) -> String {
+    let text = format!("{x:.3e}");
+    text.parse::<f64>().map_or(text, |x| x.to_string())
+}

@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::base::independent;
-use crate::even::median;
 use crate::prepare::Samples;
+use crate::statistics::median;
 use crate::triangle::Triangle;
 
 /// Rounds of weighting.

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
-use crate::even::{EvenLog, median};
+use crate::even::EvenLog;
+use crate::statistics::median;
 
 /// Share of the power of the accelerations that may lie above the cut.
 const LEFT: f64 = 1e-4;

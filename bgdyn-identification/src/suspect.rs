@@ -25,7 +25,7 @@ pub fn suspect(
     if fastest < STILL {
         let message = format!(
             "no joint moves: the fastest has {} rad/s or m/s",
-            crate::log::short(fastest)
+            crate::fault::short(fastest)
         );
         let help =
             "a log at rest shows weights only: record a motion that moves all joints at once";
@@ -63,7 +63,7 @@ pub fn suspect(
                 format!(
                     "`{}` ({})",
                     model.joints[j].name,
-                    crate::log::short(factors[j].unwrap_or(0.0))
+                    crate::fault::short(factors[j].unwrap_or(0.0))
                 )
             })
             .collect();

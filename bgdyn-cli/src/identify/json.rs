@@ -1,7 +1,7 @@
 //! The result as JSON.
 
 use bgdyn_identification::model::{JOINT_COLUMNS, Model, PARAMETER_NAMES, Unknown};
-use bgdyn_identification::{Identification, identify::Identified};
+use bgdyn_identification::{Identification, Identified};
 use serde_json::{Value, json};
 
 /// Returns the result as JSON, in SI units.

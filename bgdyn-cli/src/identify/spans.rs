@@ -11,11 +11,11 @@ pub(super) struct Place {
     pub(super) bytes: Range<usize>,
     /// Whether others may refer to it (`&`), or it refers to another (`*`).
     pub(super) shared: bool,
-    pub(super) shape: Shape,
+    pub(super) shape: PlaceShape,
 }
 
 #[derive(Clone, Debug)]
-pub(super) enum Shape {
+pub(super) enum PlaceShape {
     Scalar(String),
     Alias,
     List(Vec<Place>),
@@ -25,7 +25,7 @@ pub(super) enum Shape {
 impl Place {
     /// Returns the value of a key.
     pub(super) fn get(&self, key: &str) -> Option<&Place> {
-        let Shape::Map(entries) = &self.shape else {
+        let PlaceShape::Map(entries) = &self.shape else {
             return None;
         };
         entries
@@ -36,7 +36,7 @@ impl Place {
 
     /// Returns the key itself.
     pub(super) fn key(&self, key: &str) -> Option<&Place> {
-        let Shape::Map(entries) = &self.shape else {
+        let PlaceShape::Map(entries) = &self.shape else {
             return None;
         };
         entries
@@ -48,7 +48,7 @@ impl Place {
     /// Returns the keys.
     pub(super) fn keys(&self) -> Vec<&str> {
         match &self.shape {
-            Shape::Map(entries) => entries.iter().filter_map(|(k, _)| k.text()).collect(),
+            PlaceShape::Map(entries) => entries.iter().filter_map(|(k, _)| k.text()).collect(),
             _ => Vec::new(),
         }
     }
@@ -56,7 +56,7 @@ impl Place {
     /// Returns the text of a scalar.
     pub(super) fn text(&self) -> Option<&str> {
         match &self.shape {
-            Shape::Scalar(text) => Some(text),
+            PlaceShape::Scalar(text) => Some(text),
             _ => None,
         }
     }
@@ -64,7 +64,7 @@ impl Place {
     /// Returns the entries of a list.
     pub(super) fn items(&self) -> &[Place] {
         match &self.shape {
-            Shape::List(items) => items,
+            PlaceShape::List(items) => items,
             _ => &[],
         }
     }
@@ -92,7 +92,7 @@ pub(super) fn spans(text: &str) -> Option<Place> {
         let bytes = byte(start.index())..byte(end.index());
         let done = match event {
             Event::Scalar(text, _, anchor, _) => {
-                let shape = Shape::Scalar(text.into_owned());
+                let shape = PlaceShape::Scalar(text.into_owned());
                 Some(Place {
                     bytes,
                     shared: anchor != 0,
@@ -102,7 +102,7 @@ pub(super) fn spans(text: &str) -> Option<Place> {
             Event::Alias(_) => Some(Place {
                 bytes,
                 shared: true,
-                shape: Shape::Alias,
+                shape: PlaceShape::Alias,
             }),
             Event::SequenceStart(anchor, _) | Event::MappingStart(anchor, _) => {
                 let is_map = matches!(event, Event::MappingStart(..));
@@ -139,14 +139,14 @@ fn closed(opened: Opened, text: &str, end: usize) -> Place {
     let last = opened.items.last().map_or(start, |item| item.bytes.end);
     let bytes = start..if flow { end } else { last };
     let shape = match opened.is_map {
-        false => Shape::List(opened.items),
+        false => PlaceShape::List(opened.items),
         true => {
             let mut items = opened.items.into_iter();
             let mut entries = Vec::new();
             while let (Some(key), Some(value)) = (items.next(), items.next()) {
                 entries.push((key, value));
             }
-            Shape::Map(entries)
+            PlaceShape::Map(entries)
         }
     };
     Place {

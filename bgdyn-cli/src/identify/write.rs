@@ -7,7 +7,7 @@ use nalgebra::SMatrix;
 use super::IdentifiedMachine;
 use super::edits::{Edits, NewNumber, digits, written};
 use super::json::number;
-use super::spans::{Place, Shape, spans};
+use super::spans::{Place, PlaceShape, spans};
 
 /// Entries of a tensor in the spec with their rows and columns.
 const ENTRIES: [(&str, usize, usize); 6] = [
@@ -151,7 +151,7 @@ impl Writer<'_> {
 
     /// Replaces the value of a key.
     fn value(&mut self, key: &str, value: &Place, numbers: Vec<NewNumber>) {
-        let anchored = value.shared && !matches!(value.shape, Shape::Alias);
+        let anchored = value.shared && !matches!(value.shape, PlaceShape::Alias);
         if anchored {
             let at = &self.text[value.bytes.clone()];
             self.faults.push(format!(
@@ -161,8 +161,8 @@ impl Writer<'_> {
         }
         let singly: Option<Vec<&Place>> = match (&value.shape, key) {
             (_, "mass") => Some(vec![value]),
-            (Shape::List(items), _) => Some(items.iter().collect()),
-            (Shape::Map(_), _) => {
+            (PlaceShape::List(items), _) => Some(items.iter().collect()),
+            (PlaceShape::Map(_), _) => {
                 let known = |k: &&str| ENTRIES.iter().any(|(name, ..)| name == k);
                 let all = ENTRIES
                     .iter()
@@ -306,8 +306,8 @@ impl Writer<'_> {
 fn parameters(value: &Place) -> bool {
     value.get("parameter").is_some()
         || match &value.shape {
-            Shape::Map(entries) => entries.iter().any(|(_, v)| parameters(v)),
-            Shape::List(items) => items.iter().any(parameters),
+            PlaceShape::Map(entries) => entries.iter().any(|(_, v)| parameters(v)),
+            PlaceShape::List(items) => items.iter().any(parameters),
             _ => false,
         }
 }

@@ -8,10 +8,9 @@ mod sound;
 pub use names::{ColumnNames, Quantity};
 pub use quality::{Channel, Quality, quality};
 pub use read::{Expected, UnitFactor, read};
-pub(crate) use sound::short;
 pub use sound::unsound;
 
-use crate::even::median;
+use crate::statistics::median;
 
 /// A log, as read: SI units, time stamps as they are.
 #[derive(Clone, Debug, PartialEq)]

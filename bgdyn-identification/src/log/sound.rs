@@ -1,7 +1,7 @@
 //! Faults of channels: gaps, constants, numbers that must be in other units.
 
 use super::{Log, Quality};
-use crate::fault::{LogFault, LogFaults};
+use crate::fault::{LogFault, LogFaults, short};
 use crate::model::JointPart;
 
 /// The longest gap that is interpolated: the longer of this time, s, and of so many steps.
@@ -76,10 +76,4 @@ fn far_outside(joint: &JointPart, [low, high]: [f64; 2]) -> Option<LogFault> {
             format!("write the unit into a second row, such as `{unit}`, or correct the limits");
         LogFault::whole("wrong-unit", message).with_help(help)
     })
-}
-
-/// Returns a number with four digits.
-pub(crate) fn short(x: f64) -> String {
-    let text = format!("{x:.3e}");
-    text.parse::<f64>().map_or(text, |x| x.to_string())
 }

@@ -29,7 +29,7 @@ const [WIDTH, HEIGHT, LEFT, TOP, BOTTOM] = [400, 150, 46, 6, 18];
 
 // Ticks at 1, 2 or 5 times a power of ten.
 const ticks = (low, high) => {
-  const raw = (high - low) / 4;
+  const raw = (high - low) / 5;
   const power = 10 ** Math.floor(Math.log10(raw));
   const step = [1, 2, 5, 10].find((k) => k * power >= raw) * power;
   const found = [];
