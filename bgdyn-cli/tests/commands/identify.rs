@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 
-use crate::{bgdyn, temporary};
+use crate::bgdyn;
 
 /// The arm as its file has it; the truth replaces the numbers.
 const ARM: &str = "# An arm with a payload.
@@ -42,7 +42,12 @@ links:
 ";
 const JOINTS: [&str; 3] = ["turn", "lift", "bend"];
 /// Rotors, viscous and Coulomb friction, offsets.
-const FRICTION: [[f64; 3]; 4] = [[0.1, 0.3, 0.08], [1.2, 2.0, 0.6], [0.9, 1.5, 0.4], [0.1, -0.2, 0.05]];
+const FRICTION: [[f64; 3]; 4] = [
+    [0.1, 0.3, 0.08],
+    [1.2, 2.0, 0.6],
+    [0.9, 1.5, 0.4],
+    [0.1, -0.2, 0.05],
+];
 const RATE: f64 = 250.0;
 
 /// Uniform numbers, the same in every run.
@@ -50,7 +55,10 @@ struct Noise(u64);
 
 impl Noise {
     fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     }
 
@@ -67,7 +75,11 @@ fn motion(joint: usize, seed: u64, t: f64) -> [f64; 3] {
         let w = TAU * 0.1 * f64::from(k);
         let (size, phase) = (1.6 * noise.next() / f64::from(k).sqrt(), TAU * noise.next());
         let (sine, cosine) = (w * t + phase).sin_cos();
-        [q + size * sine, v + size * w * cosine, a - size * w * w * sine]
+        [
+            q + size * sine,
+            v + size * w * cosine,
+            a - size * w * w * sine,
+        ]
     })
 }
 
@@ -76,15 +88,27 @@ fn simulated(truth: &str, seed: u64, seconds: f64) -> Vec<Vec<f64>> {
     let folder = temporary(&format!("identify_truth_{seed}_{}", truth.len()));
     let spec = folder.join("arm.yaml");
     fs::write(&spec, truth).expect("a spec");
-    let times: Vec<f64> = (0..(seconds * RATE) as usize).map(|i| i as f64 / RATE).collect();
+    let times: Vec<f64> = (0..(seconds * RATE) as usize)
+        .map(|i| i as f64 / RATE)
+        .collect();
     let states = times.iter().map(|&t| {
-        let of = |part: usize| (0..3).map(|j| motion(j, seed, t)[part]).collect::<Vec<f64>>();
+        let of = |part: usize| {
+            (0..3)
+                .map(|j| motion(j, seed, t)[part])
+                .collect::<Vec<f64>>()
+        };
         json!({ "q": of(0), "v": of(1), "a": of(2) })
     });
     let states = json!({ "states": states.collect::<Vec<_>>() });
     let path = folder.join("states.json");
     fs::write(&path, states.to_string()).expect("states");
-    let run = bgdyn(&["eval", &text(&spec), "inverse_dynamics", "--states", &text(&path)]);
+    let run = bgdyn(&[
+        "eval",
+        &text(&spec),
+        "inverse_dynamics",
+        "--states",
+        &text(&path),
+    ]);
     let efforts: Value = serde_json::from_str(&run.good()).expect("JSON");
     let mut noise = Noise(seed + 99);
     let step = TAU / 131_072.0;
@@ -102,6 +126,14 @@ fn simulated(truth: &str, seed: u64, seconds: f64) -> Vec<Vec<f64>> {
     times.iter().enumerate().map(row).collect()
 }
 
+/// Returns an empty folder with the name of a test.
+fn temporary(name: &str) -> PathBuf {
+    let folder: PathBuf = [env!("CARGO_TARGET_TMPDIR"), name].iter().collect();
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
 fn text(path: &std::path::Path) -> String {
     path.to_str().expect("a path").to_owned()
 }
@@ -112,7 +144,12 @@ fn header() -> String {
 }
 
 fn csv(rows: &[Vec<f64>]) -> String {
-    let line = |row: &Vec<f64>| row.iter().map(|x| format!("{x:.6}")).collect::<Vec<_>>().join(",");
+    let line = |row: &Vec<f64>| {
+        row.iter()
+            .map(|x| format!("{x:.6}"))
+            .collect::<Vec<_>>()
+            .join(",")
+    };
     header() + "\n" + &rows.iter().map(line).collect::<Vec<_>>().join("\n") + "\n"
 }
 
@@ -123,8 +160,12 @@ fn arm(mass: f64) -> String {
 /// The truth: masses, centres and tensors of all links differ.
 fn truth() -> String {
     let changes = [
-        ("mass: 6 ", "mass: 5.2 "), ("[0.2, 0.01, 0.02]", "[0.22, -0.01, 0.03]"), ("mass: 4\n", "mass: 4.4\n"),
-        ("yy: 0.07 ", "yy: 0.08 "), ("mass: 2.5", "mass: 2.8"), ("[0.15, 0, 0.01]", "[0.14, 0.01, 0.02]"),
+        ("mass: 6 ", "mass: 5.2 "),
+        ("[0.2, 0.01, 0.02]", "[0.22, -0.01, 0.03]"),
+        ("mass: 4\n", "mass: 4.4\n"),
+        ("yy: 0.07 ", "yy: 0.08 "),
+        ("mass: 2.5", "mass: 2.8"),
+        ("[0.15, 0, 0.01]", "[0.14, 0.01, 0.02]"),
         ("zz: 0.03 ", "zz: 0.036 "),
     ];
     changes.iter().fold(arm(1.0), |spec, (from, to)| {
@@ -151,7 +192,16 @@ fn true_numbers(names: &Value) -> Vec<f64> {
         ("column", 5.2, [0.01, 0.02, 0.15], [0.06, 0.06, 0.036]),
         ("upper", 4.4, [0.22, -0.01, 0.03], [0.012, 0.08, 0.07]),
         ("fore", 2.8, [0.14, 0.01, 0.02], [0.005, 0.02, 0.02]),
-        ("payload", 1.0, [0.0, 0.0, 0.05], [box_tensor(1.0, 0.1, 0.12), box_tensor(1.0, 0.1, 0.12), box_tensor(1.0, 0.1, 0.1)]),
+        (
+            "payload",
+            1.0,
+            [0.0, 0.0, 0.05],
+            [
+                box_tensor(1.0, 0.1, 0.12),
+                box_tensor(1.0, 0.1, 0.12),
+                box_tensor(1.0, 0.1, 0.1),
+            ],
+        ),
     ];
     let number = |name: &str| -> f64 {
         let (owner, part) = name.split_once('.').expect("OWNER.PART");
@@ -178,31 +228,63 @@ fn true_numbers(names: &Value) -> Vec<f64> {
             _ => entry(2, 2),
         }
     };
-    names.as_array().expect("names").iter().map(|n| number(n.as_str().expect("a name"))).collect()
+    names
+        .as_array()
+        .expect("names")
+        .iter()
+        .map(|n| number(n.as_str().expect("a name")))
+        .collect()
 }
 
 #[test]
 fn a_log_gives_back_its_truth() {
-    let (train, test) = (csv(&simulated(&truth(), 1, 20.0)), csv(&simulated(&truth(), 2, 10.0)));
-    let folder = files("identify", &arm(1.0), &[("train.csv", train), ("test.csv", test)]);
+    let (train, test) = (
+        csv(&simulated(&truth(), 1, 20.0)),
+        csv(&simulated(&truth(), 2, 10.0)),
+    );
+    let folder = files(
+        "identify",
+        &arm(1.0),
+        &[("train.csv", train), ("test.csv", test)],
+    );
     let path = |name: &str| text(&folder.join(name));
     let run = bgdyn(&[
-        "identify", &path("arm.yaml"), &path("train.csv"), "--test", &path("test.csv"), "--rotors", "--json",
-        "-o", &path("found.yaml"), "--report", &path("report"),
+        "identify",
+        &path("arm.yaml"),
+        &path("train.csv"),
+        "--test",
+        &path("test.csv"),
+        "--rotors",
+        "--json",
+        "-o",
+        &path("found.yaml"),
+        "--report",
+        &path("report"),
     ]);
     let found: Value = serde_json::from_str(&run.good()).expect("JSON");
     // Efforts of the other motion: the file is wrong, what is found leaves the noise.
     for joint in found["joints"].as_array().expect("joints") {
         let rms = |of: &str| joint["rms"][of].as_f64().expect("a number");
         assert!(rms("file") > 0.5 && rms("bodies") < 0.1, "{joint}");
-        assert!(joint["by_velocity"].as_f64().expect("a share") < 0.1, "{joint}");
+        assert!(
+            joint["by_velocity"].as_f64().expect("a share") < 0.1,
+            "{joint}"
+        );
     }
     // Base parameters: K of the truth within the deviations.
     let numbers = true_numbers(&found["base_map"]["columns"]);
-    let off = found["base"].as_array().expect("base").iter().zip(found["base_map"]["rows"].as_array().expect("rows"));
+    let off = found["base"]
+        .as_array()
+        .expect("base")
+        .iter()
+        .zip(found["base_map"]["rows"].as_array().expect("rows"));
     let off: Vec<f64> = off
         .map(|(base, row)| {
-            let row = row.as_array().expect("a row").iter().map(|x| x.as_f64().expect("a number"));
+            let row = row
+                .as_array()
+                .expect("a row")
+                .iter()
+                .map(|x| x.as_f64().expect("a number"));
             let truth: f64 = row.zip(&numbers).map(|(k, x)| k * x).sum();
             let get = |key: &str| base[key].as_f64().expect("a number");
             (get("value") - truth).abs() / get("deviation")
@@ -216,7 +298,14 @@ fn a_log_gives_back_its_truth() {
     // The spec: valid, all else untouched, friction and rotors as effects.
     bgdyn(&["check", &path("found.yaml")]).good();
     let written = fs::read_to_string(folder.join("found.yaml")).expect("the spec");
-    for line in ["# An arm with a payload.", "name: found", "# by its drawing; ± ", "was 4", "lift_rotor: { type: rotor, joint: lift, inertia: 0.", "bend_coulomb: { type: coulomb, joint: bend, kinetic: 0."] {
+    for line in [
+        "# An arm with a payload.",
+        "name: found",
+        "# by its drawing; ± ",
+        "was 4",
+        "lift_rotor: { type: rotor, joint: lift, inertia: 0.",
+        "bend_coulomb: { type: coulomb, joint: bend, kinetic: 0.",
+    ] {
         assert!(written.contains(line), "{line}:\n{written}");
     }
     let page = fs::read_to_string(folder.join("report/arm.html")).expect("the page");
@@ -228,13 +317,28 @@ fn a_payload_is_found_alone() {
     let log = csv(&simulated(&arm(1.2), 3, 15.0));
     let folder = files("identify_payload", &arm(1.0), &[("log.csv", log)]);
     let path = |name: &str| text(&folder.join(name));
-    let run = bgdyn(&["identify", &path("arm.yaml"), &path("log.csv"), "--only", "payload", "--rotors", "--prior", "0.01", "--json", "-o", &path("found.yaml")]);
+    let run = bgdyn(&[
+        "identify",
+        &path("arm.yaml"),
+        &path("log.csv"),
+        "--only",
+        "payload",
+        "--rotors",
+        "--prior",
+        "0.01",
+        "--json",
+        "-o",
+        &path("found.yaml"),
+    ]);
     let found: Value = serde_json::from_str(&run.good()).expect("JSON");
     let payload = &found["links"][3];
     let mass = payload["parameters"][0]["value"].as_f64().expect("a mass");
     assert!((mass / 1.2 - 1.0).abs() < 0.02, "{mass}");
     let written = fs::read_to_string(folder.join("found.yaml")).expect("the spec");
-    assert!(written.contains("mass: 6   # by its drawing\n"), "other links are untouched:\n{written}");
+    assert!(
+        written.contains("mass: 6   # by its drawing\n"),
+        "other links are untouched:\n{written}"
+    );
     assert_eq!(found["judged_on"], "last third");
 }
 
@@ -263,25 +367,106 @@ fn each_fault_is_refused_at_its_place() {
         lines.join("\n") + "\n"
     };
     let cases: Vec<(&str, String, &[&str])> = vec![
-        ("identify_gap", change(&|r| drop(r.drain(300..400))), &["302:1:", "[gap]", "cut the log there"]),
-        ("identify_back", change(&|r| r[50][0] = 0.1), &["52:1:", "[time-order]"]),
-        ("identify_nan", lines(&|l| { l[7] = l[7].replacen(',', ",nan,", 1); l[8] = l[8].split(',').map(|_| "x").collect::<Vec<_>>().join(",") }), &["8:8:", "8 values instead of 7", "[wrong-count]", "9:1:", "[not-finite]"]),
-        ("identify_missing", lines(&|l| l[0] = l[0].replace("tau_bend", "tau_hand").replace("q_turn", "turn")), &["[missing-column]", "position of joint `turn`", "effort of joint `bend`", "tau_hand"]),
-        ("identify_unit", lines(&|l| l.insert(1, "s,deg,mm,rad,N*m,N,N*m".into())), &["2:3:", "2:6:", "[wrong-unit]"]),
-        ("identify_degrees", change(&|r| r.iter_mut().for_each(|r| r[1] *= 57.3)), &["[wrong-unit]", "joint `turn` goes from", "deg"]),
-        ("identify_ms", change(&|r| r.iter_mut().for_each(|r| r[0] *= 1e3)), &["[wrong-unit]", "rows per second", "ms"]),
-        ("identify_constant", change(&|r| r.iter_mut().for_each(|r| { r[2] = 0.5; r[6] = 1.0 })), &["[constant-channel]", "joint `lift` stands at 0.5", "effort of joint `bend` is 1"]),
-        ("identify_sign", change(&|r| r.iter_mut().for_each(|r| (4..7).for_each(|j| r[j] = -r[j]))), &["[wrong-sign]", "efforts are those of the negative model"]),
-        ("identify_rest", change(&|r| r.iter_mut().enumerate().for_each(|(i, r)| (1..4).for_each(|j| r[j] = 0.3 + 1e-6 * (i % 2) as f64))), &["[nothing-excited]", "no joint moves"]),
-        ("identify_short", change(&|r| r.truncate(60)), &["[too-short]"]),
+        (
+            "identify_gap",
+            change(&|r| drop(r.drain(300..400))),
+            &["302:1:", "[gap]", "cut the log there"],
+        ),
+        (
+            "identify_back",
+            change(&|r| r[50][0] = 0.1),
+            &["52:1:", "[time-order]"],
+        ),
+        (
+            "identify_nan",
+            lines(&|l| {
+                l[7] = l[7].replacen(',', ",nan,", 1);
+                l[8] = l[8].split(',').map(|_| "x").collect::<Vec<_>>().join(",")
+            }),
+            &[
+                "8:8:",
+                "8 values instead of 7",
+                "[wrong-count]",
+                "9:1:",
+                "[not-finite]",
+            ],
+        ),
+        (
+            "identify_missing",
+            lines(&|l| {
+                l[0] = l[0]
+                    .replace("tau_bend", "tau_hand")
+                    .replace("q_turn", "turn")
+            }),
+            &[
+                "[missing-column]",
+                "position of joint `turn`",
+                "effort of joint `bend`",
+                "tau_hand",
+            ],
+        ),
+        (
+            "identify_unit",
+            lines(&|l| l.insert(1, "s,deg,mm,rad,N*m,N,N*m".into())),
+            &["2:3:", "2:6:", "[wrong-unit]"],
+        ),
+        (
+            "identify_degrees",
+            change(&|r| r.iter_mut().for_each(|r| r[1] *= 57.3)),
+            &["[wrong-unit]", "joint `turn` goes from", "deg"],
+        ),
+        (
+            "identify_ms",
+            change(&|r| r.iter_mut().for_each(|r| r[0] *= 1e3)),
+            &["[wrong-unit]", "rows per second", "ms"],
+        ),
+        (
+            "identify_constant",
+            change(&|r| {
+                r.iter_mut().for_each(|r| {
+                    r[2] = 0.5;
+                    r[6] = 1.0
+                })
+            }),
+            &[
+                "[constant-channel]",
+                "joint `lift` stands at 0.5",
+                "effort of joint `bend` is 1",
+            ],
+        ),
+        (
+            "identify_sign",
+            change(&|r| r.iter_mut().for_each(|r| (4..7).for_each(|j| r[j] = -r[j]))),
+            &["[wrong-sign]", "efforts are those of the negative model"],
+        ),
+        (
+            "identify_rest",
+            change(&|r| {
+                r.iter_mut()
+                    .enumerate()
+                    .for_each(|(i, r)| (1..4).for_each(|j| r[j] = 0.3 + 1e-6 * (i % 2) as f64))
+            }),
+            &["[nothing-excited]", "no joint moves"],
+        ),
+        (
+            "identify_short",
+            change(&|r| r.truncate(60)),
+            &["[too-short]"],
+        ),
         ("identify_empty", String::new(), &["[empty-log]"]),
     ];
     for (name, log, wanted) in cases {
         let told = refused(name, &log, &[]);
         for text in wanted {
-            assert!(told.contains(text), "{name}: `{text}` is missing in\n{told}");
+            assert!(
+                told.contains(text),
+                "{name}: `{text}` is missing in\n{told}"
+            );
         }
-        assert!(told.contains("help: ") && told.contains("nothing was written"), "{told}");
+        assert!(
+            told.contains("help: ") && told.contains("nothing was written"),
+            "{told}"
+        );
     }
     let told = refused("identify_only", &csv(&rows), &["--only", "hand"]);
     assert!(told.contains("column, upper, fore, payload"), "{told}");
@@ -291,21 +476,57 @@ fn each_fault_is_refused_at_its_place() {
 fn names_and_units_of_other_loggers_are_read() {
     let rows = simulated(&truth(), 5, 8.0);
     let plain = files("identify_names", &arm(1.0), &[("log.csv", csv(&rows))]);
-    let degrees: Vec<Vec<f64>> = rows.iter().map(|r| r.iter().enumerate().map(|(c, x)| match c {
-        0 => x * 1e3,
-        1..=3 => x.to_degrees(),
-        _ => *x,
-    }).collect()).collect();
-    let mut other = csv(&degrees).replace(&header(), "stamp,joint_turn_pos,joint_lift_pos,joint_bend_pos,i_1,i_2,i_3\nms,deg,deg,deg,A,A,A");
+    let degrees: Vec<Vec<f64>> = rows
+        .iter()
+        .map(|r| {
+            r.iter()
+                .enumerate()
+                .map(|(c, x)| match c {
+                    0 => x * 1e3,
+                    1..=3 => x.to_degrees(),
+                    _ => *x,
+                })
+                .collect()
+        })
+        .collect();
+    let mut other = csv(&degrees).replace(
+        &header(),
+        "stamp,joint_turn_pos,joint_lift_pos,joint_bend_pos,i_1,i_2,i_3\nms,deg,deg,deg,A,A,A",
+    );
     other.insert_str(0, "# recorded by another tool\n");
     fs::write(plain.join("other.csv"), other).expect("a log");
-    fs::write(plain.join("gains.csv"), "joint,gain\nturn,1\nlift,1\nbend,1\n").expect("gains");
+    fs::write(
+        plain.join("gains.csv"),
+        "joint,gain\nturn,1\nlift,1\nbend,1\n",
+    )
+    .expect("gains");
     let path = |name: &str| text(&plain.join(name));
-    let first = bgdyn(&["identify", &path("arm.yaml"), &path("log.csv"), "--cut", "8 Hz", "--json"]).good();
+    let first = bgdyn(&[
+        "identify",
+        &path("arm.yaml"),
+        &path("log.csv"),
+        "--cut",
+        "8 Hz",
+        "--json",
+    ])
+    .good();
     let second = bgdyn(&[
-        "identify", &path("arm.yaml"), &path("other.csv"), "--cut", "8 Hz", "--json", "--gains", &path("gains.csv"),
-        "--columns", "time=stamp,q=joint_{}_pos,tau=i_{}",
-    ]).good();
-    let mass = |text: &str| serde_json::from_str::<Value>(text).expect("JSON")["links"][1]["parameters"][1]["value"].as_f64().expect("a number");
+        "identify",
+        &path("arm.yaml"),
+        &path("other.csv"),
+        "--cut",
+        "8 Hz",
+        "--json",
+        "--gains",
+        &path("gains.csv"),
+        "--columns",
+        "time=stamp,q=joint_{}_pos,tau=i_{}",
+    ])
+    .good();
+    let mass = |text: &str| {
+        serde_json::from_str::<Value>(text).expect("JSON")["links"][1]["parameters"][1]["value"]
+            .as_f64()
+            .expect("a number")
+    };
     assert!((mass(&first) - mass(&second)).abs() < 1e-3 * mass(&first).abs());
 }

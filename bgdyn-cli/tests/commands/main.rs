@@ -13,6 +13,7 @@ mod fuzz_invariants;
 mod generate;
 mod golden_specs;
 mod graph;
+mod identify;
 mod import;
 mod joints;
 mod loops;
