@@ -2,8 +2,10 @@
 
 use crate::prepare::Samples;
 
-/// Bins of a residual over velocity or position.
+/// Bins of a residual over velocity or position, at most.
 const BINS: usize = 20;
+/// Rows of a bin, at least.
+const BIN_ROWS: usize = 8;
 
 /// What is left of a joint's efforts.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,7 +59,8 @@ pub fn rms(x: &[f64]) -> f64 {
 /// explains.
 fn explained(x: &[f64], y: &[f64]) -> f64 {
     let n = y.len();
-    if n < 4 * BINS {
+    let bins = BINS.min(n / BIN_ROWS);
+    if bins < 3 {
         return 0.0;
     }
     let mut order: Vec<usize> = (0..n).collect();
@@ -65,13 +68,13 @@ fn explained(x: &[f64], y: &[f64]) -> f64 {
     let mean = y.iter().sum::<f64>() / n as f64;
     let total: f64 = y.iter().map(|y| (y - mean).powi(2)).sum();
     let between: f64 = order
-        .chunks(n.div_ceil(BINS))
+        .chunks(n.div_ceil(bins))
         .map(|bin| {
             let own = bin.iter().map(|i| y[*i]).sum::<f64>() / bin.len() as f64;
             bin.len() as f64 * (own - mean).powi(2)
         })
         .sum();
-    let chance = (BINS - 1) as f64 / (n - 1) as f64;
+    let chance = (bins - 1) as f64 / (n - 1) as f64;
     match total > 0.0 {
         true => ((between / total - chance) / (1.0 - chance)).max(0.0),
         false => 0.0,

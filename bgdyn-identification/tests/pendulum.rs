@@ -140,7 +140,7 @@ fn a_log_in_several_parts_is_as_sharp_as_without_noise() {
 #[test]
 fn what_is_not_identified_keeps_its_number_and_shows() {
     // Without friction the velocity explains the rest.
-    let found = found(5000, 0.02, [false; 4]);
+    let found = found(10_000, 0.02, [false; 4]);
     assert!(
         found.judgement.left[1][0].by_velocity > 0.5,
         "{:?}",
