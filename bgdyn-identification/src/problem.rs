@@ -29,6 +29,19 @@ pub(crate) struct Problem {
     fit: Fit,
 }
 
+/// The problem of bodies.
+struct Posed {
+    solver: BodyProblem,
+    /// The bodies of the file, made definite.
+    start: DVector<f64>,
+    /// Links whose numbers in the file no body can have.
+    impossible: Vec<usize>,
+    /// Unknowns without effect in this motion.
+    left_out: Vec<Unknown>,
+    /// The free unknowns that it has, as indices into those of the base.
+    used: Vec<usize>,
+}
+
 impl Problem {
     pub(crate) fn new(model: &Model<'_>, samples: Samples, base: Base, options: &Options) -> Self {
         let all = model.unknowns();
@@ -75,7 +88,13 @@ impl Problem {
                 LogFault::whole("nothing-excited", message).with_help(help),
             ]);
         }
-        let (solver, start, impossible, left_out, used) = self.body_problem(model, options);
+        let Posed {
+            solver,
+            start,
+            impossible,
+            left_out,
+            used,
+        } = self.body_problem(model, options);
         let bodies = solver.solve(start);
         let cov = bodies
             .hessian
@@ -172,20 +191,8 @@ impl Problem {
         map
     }
 
-    /// Returns the problem of bodies, its start, the links that cannot exist, columns that are left out, and the free
-    /// unknowns that it has.
-    #[allow(clippy::type_complexity)]
-    fn body_problem(
-        &self,
-        model: &Model<'_>,
-        options: &Options,
-    ) -> (
-        BodyProblem,
-        DVector<f64>,
-        Vec<usize>,
-        Vec<Unknown>,
-        Vec<usize>,
-    ) {
+    /// Returns the problem of bodies.
+    fn body_problem(&self, model: &Model<'_>, options: &Options) -> Posed {
         let of_all = &self.fit.r * self.scaled_map(&(0..self.free.len()).collect::<Vec<_>>());
         let shown = |i: usize| of_all.column(i).norm() > 1e-9;
         let is_link = |i: usize| matches!(self.base.free[i], Unknown::Link(..));
@@ -234,7 +241,13 @@ impl Problem {
             positive,
             prior: options.prior.max(1e-9),
         };
-        (solver, start, impossible, left_out, used)
+        Posed {
+            solver,
+            start,
+            impossible,
+            left_out,
+            used,
+        }
     }
 
     fn numbers(

@@ -14,6 +14,7 @@ mod generate;
 mod golden_specs;
 mod graph;
 mod identify;
+mod identify_logs;
 mod import;
 mod joints;
 mod loops;
