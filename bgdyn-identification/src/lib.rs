@@ -3,7 +3,7 @@
 //! The steps have one direction: [`log`] (the table, its faults, its quality) → [`even`] (equal steps, no spikes) →
 //! [`prepare`] (filtered, differentiated, decimated rows) → [`base`] (which parameters have an effect of their own) →
 //! [`fit`] (robust weighted least squares) → [`deviations`] → [`bodies`] (bodies that can exist, nearest to the file)
-//! → [`judge`] (another motion). [`identify`] runs them.
+//! → [`judge`] (another motion). [`identify()`] runs them.
 //!
 //! Rows of the regressor come from the trait [`Rows`]: the crate knows no mechanism. SI units and radians throughout.
 #![forbid(unsafe_code)]

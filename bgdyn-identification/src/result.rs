@@ -70,7 +70,7 @@ pub struct Identification {
     pub base: Vec<BaseParameter>,
     /// K, with the free unknowns of its columns.
     pub map: Base,
-    /// Numbers of bodies that can exist, in the order of [`Model::unknowns`], the free ones.
+    /// Numbers of bodies that can exist, in the order of [`crate::Model::unknowns`], the free ones.
     pub numbers: Vec<Identified>,
     /// Covariance of them.
     pub covariance: DMatrix<f64>,
