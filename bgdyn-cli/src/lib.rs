@@ -10,6 +10,7 @@ pub mod commands;
 mod engine;
 pub mod fuzz_invariants;
 pub mod graph;
+mod identify;
 pub mod import;
 mod output;
 mod quantity;
@@ -49,6 +50,7 @@ enum Command {
     Generate(commands::generate::Generate),
     Graph(commands::graph::Graph),
     Simulate(commands::simulate::Simulate),
+    Identify(commands::identify::Identify),
     Accuracy(commands::accuracy::Accuracy),
     Import(import::ImportArgs),
     Schema(commands::schema::Schema),
@@ -66,6 +68,7 @@ pub fn run() -> ExitCode {
         Command::Generate(command) => command.run(),
         Command::Graph(command) => command.run(),
         Command::Simulate(command) => command.run(),
+        Command::Identify(command) => command.run(),
         Command::Accuracy(command) => command.run(),
         Command::Import(arguments) => import::run(arguments),
         Command::Schema(command) => command.run(),

@@ -22,6 +22,7 @@ const CRATES: &[&str] = &[
     "bgdyn-accuracy",
     "bgdyn-cli",
     "bgdyn-codegen",
+    "bgdyn-identification",
     "bgdyn-jit",
     "bgdyn-macros",
     "bgdyn-python",

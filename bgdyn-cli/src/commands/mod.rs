@@ -6,6 +6,7 @@ pub(crate) mod equations;
 pub(crate) mod eval;
 pub(crate) mod generate;
 pub(crate) mod graph;
+pub(crate) mod identify;
 mod loop_ranges;
 mod loops;
 pub mod ops;

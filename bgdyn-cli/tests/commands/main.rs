@@ -13,6 +13,8 @@ mod fuzz_invariants;
 mod generate;
 mod golden_specs;
 mod graph;
+mod identify;
+mod identify_logs;
 mod import;
 mod joints;
 mod loops;

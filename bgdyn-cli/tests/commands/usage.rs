@@ -9,13 +9,14 @@ use crate::{bgdyn, root};
 
 const SCARA: &str = "tests/golden/specs/scara4.yaml";
 const VALUES: &str = "tests/golden/values/scara4.json";
-const COMMANDS: [&str; 7] = [
+const COMMANDS: [&str; 8] = [
     "check",
     "ops",
     "eval",
     "equations",
     "generate",
     "graph",
+    "identify",
     "import",
 ];
 
