@@ -150,6 +150,14 @@ fn courses() -> Vec<(&'static str, Value)> {
         ],
         &[],
     );
+    let step = object(
+        &[
+            ("before", number()),
+            ("after", number()),
+            ("time", quantity(&[Dimension::Time])),
+        ],
+        &[],
+    );
     vec![
         ("constant", number()),
         (
@@ -164,7 +172,41 @@ fn courses() -> Vec<(&'static str, Value)> {
                 json!({ "type": "array", "items": point, "minItems": 1 }),
             ),
         ),
+        (
+            "step",
+            described("`before` until `time`, then `after`", step),
+        ),
+        (
+            "trapezoidal",
+            described(
+                "from one value to another with a trapezoidal velocity, by two of duration, velocity, acceleration",
+                point_to_point(),
+            ),
+        ),
+        (
+            "quintic",
+            described(
+                "from one value to another by a polynomial of fifth order, in `duration` or as fast as limits permit",
+                point_to_point(),
+            ),
+        ),
     ]
+}
+
+/// Returns the keys of a motion from one value to another.
+fn point_to_point() -> Value {
+    let time = || quantity(&[Dimension::Time]);
+    object(
+        &[
+            ("from", number()),
+            ("to", number()),
+            ("start", time()),
+            ("duration", time()),
+            ("velocity", number()),
+            ("acceleration", number()),
+        ],
+        &[],
+    )
 }
 
 fn course() -> Value {

@@ -9,6 +9,7 @@ mod check;
 mod closed_start;
 mod integration;
 mod overrides;
+mod profile;
 mod signal;
 
 use bgdyn_runtime::Dd;
@@ -29,7 +30,7 @@ pub(crate) use check::sketch;
 pub use check::{Verdict, check, check_alone};
 pub use integration::{Integration, IntegratorName, StepControl};
 pub use overrides::{Override, OverrideKind};
-pub use signal::{InputSource, PoseHold, PoseTarget, Waveform};
+pub use signal::{InputSource, Piece, PoseHold, PoseTarget, Waveform};
 
 /// A scene that passed every check.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::profile;
 use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Raw};
@@ -32,16 +33,58 @@ pub enum Waveform {
     },
     /// Straight lines between points (t, value), held before and after.
     Table(Vec<[Dd; 2]>),
+    /// Polynomials in time, one after the other.
+    Pieces {
+        /// Value before the first one.
+        before: Dd,
+        /// In the order of time.
+        pieces: Vec<Piece>,
+    },
+}
+
+/// A polynomial Σ c_k (t − start)ᵏ, which holds from `start` on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// s
+    pub start: Dd,
+    /// c_0, c_1, …
+    pub coefficients: Vec<Dd>,
+}
+
+impl Piece {
+    /// Returns the polynomial with these coefficients.
+    pub(super) fn new(start: Dd, coefficients: &[Dd]) -> Self {
+        let coefficients = coefficients.to_vec();
+        Piece {
+            start,
+            coefficients,
+        }
+    }
 }
 
 impl Waveform {
     /// The instants, s, at which it bends.
     fn corners(&self) -> impl Iterator<Item = Dd> {
-        let points = match self {
-            Waveform::Table(points) => points.as_slice(),
-            _ => &[],
+        let (points, pieces) = match self {
+            Waveform::Table(points) => (points.as_slice(), &[][..]),
+            Waveform::Pieces { pieces, .. } => (&[][..], pieces.as_slice()),
+            _ => (&[][..], &[][..]),
         };
-        points.iter().map(|point| point[0])
+        let points = points.iter().map(|point| point[0]);
+        points.chain(pieces.iter().map(|piece| piece.start))
+    }
+
+    /// Returns whether its rate jumps, or its value.
+    pub(super) fn rate_jumps(&self) -> bool {
+        // A motion from point to point starts at rest; a step has another value from its first instant on.
+        match self {
+            Waveform::Table(_) => true,
+            Waveform::Pieces { before, pieces } => {
+                let first = pieces.first().and_then(|piece| piece.coefficients.first());
+                first != Some(before)
+            }
+            _ => false,
+        }
     }
 }
 
@@ -136,8 +179,7 @@ impl InputSource {
 }
 
 /// The words that a drive may begin with.
-pub(super) const BUILT_IN: &str =
-    "constant, ramp, harmonic, table, pd, computed_torque, or `given` for values from Rust code";
+pub(super) const BUILT_IN: &str = "constant, ramp, harmonic, table, step, trapezoidal, quintic, pd, computed_torque, or `given` for values from Rust code";
 
 /// The word of a controller that holds the pose of a joint with quasi-velocities.
 pub(super) const HOLD: &str = "hold";
@@ -239,6 +281,9 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
         "ramp" => ramp(only, dimension, faults),
         "harmonic" => harmonic(only, dimension, faults),
         "table" => table(only, dimension, faults),
+        "step" => profile::step(only, dimension, faults),
+        "trapezoidal" => profile::trapezoidal(only, dimension, faults),
+        "quintic" => profile::quintic(only, dimension, faults),
         other => {
             faults.push(wording::unknown_source(
                 &only.name.location,
@@ -296,7 +341,7 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Wave
     })
 }
 
-fn unknown_key<R>(
+pub(super) fn unknown_key<R>(
     location: &Location,
     key: &str,
     known: &[&'static str],

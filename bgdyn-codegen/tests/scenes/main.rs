@@ -21,6 +21,7 @@ mod lines;
 mod motors;
 mod one;
 mod page;
+mod profiles;
 #[allow(dead_code)] // written for more than scenes
 #[path = "../common/random.rs"]
 mod random;

@@ -232,3 +232,9 @@ pub(crate) fn empty_table(location: &Location) -> Fault {
     Fault::new(location, "drive", "the table has no points")
         .with_help("write `[[0 s, 0], [1 s, 2]]`")
 }
+
+// Motions from point to point
+
+pub(crate) fn profile(location: &Location, message: String, way_out: &str) -> Fault {
+    Fault::new(location, "profile", message).with_help(way_out)
+}

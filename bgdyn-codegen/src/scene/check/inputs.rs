@@ -140,9 +140,10 @@ pub(super) fn drives(
                 ));
                 continue;
             }
-            let bends = matches!(&drive, InputSource::Waveform(Waveform::Table(_)));
+            let bends = matches!(&drive, InputSource::Waveform(course) if course.rate_jumps());
             if bends && layout.prescribed.contains(name) {
-                faults.push(wording::prescribed_with_corners(&raw.location, name));
+                let step = !matches!(&drive, InputSource::Waveform(Waveform::Table(_)));
+                faults.push(wording::prescribed_with_corners(&raw.location, name, step));
                 continue;
             }
             drives[i] = drive;
