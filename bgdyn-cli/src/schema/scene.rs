@@ -43,6 +43,13 @@ pub fn scene() -> Value {
                 named("what drives each input", json!({ "$ref": "#/$defs/drive" })),
             ),
             (
+                "effort_limits",
+                described(
+                    "whether the limits of efforts in the mechanism's file act",
+                    json!({ "type": "boolean" }),
+                ),
+            ),
+            (
                 "initial",
                 named("parts of the state at the start; 0 without", initial()),
             ),
@@ -224,8 +231,22 @@ fn drive() -> Value {
         described(about, object(&keys, &["target"]))
     };
     let mut words = courses();
+    let pid = object(
+        &[
+            ("target", json!({ "$ref": "#/$defs/course" })),
+            ("stiffness", gain.clone()),
+            ("damping", gain.clone()),
+            ("integral", gain.clone()),
+            ("anti_windup", quantity(&[Dimension::Time])),
+        ],
+        &["target", "integral"],
+    );
     words.extend([
         ("pd", controller("k (r − q) + d (ṙ − q̇)")),
+        (
+            "pid",
+            described("k (r − q) + d (ṙ − q̇) + z with ż = k_i (r − q)", pid),
+        ),
         (
             "computed_torque",
             controller("the scene's inverse dynamics at r̈ + d (ṙ − q̇) + k (r − q)"),
@@ -233,7 +254,27 @@ fn drive() -> Value {
         ("hold", hold()),
     ]);
     let given = json!({ "const": "given", "description": "what the caller puts into `Input`" });
-    json!({ "anyOf": [given, number(), one_of(&words)] })
+    let mut source = object(&words, &[]);
+    let one_word: Vec<Value> = words
+        .iter()
+        .map(|(word, _)| json!({ "required": [word] }))
+        .collect();
+    let mut none = object(&[(LIMIT, limit())], &[LIMIT]);
+    none["description"] = json!("what the caller puts into `Input`, within limits");
+    source["properties"][LIMIT] = limit();
+    source["oneOf"] = json!(one_word);
+    json!({ "anyOf": [given, number(), source, none] })
+}
+
+/// The key of an input's limits.
+const LIMIT: &str = "limit";
+
+/// Returns the limits of an input.
+fn limit() -> Value {
+    described(
+        "largest size of the input, or its least and its largest value",
+        json!({ "anyOf": [number(), numbers(2)] }),
+    )
 }
 
 /// Returns the controller of a joint's pose.

@@ -227,3 +227,25 @@ integration: { method: rk4, step: 1 ms, end: 1 s }
     // (6 − 2) N on 2 kg for 1 s.
     assert!((rows[1][1] - 1.0).abs() < 1e-9, "{rows:?}");
 }
+
+/// A force of at most 1 N pulls 2 kg towards 1 m by a stiffness of 10 N/m: constant up to 0.9 m, then a part of an
+/// oscillation. A step that averaged both sides of the limit would be off by 1e-6.
+#[test]
+fn a_step_ends_where_an_input_reaches_its_limit() {
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [inertia]
+inputs: { slide: { pd: { target: 1 m, stiffness: 10 }, limit: 1 N } }
+integration: { method: rk4, step: 10 ms, end: 1.95 s }
+";
+    let (run, table) = block("limited", scene, &["--points", "2"]);
+    let told = run.good();
+    assert!(told.contains("drives"), "{told}");
+    let rows = rows(&table);
+    let (t, place) = (rows[1][0], rows[1][1]);
+    let reached = (2.0 * 0.9 / 0.5_f64).sqrt();
+    let (w, after) = (5.0_f64.sqrt(), t - reached);
+    let wanted = 1.0 - 0.1 * (w * after).cos() + 0.5 * reached / w * (w * after).sin();
+    assert!((place - wanted).abs() < 2e-10, "{place}, not {wanted}");
+}

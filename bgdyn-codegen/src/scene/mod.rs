@@ -27,7 +27,7 @@ use crate::math::Ring;
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
-pub use check::{Verdict, check, check_alone};
+pub use check::{Verdict, check, check_alone, integral_name, limit_events};
 pub use integration::{Integration, IntegratorName, StepControl};
 pub use overrides::{Override, OverrideKind};
 pub use signal::{InputSource, Piece, PoseHold, PoseTarget, Waveform};
@@ -51,6 +51,8 @@ pub struct Scene {
     pub parameters: Vec<Parameter>,
     /// What drives each input.
     pub drives: Vec<InputSource>,
+    /// The least and the largest value of each input, where it has limits.
+    pub limits: Vec<Option<[Dd; 2]>>,
     /// Initial positions, velocities and first-order states.
     pub initial: Initial,
     /// What is wanted of it, by name.
@@ -65,6 +67,7 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq)]
 struct FileEntries {
     inputs: Vec<Raw>,
+    effort_limits: Option<Raw>,
     initial: Vec<Raw>,
     /// The mechanism before effects change its links.
     unloaded: Mechanism,

@@ -115,6 +115,21 @@ pub enum InputSource {
         /// d, 1/s
         damping: Dd,
     },
+    /// u = k (r − q) + d (ṙ − q̇) + z, with the integral part z of this name among the first-order states.
+    Pid {
+        /// r
+        target: Waveform,
+        /// k
+        stiffness: Dd,
+        /// d
+        damping: Dd,
+        /// k_i: ż = k_i (r − q) + (limited u − u)/T_t
+        integral: Dd,
+        /// T_t, s: how fast the integral part follows a limit.
+        tracking: Option<Dd>,
+    },
+    /// ż of the [`InputSource::Pid`] with this index.
+    IntegralRate(usize),
     /// One effort of a controller that holds a joint's position or orientation, by its index.
     Hold(Box<PoseHold>, usize),
 }
@@ -160,18 +175,22 @@ impl InputSource {
     pub fn is_controller(&self) -> bool {
         matches!(
             self,
-            InputSource::Pd { .. } | InputSource::ComputedTorque { .. } | InputSource::Hold(..)
+            InputSource::Pd { .. }
+                | InputSource::Pid { .. }
+                | InputSource::IntegralRate(_)
+                | InputSource::ComputedTorque { .. }
+                | InputSource::Hold(..)
         )
     }
 
     /// The instants, s, at which its course or its target bends.
     pub fn corners(&self) -> impl Iterator<Item = Dd> {
         let courses: &[Waveform] = match self {
-            InputSource::Given | InputSource::RateOf(_) => &[],
+            InputSource::Given | InputSource::RateOf(_) | InputSource::IntegralRate(_) => &[],
             InputSource::Waveform(course) => std::slice::from_ref(course),
-            InputSource::Pd { target, .. } | InputSource::ComputedTorque { target, .. } => {
-                std::slice::from_ref(target)
-            }
+            InputSource::Pd { target, .. }
+            | InputSource::Pid { target, .. }
+            | InputSource::ComputedTorque { target, .. } => std::slice::from_ref(target),
             InputSource::Hold(hold, _) => hold.target.courses(),
         };
         courses.iter().flat_map(Waveform::corners)
@@ -179,7 +198,10 @@ impl InputSource {
 }
 
 /// The words that a drive may begin with.
-pub(super) const BUILT_IN: &str = "constant, ramp, harmonic, table, step, trapezoidal, quintic, pd, computed_torque, or `given` for values from Rust code";
+pub(super) const BUILT_IN: &str = "constant, ramp, harmonic, table, step, trapezoidal, quintic, pd, pid, computed_torque, or `given` for values from Rust code";
+
+/// The key of the limits of an input.
+pub(super) const LIMIT: &str = "limit";
 
 /// The word of a controller that holds the pose of a joint with quasi-velocities.
 pub(super) const HOLD: &str = "hold";
@@ -199,8 +221,13 @@ pub(super) fn drive(
     if !raw.is_mapping() {
         return signal(raw, dimension, faults).map(InputSource::Waveform);
     }
-    let entries = raw.entries(expected::INPUT, faults);
+    let mut entries = raw.entries(expected::INPUT, faults);
+    let all = entries.len();
+    entries.retain(|entry| entry.name.value != LIMIT);
     let [only] = entries.as_slice() else {
+        if entries.is_empty() && all > 0 {
+            return Some(InputSource::Given);
+        }
         faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
     };
@@ -209,8 +236,8 @@ pub(super) fn drive(
         faults.push(wording::hold_of_one_degree(&only.name.location));
         return None;
     }
-    if !matches!(word, "pd" | "computed_torque") {
-        return signal(raw, dimension, faults).map(InputSource::Waveform);
+    if !matches!(word, "pd" | "pid" | "computed_torque") {
+        return course(only, dimension, faults).map(InputSource::Waveform);
     }
     if word == "computed_torque" && follows.is_some() && !effort {
         faults.push(wording::computed_torque_without_effort(&only.name.location));
@@ -232,17 +259,31 @@ fn controller(
     let entries = raw.entries(expected::CONTROLLER, faults);
     let mut target = None;
     let mut gains = [Dd::ZERO; 2];
+    let (mut integral, mut tracking) = (None, None);
+    let known: &[&str] = match word {
+        "pid" => &["target", "stiffness", "damping", "integral", "anti_windup"],
+        _ => &["target", "stiffness", "damping"],
+    };
     for entry in &entries {
         let gain = |faults: &mut Faults| entry.number(&[Dimension::One], faults);
         match entry.name.value.as_str() {
             "target" => target = signal(entry, position, faults),
             "stiffness" => gains[0] = gain(faults)?.value.value,
             "damping" => gains[1] = gain(faults)?.value.value,
-            other => {
-                let known = &["target", "stiffness", "damping"];
-                return unknown_key(&entry.name.location, other, known, faults);
+            "integral" if word == "pid" => integral = Some(gain(faults)?.value.value),
+            "anti_windup" if word == "pid" => {
+                let number = entry.number(&[Dimension::Time], faults)?;
+                if number.value.value <= Dd::ZERO {
+                    let text = &number.value.text;
+                    faults.push(wording::anti_windup_not_positive(&number.location, text));
+                }
+                tracking = Some(number.value.value);
             }
+            other => return unknown_key(&entry.name.location, other, known, faults),
         }
+    }
+    if word == "pid" && integral.is_none() {
+        faults.push(wording::pid_without_integral(&raw.location));
     }
     if target.is_none() && !entries.iter().any(|e| e.name.value == "target") {
         faults.push(wording::controller_without_target(&raw.location));
@@ -253,6 +294,17 @@ fn controller(
             target,
             stiffness,
             damping,
+        },
+        "pid" => InputSource::Pid {
+            target,
+            stiffness,
+            damping,
+            integral: integral?,
+            // By default the time of the integral part, k/k_i.
+            tracking: tracking.or_else(|| {
+                let time = stiffness / integral.unwrap_or(Dd::ONE);
+                (time > Dd::ZERO && time.is_finite()).then_some(time)
+            }),
         },
         _ => InputSource::ComputedTorque {
             target,
@@ -274,6 +326,12 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
         faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
     };
+    course(only, dimension, faults)
+}
+
+/// Reads a course by its word.
+fn course(only: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
+    let fit = [dimension];
     match only.name.value.as_str() {
         "constant" => only
             .number(&fit, faults)

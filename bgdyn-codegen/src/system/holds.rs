@@ -2,7 +2,7 @@
 
 use super::coordinate_rows::{link_accelerations, own_inertia};
 use super::summed::summed;
-use super::{ActuatorEfforts, EffortSums, SceneEquations};
+use super::{ActuatorEfforts, EffortSums, SceneEquations, signals};
 use crate::expr::{Builder, Expr};
 use crate::formulation;
 use crate::method::Method;
@@ -195,11 +195,18 @@ pub(super) fn events<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
             })
             .collect()
     };
+    let limits = signals::limit_distances(system, b);
     let value = |part: &crate::scene::Variable| {
         let contact = of_contacts.iter().find(|(name, _)| *name == part.name);
         contact
             .map(|(_, value)| *value)
             .or_else(|| sums.event_named(&part.name))
+            .or_else(|| {
+                limits
+                    .iter()
+                    .find(|(name, _)| *name == part.name)
+                    .map(|found| found.1)
+            })
             .unwrap_or(b.number(1.0))
     };
     system.scene.layout.events.iter().map(value).collect()

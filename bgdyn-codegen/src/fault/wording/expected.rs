@@ -72,6 +72,7 @@ pub(crate) const TEXT: Wanted<'static> = ("text", "it between quotes: `\"…\"`"
 pub(crate) const INPUT: Wanted<'static> = ("what drives the input", "`{ constant: 2 }`");
 pub(crate) const COURSE: Wanted<'static> = ("a course in time", "`{ constant: 2 }`");
 pub(crate) const RAMP: Wanted<'static> = ("a ramp", "`{ from: 0, rate: 0.1 }`");
+pub(crate) const LIMIT_OF_INPUT: Wanted<'static> = ("a limit", "`20`, or `[-5, 20]`");
 pub(crate) const STEP: Wanted<'static> = ("a step", "`{ before: 0, after: 1, time: 0.5 s }`");
 pub(crate) const TRAPEZOIDAL: Wanted<'static> = (
     "a motion with a trapezoidal velocity",

@@ -6,12 +6,15 @@ mod hold;
 mod initial;
 mod inputs;
 mod joints;
+mod limits;
 mod locks;
 mod outputs;
 mod pose;
 mod prescribed;
 mod run;
 mod state;
+
+pub use limits::{integral_name, limit_events};
 
 use bgdyn_runtime::Dd;
 
@@ -107,6 +110,7 @@ fn scene(
         layout: StateLayout::default(),
         parameters: Vec::new(),
         drives: Vec::new(),
+        limits: Vec::new(),
         initial: Initial::default(),
         outputs: effects::given(&spec.outputs)
             .iter()
@@ -115,6 +119,7 @@ fn scene(
         integration,
         written: FileEntries {
             inputs: effects::given(&spec.inputs).to_vec(),
+            effort_limits: spec.effort_limits.value().cloned(),
             initial: effects::given(&spec.initial).to_vec(),
             unloaded,
             modes: None,
@@ -148,17 +153,23 @@ pub(in crate::scene) fn assembled(
     let mut layout = state::layout(&scene.mechanism, &scene.elements);
     let inputs = &scene.written.inputs;
     inputs::add_efforts(&mut layout, inputs);
+    let parameters = state::parameters(&scene.mechanism, &scene.elements, faults);
+    let mut drives = inputs::drives(&layout, inputs, refused, faults);
+    let written = (&inputs[..], scene.written.effort_limits.as_ref());
+    let mut limits = limits::limits((&scene.mechanism, &layout), written, faults);
+    limits::add_events(&mut layout, &drives, &limits, inputs, faults);
+    limits::add_integrals(&mut layout, &mut drives);
+    limits.resize(drives.len(), None);
     // Repeated names of effects were reported already.
     let reported = faults.0.iter().any(|f| f.rule == "repeated-name");
     if let Some(name) = layout.repeated().filter(|_| !reported) {
         faults.push(wording::repeated_state_or_input(&Location::file(), name));
     }
-    let parameters = state::parameters(&scene.mechanism, &scene.elements, faults);
-    let drives = inputs::drives(&layout, inputs, refused, faults);
     followed::check((&scene.mechanism, &layout), &drives, inputs, faults);
     Scene {
         parameters,
         drives,
+        limits,
         initial: initial::initial(
             (&scene.mechanism, &layout),
             &scene.written.initial,
