@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::Scalar;
 use crate::joint::QuasiJoint;
+use crate::sampled::SampledControl;
 use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 
 /// Power of one effect, W. Supplied power equals the rate of stored energy plus dissipated power in the
@@ -107,6 +108,11 @@ pub trait HybridSystem<T: Scalar> {
     /// the points of its tables. Integrators end a step there and resolve stiction again.
     fn corners(&self) -> &'static [f64] {
         &[]
+    }
+    /// Returns how the controllers of the scene are sampled; `None` if they are continuous. `input` computes them at
+    /// any state; who integrates the scene holds them.
+    fn control(&self) -> Option<SampledControl<'static>> {
+        None
     }
     /// Returns the names of the outputs.
     fn output_names(&self) -> &'static ArrayOf<Self::Outputs, &'static str>;

@@ -49,6 +49,7 @@ pub fn scene() -> Value {
                     json!({ "type": "boolean" }),
                 ),
             ),
+            ("control", control()),
             (
                 "initial",
                 named("parts of the state at the start; 0 without", initial()),
@@ -275,6 +276,46 @@ fn limit() -> Value {
         "largest size of the input, or its least and its largest value",
         json!({ "anyOf": [number(), numbers(2)] }),
     )
+}
+
+/// Returns how controllers are sampled.
+fn control() -> Value {
+    let time = || quantity(&[Dimension::Time]);
+    let sizes = || {
+        json!({ "anyOf": [
+            number(),
+            { "type": "object", "propertyNames": identifier(), "additionalProperties": number() },
+        ] })
+    };
+    let noise = [("position", sizes()), ("velocity", sizes())];
+    let [position, velocity] = noise.clone();
+    let keys = [
+        ("period", described("time between two samples, s", time())),
+        (
+            "delay",
+            described("time from a sample to its effect, s", time()),
+        ),
+        ("hold", json!({ "const": "zero_order" })),
+        (
+            "quantisation",
+            described(
+                "steps of sensors and of efforts",
+                object(&[position, velocity, ("effort", sizes())], &[]),
+            ),
+        ),
+        (
+            "noise",
+            described("standard deviations of sensors", object(&noise, &[])),
+        ),
+        (
+            "seed",
+            described(
+                "seed of the noise",
+                json!({ "type": "integer", "minimum": 0 }),
+            ),
+        ),
+    ];
+    described("how controllers are sampled", object(&keys, &["period"]))
 }
 
 /// Returns the controller of a joint's pose.

@@ -249,3 +249,39 @@ integration: { method: rk4, step: 10 ms, end: 1.95 s }
     let wanted = 1.0 - 0.1 * (w * after).cos() + 0.5 * reached / w * (w * after).sin();
     assert!((place - wanted).abs() < 2e-10, "{place}, not {wanted}");
 }
+
+/// A controller that is sampled every 50 ms: between two samples the block moves under a constant force.
+#[test]
+fn a_sampled_controller_is_held_between_its_samples() {
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [inertia]
+inputs: { slide: { pd: { target: 1 m, stiffness: 10, damping: 3 } } }
+control: { period: 50 ms, delay: 20 ms }
+integration: { method: rk4, step: 7 ms, end: 1 s }
+";
+    let (run, table) = block("sampled", scene, &["--points", "101"]);
+    run.good();
+    let (mut q, mut v, mut effort, mut late) = (0.0, 0.0, 0.0, 0.0);
+    let mut by_hand = vec![[q, v]];
+    for point in 0..100 {
+        // Samples are at 0, 50, 100, … ms and act at 20, 70, 120, … ms.
+        if point % 5 == 0 {
+            late = 10.0 * (1.0 - q) - 3.0 * v;
+        }
+        if point % 5 == 2 {
+            effort = late;
+        }
+        let (h, a) = (0.01, effort / 2.0);
+        q += h * v + 0.5 * h * h * a;
+        v += h * a;
+        by_hand.push([q, v]);
+    }
+    let rows = rows(&table);
+    assert_eq!(rows.len(), by_hand.len());
+    for (row, wanted) in rows.iter().zip(&by_hand) {
+        let off = (row[1] - wanted[0]).abs().max((row[2] - wanted[1]).abs());
+        assert!(off < 1e-9, "{row:?}, not {wanted:?}");
+    }
+}

@@ -32,6 +32,8 @@ pub struct SceneSpec {
     pub inputs: Field<Vec<Raw>>,
     /// Whether the limits of efforts in the mechanism's file act.
     pub effort_limits: Field<Raw>,
+    /// How controllers are sampled.
+    pub control: Field<Raw>,
     /// The initial state.
     pub initial: Field<Vec<Raw>>,
     /// The outputs.
@@ -88,6 +90,7 @@ impl Reader {
             "effects",
             "inputs",
             "effort_limits",
+            "control",
             "initial",
             "outputs",
             "integration",
@@ -113,6 +116,7 @@ impl Reader {
             effort_limits: self.field(&map, "effort_limits", |_, at| {
                 Some(whole("effort_limits", at))
             }),
+            control: self.field(&map, "control", |_, at| Some(whole("control", at))),
             initial: self.field(&map, "initial", |r, at| r.table(at, expected::INITIAL)),
             outputs: self.field(&map, "outputs", |r, at| r.calls(at, expected::OUTPUTS)),
             integration: self.field(&map, "integration", |_, at| Some(whole("integration", at))),

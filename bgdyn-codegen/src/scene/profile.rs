@@ -2,14 +2,14 @@
 
 use bgdyn_runtime::Dd;
 
-use super::signal::{Piece, Waveform, unknown_key};
+use super::waveform::{Piece, Waveform, unknown_key};
 use crate::fault::wording::expected;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
 
 /// Keys of a motion from one value to another, as far as the file gives them.
 #[derive(Default)]
-struct Motion {
+struct PointToPoint {
     from: Dd,
     to: Dd,
     start: Dd,
@@ -172,13 +172,13 @@ fn motion(
     dimension: Dimension,
     wanted: wording::Wanted<'_>,
     faults: &mut Faults,
-) -> Option<Motion> {
+) -> Option<PointToPoint> {
     let [speed, acceleration] = match dimension {
         Dimension::Angle => [Dimension::AngularSpeed, Dimension::One],
         Dimension::Length => [Dimension::Speed, Dimension::Acceleration],
         _ => [Dimension::One; 2],
     };
-    let mut motion = Motion::default();
+    let mut motion = PointToPoint::default();
     let mut sound = true;
     for entry in raw.entries(wanted, faults) {
         let key = entry.name.value.as_str();

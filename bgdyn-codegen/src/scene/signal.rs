@@ -3,90 +3,11 @@
 use bgdyn_runtime::Dd;
 
 use super::profile;
+use super::waveform::{Waveform, unknown_key};
 use crate::fault::wording::expected;
-use crate::fault::{Faults, Location, wording};
+use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::QuasiJoint;
-
-/// A course in time.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Waveform {
-    /// One value.
-    Constant(Dd),
-    /// from + rate·t
-    Ramp {
-        /// Value at t = 0.
-        from: Dd,
-        /// Per second.
-        rate: Dd,
-    },
-    /// offset + amplitude·sin(2π frequency·t + phase)
-    Harmonic {
-        /// Amplitude.
-        amplitude: Dd,
-        /// Hz.
-        frequency: Dd,
-        /// rad
-        phase: Dd,
-        /// Mean.
-        offset: Dd,
-    },
-    /// Straight lines between points (t, value), held before and after.
-    Table(Vec<[Dd; 2]>),
-    /// Polynomials in time, one after the other.
-    Pieces {
-        /// Value before the first one.
-        before: Dd,
-        /// In the order of time.
-        pieces: Vec<Piece>,
-    },
-}
-
-/// A polynomial Σ c_k (t − start)ᵏ, which holds from `start` on.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
-    /// s
-    pub start: Dd,
-    /// c_0, c_1, …
-    pub coefficients: Vec<Dd>,
-}
-
-impl Piece {
-    /// Returns the polynomial with these coefficients.
-    pub(super) fn new(start: Dd, coefficients: &[Dd]) -> Self {
-        let coefficients = coefficients.to_vec();
-        Piece {
-            start,
-            coefficients,
-        }
-    }
-}
-
-impl Waveform {
-    /// The instants, s, at which it bends.
-    fn corners(&self) -> impl Iterator<Item = Dd> {
-        let (points, pieces) = match self {
-            Waveform::Table(points) => (points.as_slice(), &[][..]),
-            Waveform::Pieces { pieces, .. } => (&[][..], pieces.as_slice()),
-            _ => (&[][..], &[][..]),
-        };
-        let points = points.iter().map(|point| point[0]);
-        points.chain(pieces.iter().map(|piece| piece.start))
-    }
-
-    /// Returns whether its rate jumps, or its value.
-    pub(super) fn rate_jumps(&self) -> bool {
-        // A motion from point to point starts at rest; a step has another value from its first instant on.
-        match self {
-            Waveform::Table(_) => true,
-            Waveform::Pieces { before, pieces } => {
-                let first = pieces.first().and_then(|piece| piece.coefficients.first());
-                first != Some(before)
-            }
-            _ => false,
-        }
-    }
-}
 
 /// What drives an input.
 #[derive(Clone, Debug, PartialEq)]
@@ -397,16 +318,6 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Wave
         phase,
         offset,
     })
-}
-
-pub(super) fn unknown_key<R>(
-    location: &Location,
-    key: &str,
-    known: &[&'static str],
-    faults: &mut Faults,
-) -> Option<R> {
-    faults.push(wording::unknown_key(location, key, known));
-    None
 }
 
 fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {

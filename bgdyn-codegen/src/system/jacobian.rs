@@ -197,7 +197,19 @@ impl SceneEquations {
     pub(super) fn driven_inputs<'g>(&self, b: &'g Builder) -> Vec<Expr<'g>> {
         match self.scene.layout.inputs.is_empty() {
             true => vec![],
-            false => signals::inputs(self, b),
+            false => {
+                let mut inputs = signals::inputs(self, b);
+                // What sampled controllers give is held.
+                for &i in self
+                    .scene
+                    .control
+                    .iter()
+                    .flat_map(|control| &control.controlled)
+                {
+                    inputs[i] = b.leaf(Leaf::Input(i));
+                }
+                inputs
+            }
         }
     }
 

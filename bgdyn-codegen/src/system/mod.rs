@@ -9,6 +9,7 @@ mod canonical;
 mod coordinate_rows;
 mod dynamics;
 mod equations;
+mod events;
 mod followed;
 mod holds;
 mod idle;
@@ -212,7 +213,7 @@ impl SceneEquations {
             SceneFunction::Derivative => dynamics::derivatives(self),
             SceneFunction::Inverse => vec![self.one(role, dynamics::inverse)],
             SceneFunction::Inputs => vec![self.one(role, signals::inputs)],
-            SceneFunction::Events => vec![self.one(role, holds::events)],
+            SceneFunction::Events => vec![self.one(role, events::events)],
             SceneFunction::Contacts => vec![self.one(role, holds::contacts)],
             SceneFunction::Power => vec![self.one(role, balance::power)],
             SceneFunction::Energy => vec![self.one(role, balance::energy)],

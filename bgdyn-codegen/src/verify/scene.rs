@@ -248,6 +248,11 @@ impl CheckedScene<'_> {
         let mut driven = at.clone();
         if let Some(inputs) = self.function(SceneFunction::Inputs) {
             driven.u = inputs.evaluate(at.clone()).0;
+            // What sampled controllers give is held.
+            let control = self.system.scene.control.iter();
+            for &i in control.flat_map(|control| &control.controlled) {
+                driven.u[i] = at.u[i];
+            }
         }
         let (rates, refused) = derivative.evaluate(driven);
         refused.is_none().then_some(rates)

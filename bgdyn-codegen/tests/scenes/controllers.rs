@@ -185,3 +185,98 @@ fn wrong_controllers_and_limits_are_refused() {
         "{shown}"
     );
 }
+
+const PD: &str = "inputs: { slide: { pd: { target: 1, stiffness: 2, damping: 1 }, limit: 1 } }\n";
+
+/// Sampled inputs have no events at limits, and the Jacobian is at held inputs.
+#[test]
+fn sampled_inputs_are_held() {
+    let sampled = with(&format!(
+        "{PD}control: {{ period: 2 ms, delay: 1 ms, quantisation: {{ position: {{ slide: 1 mm }}, effort: 0.1 }}, noise: {{ velocity: 0.5 }}, seed: 9 }}\n"
+    ));
+    let control = sampled.system.scene.control.as_ref().expect("control");
+    assert_eq!((control.period, control.delay), (2e-3, 1e-3));
+    assert_eq!(control.resolution, [1e-3, 0.0]);
+    assert_eq!(control.noise, [0.0, 0.5]);
+    assert_eq!(control.controlled, [0]);
+    assert_eq!(control.input_resolution, [0.1]);
+    assert_eq!(control.seed, 9);
+    assert!(sampled.system.scene.layout.events.is_empty());
+    let slope = |tried: &Tried| {
+        let jacobian = tried.system.function(SceneFunction::Jacobian);
+        jacobian.evaluate(tried.at(&[0.9], &[0.0], &[], &[0.2])).0[0]
+    };
+    assert_eq!(slope(&sampled), 0.0);
+    let continuous = with(PD);
+    assert_eq!(continuous.system.scene.layout.events.len(), 2);
+    close(slope(&continuous), -2.0 / MASS);
+}
+
+#[test]
+fn wrong_sampling_is_refused() {
+    for (more, message, help) in [
+        (
+            "inputs: { slide: 1 }\ncontrol: { period: 1 ms }",
+            "no input of the scene has a controller",
+            "`pd`",
+        ),
+        (
+            "control: { delay: 1 ms }",
+            "`control` has no `period`",
+            "period: 1 ms",
+        ),
+        ("control: { period: 0 s }", "`period` is 0 s", "positive"),
+        (
+            "control: { period: 1 ms, delay: -1 ms }",
+            "`delay` is -1 ms",
+            "must not be negative",
+        ),
+        (
+            "control: { period: 1 ms, delay: 20 ms }",
+            "longer than 16 periods, 0.016 s",
+            "shorten the delay",
+        ),
+        (
+            "control: { period: 1 ms, hold: first_order }",
+            "held by `zero_order`",
+            "leave it out",
+        ),
+        (
+            "control: { period: 1 ms, seed: 1.5 }",
+            "the seed 1.5 is no integer",
+            "seed: 1",
+        ),
+        (
+            "control: { period: 1 ms, noise: { position: { elbow: 1 } } }",
+            "`elbow`",
+            "joints of the state",
+        ),
+        (
+            "control: { period: 1 ms, noise: { position: 1 deg } }",
+            "1 deg",
+            "",
+        ),
+        (
+            "control: { period: 1 ms, noise: { effort: 1 } }",
+            "`effort`",
+            "position",
+        ),
+        (
+            "control: { period: 1 ms, jitter: 1 }",
+            "`jitter`",
+            "quantisation",
+        ),
+        (
+            "control: { period: 1 ms }\nintegration: { method: canonical_midpoint }",
+            "`canonical_midpoint` integrates momenta",
+            "`method: midpoint`",
+        ),
+    ] {
+        let own = if more.contains("inputs") { "" } else { PD };
+        let text = text(&["inertia"], &format!("{own}{more}\n"));
+        let refused = try_scene(&text, BLOCK).expect_err(more);
+        let shown = told(&refused, &text);
+        assert!(shown.contains(message), "{shown}");
+        assert!(shown.contains(help), "{shown}");
+    }
+}

@@ -73,6 +73,18 @@ pub(crate) const INPUT: Wanted<'static> = ("what drives the input", "`{ constant
 pub(crate) const COURSE: Wanted<'static> = ("a course in time", "`{ constant: 2 }`");
 pub(crate) const RAMP: Wanted<'static> = ("a ramp", "`{ from: 0, rate: 0.1 }`");
 pub(crate) const LIMIT_OF_INPUT: Wanted<'static> = ("a limit", "`20`, or `[-5, 20]`");
+pub(crate) const CONTROL: Wanted<'static> = (
+    "how controllers are sampled",
+    "`{ period: 1 ms, delay: 0.5 ms }`",
+);
+pub(crate) const SENSORS: Wanted<'static> = (
+    "what sensors measure",
+    "`{ position: 0.1 deg, velocity: 0.01 }`",
+);
+pub(crate) const SENSORS_BY_NAME: Wanted<'static> = (
+    "a size for each joint",
+    "`{ shoulder: 0.1 deg, slide: 1 mm }`",
+);
 pub(crate) const STEP: Wanted<'static> = ("a step", "`{ before: 0, after: 1, time: 0.5 s }`");
 pub(crate) const TRAPEZOIDAL: Wanted<'static> = (
     "a motion with a trapezoidal velocity",

@@ -1,6 +1,7 @@
 //! Checks the inputs of a scene and their sources.
 
-use super::super::signal::{self, InputSource, Waveform};
+use super::super::signal::{self, InputSource};
+use super::super::waveform::Waveform;
 use super::hold;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};

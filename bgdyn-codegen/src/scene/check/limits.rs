@@ -2,7 +2,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::super::signal::{InputSource, LIMIT, Waveform};
+use super::super::signal::{InputSource, LIMIT};
+use super::super::waveform::Waveform;
 use crate::fault::wording::expected;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
@@ -10,7 +11,7 @@ use crate::layout::{MomentumStore, StateLayout, Variable};
 use crate::mechanism::Mechanism;
 
 /// The least and the largest value of an input; `None` without limits.
-pub(in crate::scene) type Limits = Option<[Dd; 2]>;
+pub(in crate::scene) type InputLimits = Option<[Dd; 2]>;
 
 /// Returns the limits of each input: those of its entry, within those of the joint in the mechanism's file if
 /// `effort_limits` is true.
@@ -18,7 +19,7 @@ pub(super) fn limits(
     (mechanism, layout): (&Mechanism, &StateLayout),
     (inputs, effort_limits): (&[Raw], Option<&Raw>),
     faults: &mut Faults,
-) -> Vec<Limits> {
+) -> Vec<InputLimits> {
     let acts = match effort_limits.map(|raw| (raw, raw.as_truth())) {
         Some((raw, None)) => {
             faults.push(wording::not_a_truth(&raw.location, "effort_limits"));
@@ -27,12 +28,12 @@ pub(super) fn limits(
         Some((_, Some(truth))) => truth,
         None => false,
     };
-    let own = |part: &Variable| -> Limits {
+    let own = |part: &Variable| -> InputLimits {
         let effort = acts.then(|| of_joint(mechanism, layout, part)).flatten()?;
         let most = Dd::from_f64(effort);
         Some([-most, most])
     };
-    let mut limits: Vec<Limits> = layout.inputs.iter().map(own).collect();
+    let mut limits: Vec<InputLimits> = layout.inputs.iter().map(own).collect();
     if let (true, Some(raw), true) = (acts, effort_limits, limits.iter().all(Option::is_none)) {
         faults.push(wording::no_effort_limits(&raw.location));
     }
@@ -69,7 +70,7 @@ pub(super) fn limits(
 }
 
 /// Reads a limit: a positive number for both directions, or the least and the largest value.
-fn read(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Limits {
+fn read(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> InputLimits {
     let number = |raw: &Raw, faults: &mut Faults| {
         let number = raw.number(&[dimension], faults)?;
         Some(number.value.value)
@@ -134,29 +135,40 @@ pub(super) fn add_integrals(layout: &mut StateLayout, drives: &mut Vec<InputSour
     }
 }
 
-/// Adds the events of limited inputs that change on their own: each is the distance to a limit.
-pub(super) fn add_events(
-    layout: &mut StateLayout,
-    drives: &[InputSource],
-    limits: &[Limits],
-    inputs: &[Raw],
+/// Refuses limited controllers with an integral part that has no time in which to follow the limit.
+pub(super) fn check_anti_windup(
+    layout: &StateLayout,
+    (drives, limits, inputs): (&[InputSource], &[InputLimits], &[Raw]),
     faults: &mut Faults,
 ) {
     for (i, (drive, limit)) in drives.iter().zip(limits).enumerate() {
-        let name = layout.inputs[i].name.clone();
+        let name = &layout.inputs[i].name;
+        if let (InputSource::Pid { tracking: None, .. }, Some(_)) = (drive, limit)
+            && let Some(raw) = inputs.iter().find(|raw| raw.name.value == *name)
+        {
+            let location = &raw.name.location;
+            faults.push(wording::pid_without_anti_windup(location, name));
+        }
+    }
+}
+
+/// Adds the events of limited inputs that change on their own: each is the distance to a limit. Inputs of sampled
+/// controllers change at samples only.
+pub(super) fn add_events(
+    layout: &mut StateLayout,
+    drives: &[InputSource],
+    limits: &[InputLimits],
+    sampled: bool,
+) {
+    for (i, (drive, limit)) in drives.iter().zip(limits).enumerate() {
         let constant = match drive {
             InputSource::Given | InputSource::Waveform(Waveform::Constant(_)) => true,
-            _ => false,
+            drive => sampled && drive.is_controller(),
         };
         if limit.is_none() || constant {
             continue;
         }
-        if let InputSource::Pid { tracking: None, .. } = drive
-            && let Some(raw) = inputs.iter().find(|raw| raw.name.value == name)
-        {
-            let location = &raw.name.location;
-            faults.push(wording::pid_without_anti_windup(location, &name));
-        }
+        let name = layout.inputs[i].name.clone();
         for (event, side) in limit_events(&name).into_iter().zip(["least", "largest"]) {
             layout.event(event, format!("`{name}` reaches its {side} value"));
         }

@@ -1,5 +1,6 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
+mod control;
 mod effects;
 mod followed;
 mod hold;
@@ -111,6 +112,7 @@ fn scene(
         parameters: Vec::new(),
         drives: Vec::new(),
         limits: Vec::new(),
+        control: None,
         initial: Initial::default(),
         outputs: effects::given(&spec.outputs)
             .iter()
@@ -120,6 +122,7 @@ fn scene(
         written: FileEntries {
             inputs: effects::given(&spec.inputs).to_vec(),
             effort_limits: spec.effort_limits.value().cloned(),
+            control: spec.control.value().cloned(),
             initial: effects::given(&spec.initial).to_vec(),
             unloaded,
             modes: None,
@@ -130,6 +133,7 @@ fn scene(
     let moving = moving_base(spec, &scene, faults);
     let carried = prescribed::places(&scene, faults);
     prescribed::canonical(spec, &scene, faults);
+    control::canonical(&scene, spec.control.value(), faults);
     let drawn = sound && !moving && !carried && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
@@ -157,8 +161,12 @@ pub(in crate::scene) fn assembled(
     let mut drives = inputs::drives(&layout, inputs, refused, faults);
     let written = (&inputs[..], scene.written.effort_limits.as_ref());
     let mut limits = limits::limits((&scene.mechanism, &layout), written, faults);
-    limits::add_events(&mut layout, &drives, &limits, inputs, faults);
+    let sampling = scene.written.control.as_ref();
+    let anti_windup = (&drives[..], &limits[..], &inputs[..]);
+    limits::check_anti_windup(&layout, anti_windup, faults);
+    limits::add_events(&mut layout, &drives, &limits, sampling.is_some());
     limits::add_integrals(&mut layout, &mut drives);
+    let control = control::control((&layout, &drives), sampling, faults);
     limits.resize(drives.len(), None);
     // Repeated names of effects were reported already.
     let reported = faults.0.iter().any(|f| f.rule == "repeated-name");
@@ -170,6 +178,7 @@ pub(in crate::scene) fn assembled(
         parameters,
         drives,
         limits,
+        control,
         initial: initial::initial(
             (&scene.mechanism, &layout),
             &scene.written.initial,
