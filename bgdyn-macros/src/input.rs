@@ -11,7 +11,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// All options.
-const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, jacobian, methods, module, prefer, verify, visibility";
+const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, input_jacobian, jacobian, methods, module, prefer, verify, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -119,6 +119,9 @@ impl Input {
         match option.to_string().as_str() {
             "derivatives" => self.options.derivatives = input.parse::<LitBool>()?.value,
             "jacobian" => self.options.jacobian = input.parse::<LitBool>()?.value,
+            "input_jacobian" => {
+                self.options.input_jacobian = input.parse::<LitBool>()?.value;
+            }
             "canonical" => self.options.canonical = input.parse::<LitBool>()?.value,
             "formulation" => {
                 let value: LitStr = input.parse()?;

@@ -95,7 +95,7 @@ pub use sampled::SampledControl;
 pub use singular::{ACTUATORS, Cause, OUT_OF_REACH, Singular};
 pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
 pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
-pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};
+pub use system::{Balance, Canonical, Contact, HybridSystem, InputSlope, Slope};
 #[cfg(feature = "wide")]
 pub use wide;
 pub use wrench::{Undetermined, Wrench};

@@ -226,6 +226,30 @@ pub trait Slope<T: Scalar>: HybridSystem<T> {
     ) -> Result<(MatrixOf<Self::State>, Self::State), Self::Singular>;
 }
 
+/// A scene with the Jacobian of its rates by its inputs.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not have the slope of its rates by its inputs",
+    label = "a scene without ∂ẏ/∂u",
+    note = "it was not asked for: write `input_jacobian = true` in `bgdyn!`, `.input_jacobian(true)` in a build script, `--input-jacobian` for `bgdyn generate`"
+)]
+pub trait InputSlope<T: Scalar>: HybridSystem<T> {
+    /// The matrices with a row for each component of the state and a column for each input.
+    type InputMatrix;
+
+    /// Returns ∂ẏ/∂u of ẏ = `derivative(y, modes, input, t)`, with all inputs free, those that the scene drives too.
+    /// At a kink of a law, the slope is that of one of its sides.
+    ///
+    /// # Errors
+    /// As [`HybridSystem::derivative`]; also where a slope is infinite.
+    fn input_slope(
+        &self,
+        y: &Self::State,
+        modes: &Self::Modes,
+        input: &Self::Inputs,
+        t: T,
+    ) -> Result<Self::InputMatrix, Self::Singular>;
+}
+
 /// A scene in canonical form: z is y with the momenta p = ∂T/∂v in place of the velocities v. At a joint
 /// that is M v, at a motor's winding the flux linkage L i. Symplectic integrators preserve invariants
 /// within bounds in these variables.

@@ -15,6 +15,7 @@ mod forms;
 mod friction;
 mod hard_cases;
 mod hydraulics;
+mod input_slopes;
 mod joints;
 mod kinks;
 mod laws;

@@ -252,6 +252,24 @@ pub(super) fn slope_trait(name: &Ident) -> TokenStream {
     }
 }
 
+/// The implementation of the trait `InputSlope`.
+pub(super) fn input_slope_trait(name: &Ident) -> TokenStream {
+    quote! {
+        impl<T: __Scalar> __rt::InputSlope<T> for #name<T> {
+            type InputMatrix = __na::SMatrix<T, N, NU>;
+            fn input_slope(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<Self::InputMatrix, T::Singular<{ NV + NX }>> {
+                self.input_jacobian(&State::from_vectors(y, modes), &Input::from_vector(input), t)
+            }
+        }
+    }
+}
+
 /// The implementation of the trait `Canonical`.
 pub(super) fn canonical_trait(name: &Ident) -> TokenStream {
     let checked = quote! {
