@@ -112,10 +112,7 @@ fn limits_of_the_mechanism_act_if_the_scene_says_so() {
     );
     assert_eq!(effort("inputs: { slide: { limit: 2 } }\n", -9.0), -2.0);
     assert_eq!(
-        effort(
-            &format!("inputs: {{ slide: 7 }}\neffort_limits: false\n"),
-            0.0
-        ),
+        effort("inputs: { slide: 7 }\neffort_limits: false\n", 0.0),
         7.0
     );
 }
