@@ -12,7 +12,14 @@ fn example(name: &str, arguments: &[&str]) -> Output {
         let mut cargo = Command::new(env!("CARGO"));
         cargo.current_dir(env!("CARGO_MANIFEST_DIR"));
         cargo.args(["build", "--quiet", "--workspace"]);
-        cargo.args(["--example", "scara", "--example", "puma560"]);
+        cargo.args([
+            "--example",
+            "scara",
+            "--example",
+            "puma560",
+            "--example",
+            "balance",
+        ]);
         if !cfg!(debug_assertions) {
             cargo.arg("--release");
         }
@@ -47,6 +54,22 @@ fn scara_runs() {
 #[test]
 fn puma560_runs() {
     runs("puma560");
+}
+
+/// The regulator that knows of the delay ends with the pole upright, within what the sensors' noise leaves.
+#[test]
+fn balance_runs() {
+    let output = example("balance", &[]);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "balance failed: {errors}");
+    let report = String::from_utf8_lossy(&output.stdout);
+    assert!(!report.contains("NaN"), "{report}");
+    let (_, designed) = report
+        .split_once("designed with the delay")
+        .expect("its part");
+    let (_, late) = designed.split_once("after 6 s within ").expect("its angle");
+    let (late, _) = late.split_once('°').expect("degrees");
+    assert!(late.parse::<f64>().expect("a number") < 1.0, "{report}");
 }
 
 #[test]

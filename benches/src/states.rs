@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 /// That of the generator; a peer without bgdyn includes this file.
-#[path = "../../bgdyn-codegen/src/random.rs"]
+#[path = "../../bgdyn-runtime/src/random.rs"]
 #[allow(dead_code)]
 mod random;
 

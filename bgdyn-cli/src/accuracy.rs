@@ -175,6 +175,10 @@ impl Plant for Counted {
         self.plant.next_corner(t)
     }
 
+    fn reached(&mut self, t: f64, y: &Numbers, modes: &Numbers) {
+        Rc::make_mut(&mut self.plant).reached(t, y, modes);
+    }
+
     fn nothing(&self) -> Numbers {
         self.plant.nothing()
     }

@@ -272,6 +272,9 @@ pub(crate) struct GeneratorArgs {
     /// For a scene: generate the Jacobian ∂ẏ/∂y and ∂ẏ/∂t as well
     #[arg(long)]
     jacobian: bool,
+    /// For a scene: generate the Jacobian by the inputs, ∂ẏ/∂u, as well
+    #[arg(long)]
+    input_jacobian: bool,
     /// For a scene: generate the canonical form as well (momenta in place of velocities)
     #[arg(long)]
     canonical: bool,
@@ -296,6 +299,7 @@ impl GeneratorArgs {
             derivatives: self.derivatives,
             identification: self.identification,
             jacobian: self.jacobian,
+            input_jacobian: self.input_jacobian,
             canonical: self.canonical,
             methods: self.methods.clone(),
             frames: self.frames.clone(),

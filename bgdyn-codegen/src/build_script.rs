@@ -140,6 +140,12 @@ impl Build {
         self
     }
 
+    /// Sets whether ∂ẏ/∂u of a scene's rates is generated: [`Options::input_jacobian`].
+    pub fn input_jacobian(mut self, wanted: bool) -> Self {
+        self.options.input_jacobian = wanted;
+        self
+    }
+
     /// Sets whether the canonical form of a scene is generated: [`Options::canonical`].
     pub fn canonical(mut self, wanted: bool) -> Self {
         self.options.canonical = wanted;

@@ -6,7 +6,7 @@ use crate::choice::{Choice, prefer};
 use crate::formulation::base_parameter_formulas;
 use crate::function::Function;
 use crate::mechanism::Mechanism;
-use crate::method::Method;
+use crate::method::{Method, SceneFunction};
 use crate::model::Model;
 use crate::options::{Options, UnknownName};
 use crate::system::SceneEquations;
@@ -70,7 +70,10 @@ fn named(function: Function, graph: &BondGraph) -> Function {
 /// Returns the functions of a scene: the default ones, those that its integrator needs, and those that the
 /// options select.
 pub fn scene_functions(equations: &SceneEquations, options: &Options) -> Vec<Function> {
-    let roles = equations.roles_with(options.jacobian, options.canonical);
+    let mut roles = equations.roles_with(options.jacobian, options.canonical);
+    if options.input_jacobian && equations.has_input_jacobian() {
+        roles.push(SceneFunction::InputJacobian);
+    }
     let roles = roles.into_iter();
     roles.map(|role| equations.function(role)).collect()
 }

@@ -11,7 +11,7 @@ use syn::punctuated::Punctuated;
 use syn::{Ident, LitBool, LitStr, Token};
 
 /// All options.
-const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, identification, jacobian, methods, module, prefer, verify, visibility";
+const KNOWN: &str = "bundle, canonical, derivatives, formulation, frames, identification, input_jacobian, jacobian, methods, module, prefer, verify, visibility";
 
 /// `"scara.yaml"`, then options `name = value`.
 pub(crate) struct Input {
@@ -120,6 +120,9 @@ impl Input {
             "derivatives" => self.options.derivatives = input.parse::<LitBool>()?.value,
             "identification" => self.options.identification = input.parse::<LitBool>()?.value,
             "jacobian" => self.options.jacobian = input.parse::<LitBool>()?.value,
+            "input_jacobian" => {
+                self.options.input_jacobian = input.parse::<LitBool>()?.value;
+            }
             "canonical" => self.options.canonical = input.parse::<LitBool>()?.value,
             "formulation" => {
                 let value: LitStr = input.parse()?;

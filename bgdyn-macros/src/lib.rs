@@ -39,6 +39,7 @@ use input::Input;
 /// | `derivatives = true` | first derivatives of inverse and forward dynamics |
 /// | `identification = true` | regressors, the parameters of the bodies, base parameters |
 /// | `jacobian = true` | for a scene: ∂ẏ/∂y, ∂ẏ/∂t and the trait `Slope`; its integration method may generate them already |
+/// | `input_jacobian = true` | for a scene: ∂ẏ/∂u and the trait `InputSlope` |
 /// | `canonical = true` | for a scene: momenta in place of velocities and the trait `Canonical`; its integration method may generate them already |
 /// | `formulation = "literal"` | one formulation for every method instead of the cheapest of each |
 /// | `prefer = "accuracy"` | for each method the formulation that loses the fewest digits in `f64`, instead of the cheapest; `"operations"` is the default |

@@ -47,7 +47,9 @@ mod lanes;
 pub mod manifold;
 mod operations;
 mod pose;
+pub mod random;
 pub mod rotation;
+mod sampled;
 mod scalar;
 #[cfg(feature = "serde")]
 mod serial;
@@ -89,10 +91,11 @@ pub mod kernel {
     pub use crate::float::F64_PIVOT_FLOOR;
     pub use crate::sine::{Coefficients, FUSES, SineLanes, sin_cos_in_range};
 }
+pub use sampled::SampledControl;
 pub use singular::{ACTUATORS, Cause, OUT_OF_REACH, Singular};
 pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
 pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
-pub use system::{Balance, Canonical, Contact, HybridSystem, Slope};
+pub use system::{Balance, Canonical, Contact, HybridSystem, InputSlope, Slope};
 #[cfg(feature = "wide")]
 pub use wide;
 pub use wrench::{Undetermined, Wrench};

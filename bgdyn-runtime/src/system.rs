@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::Scalar;
 use crate::joint::QuasiJoint;
+use crate::sampled::SampledControl;
 use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 
 /// Power of one effect, W. Supplied power equals the rate of stored energy plus dissipated power in the
@@ -107,6 +108,11 @@ pub trait HybridSystem<T: Scalar> {
     /// the points of its tables. Integrators end a step there and resolve stiction again.
     fn corners(&self) -> &'static [f64] {
         &[]
+    }
+    /// Returns how the controllers of the scene are sampled; `None` if they are continuous. `input` computes them at
+    /// any state; who integrates the scene holds them.
+    fn control(&self) -> Option<SampledControl<'static>> {
+        None
     }
     /// Returns the names of the outputs.
     fn output_names(&self) -> &'static ArrayOf<Self::Outputs, &'static str>;
@@ -218,6 +224,30 @@ pub trait Slope<T: Scalar>: HybridSystem<T> {
         given: &Self::Inputs,
         t: T,
     ) -> Result<(MatrixOf<Self::State>, Self::State), Self::Singular>;
+}
+
+/// A scene with the Jacobian of its rates by its inputs.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not have the slope of its rates by its inputs",
+    label = "a scene without ∂ẏ/∂u",
+    note = "it was not asked for: write `input_jacobian = true` in `bgdyn!`, `.input_jacobian(true)` in a build script, `--input-jacobian` for `bgdyn generate`"
+)]
+pub trait InputSlope<T: Scalar>: HybridSystem<T> {
+    /// The matrices with a row for each component of the state and a column for each input.
+    type InputMatrix;
+
+    /// Returns ∂ẏ/∂u of ẏ = `derivative(y, modes, input, t)`, with all inputs free, those that the scene drives too.
+    /// At a kink of a law, the slope is that of one of its sides.
+    ///
+    /// # Errors
+    /// As [`HybridSystem::derivative`]; also where a slope is infinite.
+    fn input_slope(
+        &self,
+        y: &Self::State,
+        modes: &Self::Modes,
+        input: &Self::Inputs,
+        t: T,
+    ) -> Result<Self::InputMatrix, Self::Singular>;
 }
 
 /// A scene in canonical form: z is y with the momenta p = ∂T/∂v in place of the velocities v. At a joint

@@ -172,6 +172,12 @@ pub trait Plant {
         None
     }
 
+    /// Does what happens at an instant from outside: controllers sample. [`crate::Run`] calls it at its beginning and
+    /// at each [`Plant::next_corner`], where its clock is. What it changes acts from this instant on.
+    fn reached(&mut self, t: Time<Self>, y: &Self::State, modes: &Self::Modes) {
+        let _ = (t, y, modes);
+    }
+
     /// Nothing, for every entry of the balance of power.
     fn nothing(&self) -> Self::Entries;
 

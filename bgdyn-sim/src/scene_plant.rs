@@ -1,11 +1,15 @@
 //! Compiled scenes as plants.
 
-use bgdyn_runtime::{ArrayOf, Canonical, Contact, FixedVector, HybridSystem, MatrixOf, Slope};
+use bgdyn_runtime::{
+    ArrayOf, Canonical, Contact, FixedVector, HybridSystem, MatrixOf, SampledControl, Slope,
+};
 
 use crate::finite_differences::differences;
 use crate::ode::Jacobian;
 use crate::plant::{FixedModes, Plant, Power};
 use crate::real::Real;
+use crate::sampled_law::SampledLaw;
+use crate::sampler::Sampler;
 use crate::scene_positions;
 use crate::stiction::Stiction;
 
@@ -39,6 +43,8 @@ pub struct ScenePlant<'a, S: HybridSystem<T>, T: Real> {
     /// Inputs that the scene does not drive.
     pub given: S::Inputs,
     slope: Slopes<SlopeOf<S, T>>,
+    sampler: Sampler<S::Inputs>,
+    controller: Option<SampledLaw<'a, S, T>>,
 }
 
 impl<'a, S: HybridSystem<T>, T: Real> ScenePlant<'a, S, T> {
@@ -48,6 +54,8 @@ impl<'a, S: HybridSystem<T>, T: Real> ScenePlant<'a, S, T> {
             scene,
             given: S::Inputs::zero_vector(),
             slope: Slopes::Unknown,
+            sampler: Sampler::default(),
+            controller: None,
         }
     }
 
@@ -71,14 +79,43 @@ impl<'a, S: HybridSystem<T>, T: Real> ScenePlant<'a, S, T> {
         }
     }
 
+    /// Returns the plant with a controller in Rust, `law(measured state, t)`: given inputs, of which those of
+    /// `sampling.controlled` act, within the scene's limits. It takes the place of the scene's own sampling. The lists
+    /// of `sampling` for the state need an entry for each component, in the order of its names.
+    #[must_use]
+    pub fn with_controller(
+        self,
+        sampling: SampledControl<'a>,
+        law: &'a dyn Fn(&S::State, T) -> S::Inputs,
+    ) -> Self {
+        let controller = Some(SampledLaw { sampling, law });
+        ScenePlant { controller, ..self }
+    }
+
+    /// Returns how controllers are sampled, if they are.
+    fn sampling(&self) -> Option<SampledControl<'a>> {
+        match &self.controller {
+            Some(controller) => Some(controller.sampling),
+            None => self.scene.control(),
+        }
+    }
+
     /// Returns the scene.
     pub fn scene(&self) -> &'a S {
         self.scene
     }
 
-    /// Returns all inputs at an instant.
+    /// Returns all inputs at an instant. Those of sampled controllers are held.
     pub fn input(&self, t: T, y: &S::State, modes: &S::Modes) -> S::Inputs {
-        self.scene.input(y, modes, &self.given, t)
+        self.held(t, self.scene.input(y, modes, &self.given, t))
+    }
+
+    /// Returns inputs in which those of sampled controllers are held.
+    fn held(&self, t: T, inputs: S::Inputs) -> S::Inputs {
+        match self.sampling() {
+            Some(control) => self.sampler.hold(&control, t, inputs),
+            None => inputs,
+        }
     }
 
     /// Returns the outputs of the scene at an instant.
@@ -126,7 +163,8 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         match self.slope {
             Slopes::Unknown => None,
             Slopes::Own(slope) => {
-                let slopes = slope(self.scene, y, modes, &self.given, t);
+                let given = self.held(t, self.given);
+                let slopes = slope(self.scene, y, modes, &given, t);
                 Some(slopes.map(|(state, time)| Jacobian { state, time }))
             }
             Slopes::Differences => {
@@ -199,7 +237,25 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
     fn next_corner(&self, t: T) -> Option<T> {
         let corners = self.scene.corners();
         let next = corners.partition_point(|&corner| T::from_f64(corner) <= t);
-        corners.get(next).map(|&corner| T::from_f64(corner))
+        let bends = corners.get(next).map(|&corner| T::from_f64(corner));
+        let control = self.sampling();
+        let sampled = control.and_then(|control| self.sampler.next(&control));
+        match (bends, sampled) {
+            (Some(bends), Some(sampled)) => Some(bends.min(sampled)),
+            (bends, sampled) => bends.or(sampled),
+        }
+    }
+
+    fn reached(&mut self, t: T, y: &S::State, modes: &S::Modes) {
+        let (scene, given, controller) = (self.scene, &self.given, &self.controller);
+        let Some(control) = self.sampling() else {
+            return;
+        };
+        let inputs = |measured: &S::State| match controller {
+            Some(controller) => scene.input(measured, modes, &(controller.law)(measured, t), t),
+            None => scene.input(measured, modes, given, t),
+        };
+        self.sampler.reached(&control, t, y, inputs);
     }
 
     fn nothing(&self) -> S::Entries {

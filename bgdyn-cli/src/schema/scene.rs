@@ -43,6 +43,14 @@ pub fn scene() -> Value {
                 named("what drives each input", json!({ "$ref": "#/$defs/drive" })),
             ),
             (
+                "effort_limits",
+                described(
+                    "whether the limits of efforts in the mechanism's file act",
+                    json!({ "type": "boolean" }),
+                ),
+            ),
+            ("control", control()),
+            (
                 "initial",
                 named("parts of the state at the start; 0 without", initial()),
             ),
@@ -150,6 +158,14 @@ fn courses() -> Vec<(&'static str, Value)> {
         ],
         &[],
     );
+    let step = object(
+        &[
+            ("before", number()),
+            ("after", number()),
+            ("time", quantity(&[Dimension::Time])),
+        ],
+        &[],
+    );
     vec![
         ("constant", number()),
         (
@@ -164,7 +180,41 @@ fn courses() -> Vec<(&'static str, Value)> {
                 json!({ "type": "array", "items": point, "minItems": 1 }),
             ),
         ),
+        (
+            "step",
+            described("`before` until `time`, then `after`", step),
+        ),
+        (
+            "trapezoidal",
+            described(
+                "from one value to another with a trapezoidal velocity, by two of duration, velocity, acceleration",
+                point_to_point(),
+            ),
+        ),
+        (
+            "quintic",
+            described(
+                "from one value to another by a polynomial of fifth order, in `duration` or as fast as limits permit",
+                point_to_point(),
+            ),
+        ),
     ]
+}
+
+/// Returns the keys of a motion from one value to another.
+fn point_to_point() -> Value {
+    let time = || quantity(&[Dimension::Time]);
+    object(
+        &[
+            ("from", number()),
+            ("to", number()),
+            ("start", time()),
+            ("duration", time()),
+            ("velocity", number()),
+            ("acceleration", number()),
+        ],
+        &[],
+    )
 }
 
 fn course() -> Value {
@@ -182,8 +232,22 @@ fn drive() -> Value {
         described(about, object(&keys, &["target"]))
     };
     let mut words = courses();
+    let pid = object(
+        &[
+            ("target", json!({ "$ref": "#/$defs/course" })),
+            ("stiffness", gain.clone()),
+            ("damping", gain.clone()),
+            ("integral", gain.clone()),
+            ("anti_windup", quantity(&[Dimension::Time])),
+        ],
+        &["target", "integral"],
+    );
     words.extend([
         ("pd", controller("k (r − q) + d (ṙ − q̇)")),
+        (
+            "pid",
+            described("k (r − q) + d (ṙ − q̇) + z with ż = k_i (r − q)", pid),
+        ),
         (
             "computed_torque",
             controller("the scene's inverse dynamics at r̈ + d (ṙ − q̇) + k (r − q)"),
@@ -191,7 +255,67 @@ fn drive() -> Value {
         ("hold", hold()),
     ]);
     let given = json!({ "const": "given", "description": "what the caller puts into `Input`" });
-    json!({ "anyOf": [given, number(), one_of(&words)] })
+    let mut source = object(&words, &[]);
+    let one_word: Vec<Value> = words
+        .iter()
+        .map(|(word, _)| json!({ "required": [word] }))
+        .collect();
+    let mut none = object(&[(LIMIT, limit())], &[LIMIT]);
+    none["description"] = json!("what the caller puts into `Input`, within limits");
+    source["properties"][LIMIT] = limit();
+    source["oneOf"] = json!(one_word);
+    json!({ "anyOf": [given, number(), source, none] })
+}
+
+/// The key of an input's limits.
+const LIMIT: &str = "limit";
+
+/// Returns the limits of an input.
+fn limit() -> Value {
+    described(
+        "largest size of the input, or its least and its largest value",
+        json!({ "anyOf": [number(), numbers(2)] }),
+    )
+}
+
+/// Returns how controllers are sampled.
+fn control() -> Value {
+    let time = || quantity(&[Dimension::Time]);
+    let sizes = || {
+        json!({ "anyOf": [
+            number(),
+            { "type": "object", "propertyNames": identifier(), "additionalProperties": number() },
+        ] })
+    };
+    let noise = [("position", sizes()), ("velocity", sizes())];
+    let [position, velocity] = noise.clone();
+    let keys = [
+        ("period", described("time between two samples, s", time())),
+        (
+            "delay",
+            described("time from a sample to its effect, s", time()),
+        ),
+        ("hold", json!({ "const": "zero_order" })),
+        (
+            "quantisation",
+            described(
+                "steps of sensors and of efforts",
+                object(&[position, velocity, ("effort", sizes())], &[]),
+            ),
+        ),
+        (
+            "noise",
+            described("standard deviations of sensors", object(&noise, &[])),
+        ),
+        (
+            "seed",
+            described(
+                "seed of the noise",
+                json!({ "type": "integer", "minimum": 0 }),
+            ),
+        ),
+    ];
+    described("how controllers are sampled", object(&keys, &["period"]))
 }
 
 /// Returns the controller of a joint's pose.

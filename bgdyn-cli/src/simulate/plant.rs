@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use bgdyn_codegen::engine::{Engine, Status};
+use bgdyn_codegen::engine::{CallArguments, Engine, Status};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_runtime::{Contact, Dd};
-use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Stiction, quasi_joints};
+use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Sampler, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
 use super::scene_functions::{Form, SceneFunctions};
@@ -23,6 +23,8 @@ pub struct Evaluated<'a> {
     /// Inputs of 0.
     pub(super) no_inputs: Vec<f64>,
     pub(super) functions: Arc<SceneFunctions>,
+    /// What sampled controllers give.
+    pub(super) sampler: Sampler<Numbers>,
 }
 
 /// The functions of a scene, prepared once for all of its starts.
@@ -38,6 +40,7 @@ impl PreparedScene {
             parameters: parameters(system),
             no_inputs: vec![0.0; system.scene.layout.inputs.len()],
             functions: Arc::clone(&self.0),
+            sampler: Sampler::default(),
         }
     }
 }
@@ -56,6 +59,7 @@ impl<'a> Evaluated<'a> {
             parameters: parameters(system),
             no_inputs: vec![0.0; system.scene.layout.inputs.len()],
             functions: Arc::new(SceneFunctions::new(engine, system, form, slopes)),
+            sampler: Sampler::default(),
         }
     }
 
@@ -217,7 +221,12 @@ impl Plant for Evaluated<'_> {
         modes: &Numbers,
     ) -> Option<Evaluation<Jacobian<Numbers>>> {
         let jacobian = self.functions.jacobian.as_ref()?;
-        let values = match self.checked(&**jacobian, &self.arguments(t, y, modes)) {
+        let held = self.held_inputs(t, self.no_inputs.clone());
+        let at = CallArguments {
+            u: &held,
+            ..self.arguments(t, y, modes)
+        };
+        let values = match self.checked(&**jacobian, &at) {
             Ok(values) => values,
             Err(undefined) => return Some(Err(undefined)),
         };
@@ -300,7 +309,23 @@ impl Plant for Evaluated<'_> {
     fn next_corner(&self, t: f64) -> Option<f64> {
         let corners = &self.functions.corners;
         let next = corners.partition_point(|&corner| corner <= t);
-        corners.get(next).copied()
+        let bends = corners.get(next).copied();
+        let control = self.system.scene.control.as_ref();
+        let sampled = control.and_then(|control| self.sampler.next(&control.sampled()));
+        match (bends, sampled) {
+            (Some(bends), Some(sampled)) => Some(bends.min(sampled)),
+            (bends, sampled) => bends.or(sampled),
+        }
+    }
+
+    fn reached(&mut self, t: f64, y: &Numbers, modes: &Numbers) {
+        let Some(control) = &self.system.scene.control else {
+            return;
+        };
+        let mut sampler = self.sampler.clone();
+        let inputs = |measured: &Numbers| self.live_inputs(t, measured, modes).into();
+        sampler.reached(&control.sampled(), t, y, inputs);
+        self.sampler = sampler;
     }
 
     fn nothing(&self) -> Numbers {

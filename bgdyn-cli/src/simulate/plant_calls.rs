@@ -43,7 +43,27 @@ impl Evaluated<'_> {
             None => call(&at),
             Some(inputs) => {
                 let (u, _) = inputs.value(&at);
+                let u = self.held_inputs(t, u);
                 call(&CallArguments { u: &u, ..at })
+            }
+        }
+    }
+
+    /// Returns all inputs, with those of sampled controllers as if they were sampled now.
+    pub(super) fn live_inputs(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
+        let inputs = self.functions.inputs.as_ref();
+        inputs.map_or_else(Vec::new, |inputs| {
+            inputs.value(&self.arguments(t, y, modes)).0
+        })
+    }
+
+    /// Returns inputs in which those of sampled controllers are held.
+    pub(super) fn held_inputs(&self, t: f64, inputs: Vec<f64>) -> Vec<f64> {
+        match &self.system.scene.control {
+            None => inputs,
+            Some(control) => {
+                let held = self.sampler.hold(&control.sampled(), t, inputs.into());
+                held.as_slice().to_vec()
             }
         }
     }

@@ -84,6 +84,8 @@ fn every_kind_of_function() {
         "along_time": [0.0, 5.0],
     });
     assert_eq!(results("jacobian", state), slopes);
+    // 1 N on 2 kg.
+    assert_eq!(results("input_jacobian", state), json!([[0.0], [0.5]]));
     assert_eq!(results("to_canonical", state), json!([0.2, 2.0]));
     assert_eq!(
         results("from_canonical", r#"{"z": [0.2, 2]}"#),

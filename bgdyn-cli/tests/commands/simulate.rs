@@ -227,3 +227,61 @@ integration: { method: rk4, step: 1 ms, end: 1 s }
     // (6 − 2) N on 2 kg for 1 s.
     assert!((rows[1][1] - 1.0).abs() < 1e-9, "{rows:?}");
 }
+
+/// A force of at most 1 N pulls 2 kg towards 1 m by a stiffness of 10 N/m: constant up to 0.9 m, then a part of an
+/// oscillation. A step that averaged both sides of the limit would be off by 1e-6.
+#[test]
+fn a_step_ends_where_an_input_reaches_its_limit() {
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [inertia]
+inputs: { slide: { pd: { target: 1 m, stiffness: 10 }, limit: 1 N } }
+integration: { method: rk4, step: 10 ms, end: 1.95 s }
+";
+    let (run, table) = block("limited", scene, &["--points", "2"]);
+    let told = run.good();
+    assert!(told.contains("drives"), "{told}");
+    let rows = rows(&table);
+    let (t, place) = (rows[1][0], rows[1][1]);
+    let reached = (2.0 * 0.9 / 0.5_f64).sqrt();
+    let (w, after) = (5.0_f64.sqrt(), t - reached);
+    let wanted = 1.0 - 0.1 * (w * after).cos() + 0.5 * reached / w * (w * after).sin();
+    assert!((place - wanted).abs() < 2e-10, "{place}, not {wanted}");
+}
+
+/// A controller that is sampled every 50 ms: between two samples the block moves under a constant force.
+#[test]
+fn a_sampled_controller_is_held_between_its_samples() {
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [inertia]
+inputs: { slide: { pd: { target: 1 m, stiffness: 10, damping: 3 } } }
+control: { period: 50 ms, delay: 20 ms }
+integration: { method: rk4, step: 7 ms, end: 1 s }
+";
+    let (run, table) = block("sampled", scene, &["--points", "101"]);
+    run.good();
+    let (mut q, mut v, mut effort, mut late) = (0.0, 0.0, 0.0, 0.0);
+    let mut by_hand = vec![[q, v]];
+    for point in 0..100 {
+        // Samples are at 0, 50, 100, … ms and act at 20, 70, 120, … ms.
+        if point % 5 == 0 {
+            late = 10.0 * (1.0 - q) - 3.0 * v;
+        }
+        if point % 5 == 2 {
+            effort = late;
+        }
+        let (h, a) = (0.01, effort / 2.0);
+        q += h * v + 0.5 * h * h * a;
+        v += h * a;
+        by_hand.push([q, v]);
+    }
+    let rows = rows(&table);
+    assert_eq!(rows.len(), by_hand.len());
+    for (row, wanted) in rows.iter().zip(&by_hand) {
+        let off = (row[1] - wanted[0]).abs().max((row[2] - wanted[1]).abs());
+        assert!(off < 1e-9, "{row:?}, not {wanted:?}");
+    }
+}

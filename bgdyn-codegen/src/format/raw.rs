@@ -207,6 +207,17 @@ impl Raw {
         }
     }
 
+    /// Returns its value if that is true or false.
+    pub fn as_truth(&self) -> Option<bool> {
+        match &self.tree.as_ref()?.data {
+            Data::Scalar {
+                kind: YamlKind::Truth,
+                text,
+            } => Some(text == "true"),
+            _ => None,
+        }
+    }
+
     /// Returns the word of a key of its mapping, if it is one; other errors are reported when its fields
     /// are parsed.
     pub fn peek(&self, key: &str) -> Option<Located<String>> {

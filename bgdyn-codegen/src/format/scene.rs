@@ -30,6 +30,10 @@ pub struct SceneSpec {
     pub effects: Field<Vec<Raw>>,
     /// The sources of the inputs.
     pub inputs: Field<Vec<Raw>>,
+    /// Whether the limits of efforts in the mechanism's file act.
+    pub effort_limits: Field<Raw>,
+    /// How controllers are sampled.
+    pub control: Field<Raw>,
     /// The initial state.
     pub initial: Field<Vec<Raw>>,
     /// The outputs.
@@ -85,6 +89,8 @@ impl Reader {
             "lock",
             "effects",
             "inputs",
+            "effort_limits",
+            "control",
             "initial",
             "outputs",
             "integration",
@@ -107,6 +113,10 @@ impl Reader {
             lock: self.field(&map, "lock", |r, at| r.table(at, expected::LOCKS)),
             effects: self.field(&map, "effects", |r, at| r.calls(at, expected::CALLS)),
             inputs: self.field(&map, "inputs", |r, at| r.table(at, expected::INPUTS)),
+            effort_limits: self.field(&map, "effort_limits", |_, at| {
+                Some(whole("effort_limits", at))
+            }),
+            control: self.field(&map, "control", |_, at| Some(whole("control", at))),
             initial: self.field(&map, "initial", |r, at| r.table(at, expected::INITIAL)),
             outputs: self.field(&map, "outputs", |r, at| r.calls(at, expected::OUTPUTS)),
             integration: self.field(&map, "integration", |_, at| Some(whole("integration", at))),

@@ -9,7 +9,7 @@ use crate::machine::Machine;
 use crate::mechanism::{CoordinateId, Parameter};
 use crate::name::is_identifier;
 use crate::scene::{
-    self, Initial, MomentumStore, StateCoordinate, StateLayout, StatePosition, Variable,
+    self, Control, Initial, MomentumStore, StateCoordinate, StateLayout, StatePosition, Variable,
 };
 use crate::system::{Named, SceneEquations};
 
@@ -30,6 +30,8 @@ pub struct SceneInterface {
     pub mode_coordinates: Vec<usize>,
     /// The instants, s, at which an input bends, in increasing order.
     pub corners: Vec<f64>,
+    /// How controllers are sampled.
+    pub control: Option<Control>,
     /// Run-time parameters.
     pub parameters: Vec<Parameter>,
 }
@@ -45,6 +47,7 @@ impl SceneInterface {
             entries: system.entries.clone(),
             mode_coordinates: system.mode_coordinates(),
             corners: system.scene.corners(),
+            control: system.scene.control.clone(),
             parameters: system.scene.parameters.clone(),
         }
     }
@@ -205,6 +208,7 @@ fn nothing() -> SceneInterface {
         entries: own.map(named).to_vec(),
         mode_coordinates: Vec::new(),
         corners: Vec::new(),
+        control: None,
         parameters: Vec::new(),
     }
 }

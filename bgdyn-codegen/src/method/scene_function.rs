@@ -22,6 +22,8 @@ pub enum SceneFunction {
     /// ∂ẏ/∂y and ∂ẏ/∂t, including the inputs that the scene drives, column by column in the order of the
     /// derivative.
     Jacobian,
+    /// ∂ẏ/∂u, column by column in the order of the derivative.
+    InputJacobian,
     /// Momenta of a state.
     ToCanonical,
     /// Velocities from momenta.
@@ -36,7 +38,7 @@ pub enum SceneFunction {
 
 impl SceneFunction {
     /// All functions.
-    pub const ALL: [SceneFunction; 14] = [
+    pub const ALL: [SceneFunction; 15] = [
         SceneFunction::Derivative,
         SceneFunction::Inverse,
         SceneFunction::Inputs,
@@ -46,6 +48,7 @@ impl SceneFunction {
         SceneFunction::Energy,
         SceneFunction::Outputs,
         SceneFunction::Jacobian,
+        SceneFunction::InputJacobian,
         SceneFunction::ToCanonical,
         SceneFunction::FromCanonical,
         SceneFunction::CanonicalRates,
@@ -72,6 +75,7 @@ impl SceneFunction {
             SceneFunction::Energy => "energy",
             SceneFunction::Outputs => "output",
             SceneFunction::Jacobian => "jacobian",
+            SceneFunction::InputJacobian => "input_jacobian",
             SceneFunction::ToCanonical => "to_canonical",
             SceneFunction::FromCanonical => "from_canonical",
             SceneFunction::CanonicalRates => "canonical_rates",
@@ -103,6 +107,9 @@ impl SceneFunction {
             SceneFunction::Outputs => "The outputs that the scene asks for.",
             SceneFunction::Jacobian => {
                 "(∂ẏ/∂y, ∂ẏ/∂t) of the rates under the inputs that the scene drives itself; `input` is what is `given`."
+            }
+            SceneFunction::InputJacobian => {
+                "∂ẏ/∂u of the rates: `input` is all inputs, as in `derivative`."
             }
             SceneFunction::ToCanonical => {
                 "The state with the momenta p = M v in place of the velocities: kg·m²/s for a rotation, kg·m/s for a translation, the flux linkage V·s of a winding."

@@ -38,6 +38,8 @@ pub struct Options {
     pub identification: bool,
     /// Whether to generate the Jacobian of a scene's rates, if its integrator does not need it anyway.
     pub jacobian: bool,
+    /// Whether to generate ∂ẏ/∂u of a scene's rates.
+    pub input_jacobian: bool,
     /// Whether to generate the canonical form of a scene, with the same condition.
     pub canonical: bool,
     /// The methods to generate, by name: `inverse_dynamics`, `pose_tool`; `dynamics` for all methods of
@@ -61,6 +63,7 @@ impl Default for Options {
             derivatives: false,
             identification: false,
             jacobian: false,
+            input_jacobian: false,
             canonical: false,
             methods: None,
             frames: None,
@@ -203,6 +206,7 @@ impl Options {
     fn misplaced_scene_options(&self) -> Vec<UnknownName> {
         let asked = [
             (self.jacobian, "jacobian", "derivatives"),
+            (self.input_jacobian, "input_jacobian", "derivatives"),
             (self.canonical, "canonical", "mass_matrix"),
         ];
         let asked = asked.into_iter().filter(|(wanted, ..)| *wanted);

@@ -7,9 +7,12 @@ mod ablate;
 mod causality;
 mod check;
 mod closed_start;
+mod control;
 mod integration;
 mod overrides;
+mod profile;
 mod signal;
+mod waveform;
 
 use bgdyn_runtime::Dd;
 
@@ -26,10 +29,12 @@ use crate::math::Ring;
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
-pub use check::{Verdict, check, check_alone};
+pub use check::{Verdict, check, check_alone, integral_name, limit_events};
+pub use control::Control;
 pub use integration::{Integration, IntegratorName, StepControl};
 pub use overrides::{Override, OverrideKind};
-pub use signal::{InputSource, PoseHold, PoseTarget, Waveform};
+pub use signal::{InputSource, PoseHold, PoseTarget};
+pub use waveform::{Piece, Waveform};
 
 /// A scene that passed every check.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,6 +55,10 @@ pub struct Scene {
     pub parameters: Vec<Parameter>,
     /// What drives each input.
     pub drives: Vec<InputSource>,
+    /// The least and the largest value of each input, where it has limits.
+    pub limits: Vec<Option<[Dd; 2]>>,
+    /// How controllers are sampled; `None` if they are continuous.
+    pub control: Option<Control>,
     /// Initial positions, velocities and first-order states.
     pub initial: Initial,
     /// What is wanted of it, by name.
@@ -64,6 +73,8 @@ pub struct Scene {
 #[derive(Clone, Debug, PartialEq)]
 struct FileEntries {
     inputs: Vec<Raw>,
+    effort_limits: Option<Raw>,
+    control: Option<Raw>,
     initial: Vec<Raw>,
     /// The mechanism before effects change its links.
     unloaded: Mechanism,

@@ -2,48 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
+use super::profile;
+use super::waveform::{Waveform, unknown_key};
 use crate::fault::wording::expected;
-use crate::fault::{Faults, Location, wording};
+use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};
 use crate::layout::QuasiJoint;
-
-/// A course in time.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Waveform {
-    /// One value.
-    Constant(Dd),
-    /// from + rate·t
-    Ramp {
-        /// Value at t = 0.
-        from: Dd,
-        /// Per second.
-        rate: Dd,
-    },
-    /// offset + amplitude·sin(2π frequency·t + phase)
-    Harmonic {
-        /// Amplitude.
-        amplitude: Dd,
-        /// Hz.
-        frequency: Dd,
-        /// rad
-        phase: Dd,
-        /// Mean.
-        offset: Dd,
-    },
-    /// Straight lines between points (t, value), held before and after.
-    Table(Vec<[Dd; 2]>),
-}
-
-impl Waveform {
-    /// The instants, s, at which it bends.
-    fn corners(&self) -> impl Iterator<Item = Dd> {
-        let points = match self {
-            Waveform::Table(points) => points.as_slice(),
-            _ => &[],
-        };
-        points.iter().map(|point| point[0])
-    }
-}
 
 /// What drives an input.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +36,21 @@ pub enum InputSource {
         /// d, 1/s
         damping: Dd,
     },
+    /// u = k (r − q) + d (ṙ − q̇) + z, with the integral part z of this name among the first-order states.
+    Pid {
+        /// r
+        target: Waveform,
+        /// k
+        stiffness: Dd,
+        /// d
+        damping: Dd,
+        /// k_i: ż = k_i (r − q) + (limited u − u)/T_t
+        integral: Dd,
+        /// T_t, s: how fast the integral part follows a limit.
+        tracking: Option<Dd>,
+    },
+    /// ż of the [`InputSource::Pid`] with this index.
+    IntegralRate(usize),
     /// One effort of a controller that holds a joint's position or orientation, by its index.
     Hold(Box<PoseHold>, usize),
 }
@@ -117,18 +96,22 @@ impl InputSource {
     pub fn is_controller(&self) -> bool {
         matches!(
             self,
-            InputSource::Pd { .. } | InputSource::ComputedTorque { .. } | InputSource::Hold(..)
+            InputSource::Pd { .. }
+                | InputSource::Pid { .. }
+                | InputSource::IntegralRate(_)
+                | InputSource::ComputedTorque { .. }
+                | InputSource::Hold(..)
         )
     }
 
     /// The instants, s, at which its course or its target bends.
     pub fn corners(&self) -> impl Iterator<Item = Dd> {
         let courses: &[Waveform] = match self {
-            InputSource::Given | InputSource::RateOf(_) => &[],
+            InputSource::Given | InputSource::RateOf(_) | InputSource::IntegralRate(_) => &[],
             InputSource::Waveform(course) => std::slice::from_ref(course),
-            InputSource::Pd { target, .. } | InputSource::ComputedTorque { target, .. } => {
-                std::slice::from_ref(target)
-            }
+            InputSource::Pd { target, .. }
+            | InputSource::Pid { target, .. }
+            | InputSource::ComputedTorque { target, .. } => std::slice::from_ref(target),
             InputSource::Hold(hold, _) => hold.target.courses(),
         };
         courses.iter().flat_map(Waveform::corners)
@@ -136,8 +119,10 @@ impl InputSource {
 }
 
 /// The words that a drive may begin with.
-pub(super) const BUILT_IN: &str =
-    "constant, ramp, harmonic, table, pd, computed_torque, or `given` for values from Rust code";
+pub(super) const BUILT_IN: &str = "constant, ramp, harmonic, table, step, trapezoidal, quintic, pd, pid, computed_torque, or `given` for values from Rust code";
+
+/// The key of the limits of an input.
+pub(super) const LIMIT: &str = "limit";
 
 /// The word of a controller that holds the pose of a joint with quasi-velocities.
 pub(super) const HOLD: &str = "hold";
@@ -157,8 +142,13 @@ pub(super) fn drive(
     if !raw.is_mapping() {
         return signal(raw, dimension, faults).map(InputSource::Waveform);
     }
-    let entries = raw.entries(expected::INPUT, faults);
+    let mut entries = raw.entries(expected::INPUT, faults);
+    let all = entries.len();
+    entries.retain(|entry| entry.name.value != LIMIT);
     let [only] = entries.as_slice() else {
+        if entries.is_empty() && all > 0 {
+            return Some(InputSource::Given);
+        }
         faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
     };
@@ -167,8 +157,8 @@ pub(super) fn drive(
         faults.push(wording::hold_of_one_degree(&only.name.location));
         return None;
     }
-    if !matches!(word, "pd" | "computed_torque") {
-        return signal(raw, dimension, faults).map(InputSource::Waveform);
+    if !matches!(word, "pd" | "pid" | "computed_torque") {
+        return course(only, dimension, faults).map(InputSource::Waveform);
     }
     if word == "computed_torque" && follows.is_some() && !effort {
         faults.push(wording::computed_torque_without_effort(&only.name.location));
@@ -190,17 +180,31 @@ fn controller(
     let entries = raw.entries(expected::CONTROLLER, faults);
     let mut target = None;
     let mut gains = [Dd::ZERO; 2];
+    let (mut integral, mut tracking) = (None, None);
+    let known: &[&str] = match word {
+        "pid" => &["target", "stiffness", "damping", "integral", "anti_windup"],
+        _ => &["target", "stiffness", "damping"],
+    };
     for entry in &entries {
         let gain = |faults: &mut Faults| entry.number(&[Dimension::One], faults);
         match entry.name.value.as_str() {
             "target" => target = signal(entry, position, faults),
             "stiffness" => gains[0] = gain(faults)?.value.value,
             "damping" => gains[1] = gain(faults)?.value.value,
-            other => {
-                let known = &["target", "stiffness", "damping"];
-                return unknown_key(&entry.name.location, other, known, faults);
+            "integral" if word == "pid" => integral = Some(gain(faults)?.value.value),
+            "anti_windup" if word == "pid" => {
+                let number = entry.number(&[Dimension::Time], faults)?;
+                if number.value.value <= Dd::ZERO {
+                    let text = &number.value.text;
+                    faults.push(wording::anti_windup_not_positive(&number.location, text));
+                }
+                tracking = Some(number.value.value);
             }
+            other => return unknown_key(&entry.name.location, other, known, faults),
         }
+    }
+    if word == "pid" && integral.is_none() {
+        faults.push(wording::pid_without_integral(&raw.location));
     }
     if target.is_none() && !entries.iter().any(|e| e.name.value == "target") {
         faults.push(wording::controller_without_target(&raw.location));
@@ -211,6 +215,17 @@ fn controller(
             target,
             stiffness,
             damping,
+        },
+        "pid" => InputSource::Pid {
+            target,
+            stiffness,
+            damping,
+            integral: integral?,
+            // By default the time of the integral part, k/k_i.
+            tracking: tracking.or_else(|| {
+                let time = stiffness / integral.unwrap_or(Dd::ONE);
+                (time > Dd::ZERO && time.is_finite()).then_some(time)
+            }),
         },
         _ => InputSource::ComputedTorque {
             target,
@@ -232,6 +247,12 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
         faults.push(wording::not_one_source(&raw.location, BUILT_IN));
         return None;
     };
+    course(only, dimension, faults)
+}
+
+/// Reads a course by its word.
+fn course(only: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
+    let fit = [dimension];
     match only.name.value.as_str() {
         "constant" => only
             .number(&fit, faults)
@@ -239,6 +260,9 @@ pub(super) fn signal(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Op
         "ramp" => ramp(only, dimension, faults),
         "harmonic" => harmonic(only, dimension, faults),
         "table" => table(only, dimension, faults),
+        "step" => profile::step(only, dimension, faults),
+        "trapezoidal" => profile::trapezoidal(only, dimension, faults),
+        "quintic" => profile::quintic(only, dimension, faults),
         other => {
             faults.push(wording::unknown_source(
                 &only.name.location,
@@ -294,16 +318,6 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Wave
         phase,
         offset,
     })
-}
-
-fn unknown_key<R>(
-    location: &Location,
-    key: &str,
-    known: &[&'static str],
-    faults: &mut Faults,
-) -> Option<R> {
-    faults.push(wording::unknown_key(location, key, known));
-    None
 }
 
 fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {

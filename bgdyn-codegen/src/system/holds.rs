@@ -173,38 +173,6 @@ impl<'g> StuckJoints<'g> {
     }
 }
 
-/// Returns the event functions; an event occurs where one falls through zero. For a contact it is the slip
-/// in its direction, or the margin until it breaks away.
-pub(super) fn events<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
-    let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::FromInputs);
-    let of_contacts = if sums.contacts().is_empty() {
-        vec![]
-    } else {
-        let holding = held(system, &sums, b).holding;
-        let half = b.number(0.5);
-        let contacts = sums.contacts().iter().zip(holding);
-        contacts
-            .map(|(c, holding)| {
-                let mode = sums.mode_at(c.mode);
-                let margin = sums.margin(c, holding);
-                let name = &system.scene.layout.modes[c.mode].name;
-                (
-                    name.clone(),
-                    mode.abs().if_less(half, margin, c.slip * mode),
-                )
-            })
-            .collect()
-    };
-    let value = |part: &crate::scene::Variable| {
-        let contact = of_contacts.iter().find(|(name, _)| *name == part.name);
-        contact
-            .map(|(_, value)| *value)
-            .or_else(|| sums.event_named(&part.name))
-            .unwrap_or(b.number(1.0))
-    };
-    system.scene.layout.events.iter().map(value).collect()
-}
-
 /// Returns for each mode its slip, the acceleration of its slip, the effort it holds or would have to hold
 /// for its present acceleration, and the margin until it breaks away.
 pub(super) fn contacts<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {

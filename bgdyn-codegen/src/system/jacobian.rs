@@ -1,4 +1,4 @@
-//! ∂ẏ/∂y and ∂ẏ/∂t of a scene, including the inputs that it drives.
+//! ∂ẏ/∂y and ∂ẏ/∂t of a scene, including the inputs that it drives, and ∂ẏ/∂u.
 //!
 //! There are two methods. One differentiates the graph of ẏ. The other uses that P(q, v, v̇) = E is
 //! satisfied along every motion: M ∂v̇ = ∂E − ∂P at fixed v̇, with ∂P from the recursion. Held joints have
@@ -26,17 +26,44 @@ pub(super) fn ways(system: &SceneEquations) -> Vec<Function> {
     // derivatives at fixed course lack the motion of prescribed joints in time.
     let layout = &system.scene.layout;
     if !layout.coupled().is_empty() || !layout.prescribed.is_empty() {
-        return vec![differentiated(system)];
+        return vec![differentiated(system, SceneFunction::Jacobian)];
     }
-    let mut ways = implicit(system);
+    let mut ways = implicit(system, SceneFunction::Jacobian);
     if system.graph.coordinates.len() <= MAX_DIFFERENTIATED_COORDINATES {
-        ways.push(differentiated(system));
+        ways.push(differentiated(system, SceneFunction::Jacobian));
+    }
+    ways
+}
+
+/// Returns the alternatives for ∂ẏ/∂u: column by column the rates v̇ and ẋ, and those of coupled positions. Positions do
+/// not depend on inputs, so that M ∂v̇ = ∂E holds for any of them; the motion of prescribed joints needs the derivatives
+/// of the whole graph.
+pub(super) fn along_inputs(system: &SceneEquations) -> Vec<Function> {
+    let role = SceneFunction::InputJacobian;
+    let layout = &system.scene.layout;
+    if !layout.coupled().is_empty() || !layout.prescribed.is_empty() {
+        return vec![differentiated(system, role)];
+    }
+    let mut ways = implicit(system, role);
+    if system.graph.coordinates.len() <= MAX_DIFFERENTIATED_COORDINATES {
+        ways.push(differentiated(system, role));
     }
     ways
 }
 
 /// Returns the leaves of the columns.
-fn leaves(system: &SceneEquations) -> impl Iterator<Item = Leaf> + use<> {
+fn leaves(system: &SceneEquations, role: SceneFunction) -> Vec<Leaf> {
+    match role {
+        SceneFunction::InputJacobian => {
+            let inputs = 0..system.scene.layout.inputs.len();
+            inputs.map(Leaf::Input).collect()
+        }
+        _ => along_state(system).collect(),
+    }
+}
+
+/// Returns those of the state and of time.
+fn along_state(system: &SceneEquations) -> impl Iterator<Item = Leaf> + use<> {
     let layout = &system.scene.layout;
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
     let y = (0..nq)
@@ -60,11 +87,11 @@ pub(super) fn expressions(all: &[Expr<'_>]) -> Vec<Signed> {
 }
 
 /// Differentiates the graph of ẏ.
-fn differentiated(system: &SceneEquations) -> Function {
+fn differentiated(system: &SceneEquations, role: SceneFunction) -> Function {
     let b = Builder::new();
     let derivative = system.cheapest(SceneFunction::Derivative);
     let outputs: Vec<Signed> = {
-        let inputs = expressions(&system.driven_inputs(&b));
+        let inputs = expressions(&system.inputs_of(role, &b));
         let placed = |_: &mut Graph, leaf| match leaf {
             Leaf::Input(i) => Some(inputs[i]),
             _ => None,
@@ -72,44 +99,45 @@ fn differentiated(system: &SceneEquations) -> Function {
         let of = &derivative.blocks[0].outputs;
         let rates = b.with_graph(|g| copy_into(g, &derivative.graph, of, placed));
         let rates: Vec<Expr<'_>> = rates.into_iter().map(|e| b.expr(e)).collect();
-        let columns = leaves(system).map(|leaf| slopes(&b, leaf, rates.iter().copied()));
+        let leaves = leaves(system, role).into_iter();
+        let columns = leaves.map(|leaf| slopes(&b, leaf, rates.iter().copied()));
         expressions(&columns.flatten().collect::<Vec<_>>())
     };
     let name = format!("{}; differentiated", derivative.formulation);
     Function {
         ordered: derivative.ordered,
-        ..system.flat(SceneFunction::Jacobian, name, b, outputs)
+        ..system.flat(role, name, b, outputs)
     }
 }
 
 /// Solves M ∂v̇ = ∂E − ∂P, with each alternative for M⁻¹.
-fn implicit(system: &SceneEquations) -> Vec<Function> {
+fn implicit(system: &SceneEquations, role: SceneFunction) -> Vec<Function> {
     if system.may_hold_joints() {
         let b = Builder::new();
         let columns = {
-            let sums = system.laws_under_driven_inputs(&b);
+            let sums = system.laws_under_inputs_of(role, &b);
             let holds = StuckJoints::new(&sums);
             let rates = rates(system, &sums, &b);
-            columns(system, &sums, &rates, &holds, None)
+            columns((system, role), &sums, &rates, &holds, None)
         };
         let name = "M ∂v̇ = ∂E − ∂P, joints held or free".to_owned();
-        return vec![system.flat(SceneFunction::Jacobian, name, b, columns)];
+        return vec![system.flat(role, name, b, columns)];
     }
     let ways = system.graph.forward_dynamics();
     let with = |forward: &Function| {
         let b = Builder::new();
         let columns = {
-            let sums = system.laws_under_driven_inputs(&b);
+            let sums = system.laws_under_inputs_of(role, &b);
             let holds = StuckJoints::new(&sums);
             let joints = link_accelerations(forward, &sums, system);
             let rates = joined(system, &sums, joints);
             let response = Response::new(forward);
-            columns(system, &sums, &rates, &holds, Some(&response))
+            columns((system, role), &sums, &rates, &holds, Some(&response))
         };
         let name = format!("M ∂v̇ = ∂E − ∂P; {}", forward.formulation);
         Function {
             ordered: forward.ordered,
-            ..system.flat(SceneFunction::Jacobian, name, b, columns)
+            ..system.flat(role, name, b, columns)
         }
     };
     ways.iter().map(with).collect()
@@ -117,7 +145,7 @@ fn implicit(system: &SceneEquations) -> Vec<Function> {
 
 /// Returns the columns of the Jacobian. M⁻¹ f is that of `response`, or that of the joints held or free.
 fn columns<'g>(
-    system: &SceneEquations,
+    (system, role): (&SceneEquations, SceneFunction),
     sums: &EffortSums<'g, '_>,
     rates: &[Expr<'g>],
     holds: &StuckJoints<'g>,
@@ -138,7 +166,7 @@ fn columns<'g>(
         _ => b.zero(),
     };
     let mut all = Vec::new();
-    for leaf in leaves(system) {
+    for leaf in leaves(system, role) {
         let efforts = (0..n).map(|j| sums.effort(j));
         let own = (n..nv).map(|j| sums.effort(j) / own_inertia(sums, j));
         let states = sums.rates().iter().copied();
@@ -197,13 +225,45 @@ impl SceneEquations {
     pub(super) fn driven_inputs<'g>(&self, b: &'g Builder) -> Vec<Expr<'g>> {
         match self.scene.layout.inputs.is_empty() {
             true => vec![],
-            false => signals::inputs(self, b),
+            false => {
+                let mut inputs = signals::inputs(self, b);
+                // What sampled controllers give is held.
+                for &i in self
+                    .scene
+                    .control
+                    .iter()
+                    .flat_map(|control| &control.controlled)
+                {
+                    inputs[i] = b.leaf(Leaf::Input(i));
+                }
+                inputs
+            }
         }
     }
 
-    /// Returns the laws under those inputs.
+    /// Returns the inputs under which a Jacobian is: those that the scene drives, or all as they are given.
+    fn inputs_of<'g>(&self, role: SceneFunction, b: &'g Builder) -> Vec<Expr<'g>> {
+        match role {
+            SceneFunction::InputJacobian => {
+                let inputs = 0..self.scene.layout.inputs.len();
+                inputs.map(|i| b.leaf(Leaf::Input(i))).collect()
+            }
+            _ => self.driven_inputs(b),
+        }
+    }
+
+    /// Returns the laws under the inputs that the scene drives.
     pub(super) fn laws_under_driven_inputs<'g, 'a>(&'a self, b: &'g Builder) -> EffortSums<'g, 'a> {
-        let inputs = || self.driven_inputs(b);
+        self.laws_under_inputs_of(SceneFunction::Jacobian, b)
+    }
+
+    /// Returns the laws under the inputs of a Jacobian.
+    fn laws_under_inputs_of<'g, 'a>(
+        &'a self,
+        role: SceneFunction,
+        b: &'g Builder,
+    ) -> EffortSums<'g, 'a> {
+        let inputs = || self.inputs_of(role, b);
         summed_under(
             b,
             &self.scene,

@@ -9,6 +9,7 @@ mod canonical;
 mod coordinate_rows;
 mod dynamics;
 mod equations;
+mod events;
 mod followed;
 mod holds;
 mod idle;
@@ -176,6 +177,8 @@ impl SceneEquations {
             | SceneFunction::Power
             | SceneFunction::Energy => true,
             SceneFunction::Jacobian => jacobian || method.needs_jacobian(),
+            // On request only: `has_input_jacobian`.
+            SceneFunction::InputJacobian => false,
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
             | SceneFunction::CanonicalRates => {
@@ -188,6 +191,11 @@ impl SceneEquations {
         SceneFunction::ALL.into_iter().filter(has).collect()
     }
 
+    /// Returns whether there is a ∂ẏ/∂u: whether the scene has inputs.
+    pub fn has_input_jacobian(&self) -> bool {
+        !self.scene.layout.inputs.is_empty()
+    }
+
     /// Returns a scene function.
     pub fn function(&self, role: SceneFunction) -> Function {
         finish(self.cheapest(role))
@@ -198,6 +206,7 @@ impl SceneEquations {
         let factored = self.ways(role).into_iter().map(factor);
         let best = match role {
             SceneFunction::Jacobian
+            | SceneFunction::InputJacobian
             | SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
             | SceneFunction::CanonicalRates => cheapest(factored),
@@ -212,7 +221,7 @@ impl SceneEquations {
             SceneFunction::Derivative => dynamics::derivatives(self),
             SceneFunction::Inverse => vec![self.one(role, dynamics::inverse)],
             SceneFunction::Inputs => vec![self.one(role, signals::inputs)],
-            SceneFunction::Events => vec![self.one(role, holds::events)],
+            SceneFunction::Events => vec![self.one(role, events::events)],
             SceneFunction::Contacts => vec![self.one(role, holds::contacts)],
             SceneFunction::Power => vec![self.one(role, balance::power)],
             SceneFunction::Energy => vec![self.one(role, balance::energy)],
@@ -222,6 +231,7 @@ impl SceneEquations {
                 found.into_iter().map(|(_, e)| e).collect()
             })],
             SceneFunction::Jacobian => jacobian::ways(self),
+            SceneFunction::InputJacobian => jacobian::along_inputs(self),
             SceneFunction::ToCanonical => canonical::momenta(self),
             SceneFunction::FromCanonical => canonical::velocities(self),
             SceneFunction::CanonicalRates => canonical::rates(self),

@@ -7,7 +7,7 @@ use crate::effort_sums::{ActuatorEfforts, EffortSums};
 use crate::expr::{Builder, Expr, Leaf};
 use crate::formulation::Formulation;
 use crate::layout::Variable;
-use crate::scene::Scene;
+use crate::scene::{InputSource, Scene, integral_name};
 
 impl SceneEquations {
     /// Returns the sum of all laws, with efforts of actuators as inputs.
@@ -55,6 +55,13 @@ pub(super) fn summed_under<'g, 'a>(
         sums.begin(at);
         b.section(|| format!("{}: {}", element.name, element.effect.summary()));
         effect::of(element).law(element, &mut sums);
+    }
+    for (i, drive) in scene.drives.iter().enumerate() {
+        if let InputSource::IntegralRate(of) = drive {
+            let state = integral_name(&scene.layout.inputs[*of].name);
+            let rate = sums.inputs()[i];
+            sums.flow(&state, rate);
+        }
     }
     sums
 }

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr, Graph, Leaf, Tangent};
-use crate::scene::Waveform;
+use crate::scene::{Piece, Waveform};
 
 /// Returns the derivative by time.
 pub(super) fn rate<'g>(b: &'g Builder, x: Expr<'g>) -> Expr<'g> {
@@ -30,7 +30,31 @@ pub(super) fn course<'g>(b: &'g Builder, signal: &Waveform) -> Expr<'g> {
             b.constant(*offset) + sine * *amplitude
         }
         Waveform::Table(points) => table(b, t, points),
+        Waveform::Pieces { before, pieces } => {
+            let mut value = b.constant(*before);
+            // The last piece that has begun holds.
+            let mut ends: Option<Expr<'g>> = None;
+            for piece in pieces.iter().rev() {
+                let own = polynomial(b, t, piece);
+                let next = pieces.iter().find(|other| other.start > piece.start);
+                ends = Some(match (ends, next) {
+                    (Some(later), Some(next)) => t.if_less(b.constant(next.start), own, later),
+                    _ => own,
+                });
+            }
+            if let (Some(begun), Some(first)) = (ends, pieces.first()) {
+                value = t.if_less(b.constant(first.start), value, begun);
+            }
+            value
+        }
     }
+}
+
+/// Returns Σ c_k (t − start)ᵏ by Horner's rule.
+fn polynomial<'g>(b: &'g Builder, t: Expr<'g>, piece: &Piece) -> Expr<'g> {
+    let since = t - b.constant(piece.start);
+    let terms = piece.coefficients.iter().rev();
+    terms.fold(b.zero(), |sum, &c| sum * since + b.constant(c))
 }
 
 /// Interpolates linearly between points; constant before the first and after the last.

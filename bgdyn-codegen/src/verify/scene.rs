@@ -5,7 +5,7 @@ use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, largest, minus, plus, turned};
-use super::dual::{Direction, Dual, along, rates, values};
+use super::dual::{Direction, Dual, along, rates, values, with_rates};
 use super::states::{direction, of_scene, signed};
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -75,6 +75,7 @@ impl CheckedScene<'_> {
             }
             SceneFunction::Power => self.power(function, at, &found),
             SceneFunction::Jacobian => self.jacobian(function, at, &found),
+            SceneFunction::InputJacobian => self.input_jacobian(function, at, &found),
             SceneFunction::ToCanonical => self.momenta(function, at, &found),
             SceneFunction::FromCanonical => {
                 let (found, _) = function.evaluate(self.canonical(at)?);
@@ -242,12 +243,49 @@ impl CheckedScene<'_> {
         self.compare(function, law, pair, largest(&values(&derivative)), at)
     }
 
+    /// Checks ∂ẏ/∂u along a random direction of the inputs against the rate of the derivative in dual numbers.
+    fn input_jacobian(
+        &self,
+        function: &Function,
+        at: &Inputs<Dd>,
+        columns: &[Dd],
+    ) -> Option<Difference> {
+        let zeros = |of: &[Dd]| vec![Dd::ZERO; of.len()];
+        let still = Direction {
+            q: zeros(&at.q),
+            v: zeros(&at.v),
+            x: zeros(&at.x),
+            t: Dd::ZERO,
+        };
+        let moved = direction(&mut Random(17), at.u.len());
+        let inputs = Inputs {
+            u: with_rates(&at.u, &moved),
+            ..along(at, &still)
+        };
+        let (derivative, refused) = self.function(SceneFunction::Derivative)?.evaluate(inputs);
+        if refused.is_some() {
+            return None;
+        }
+        let mut found = vec![Dd::ZERO; derivative.len()];
+        for (column, &d) in columns.chunks(derivative.len().max(1)).zip(&moved) {
+            found = plus(&found, &column.iter().map(|&x| x * d).collect::<Vec<_>>());
+        }
+        let law = ("dẏ = ∂ẏ/∂u du", SOLVED);
+        let pair = (&found[..], &rates(&derivative)[..]);
+        self.compare(function, law, pair, largest(&values(&derivative)), at)
+    }
+
     /// Returns v̇ and ẋ under the inputs that the scene drives.
     fn rates(&self, at: &Inputs<Dual>) -> Option<Vec<Dual>> {
         let derivative = self.function(SceneFunction::Derivative)?;
         let mut driven = at.clone();
         if let Some(inputs) = self.function(SceneFunction::Inputs) {
             driven.u = inputs.evaluate(at.clone()).0;
+            // What sampled controllers give is held.
+            let control = self.system.scene.control.iter();
+            for &i in control.flat_map(|control| &control.controlled) {
+                driven.u[i] = at.u[i];
+            }
         }
         let (rates, refused) = derivative.evaluate(driven);
         refused.is_none().then_some(rates)

@@ -18,6 +18,9 @@ use crate::common::{Robot, golden};
 const INDEPENDENT: f64 = 1e-6;
 const DEPENDENT: f64 = 1e-12;
 
+/// A column shorter than this share of the longest one consists of rounding errors.
+const ROUNDING: f64 = 1e-15;
+
 fn regressors() -> Options {
     Options {
         methods: Some(Vec::new()),
@@ -91,20 +94,19 @@ fn rank(robot: &Robot) -> Option<usize> {
     }
     let mut all = DMatrix::from_row_slice(states * nv, columns, &rows);
     let longest = all.column_iter().map(|c| c.norm()).fold(0.0, f64::max);
+    let mut unclear = false;
     for mut column in all.column_iter_mut() {
+        let length = column.norm() / longest;
         // A column of rounding errors is zero.
-        let length = column.norm();
-        column *= if length > DEPENDENT * longest {
-            1.0 / length
-        } else {
-            0.0
-        };
+        let is_zero = length < ROUNDING;
+        unclear |= !is_zero && length < INDEPENDENT;
+        column *= if is_zero { 0.0 } else { 1.0 / length };
     }
     let values = all.singular_values();
     let shares: Vec<f64> = values.iter().map(|x| x / values[0]).collect();
-    let unclear = |x: &f64| (DEPENDENT..INDEPENDENT).contains(x);
+    unclear |= (shares.iter()).any(|x| (DEPENDENT..INDEPENDENT).contains(x));
     let kept = shares.iter().filter(|x| **x >= INDEPENDENT);
-    (!shares.iter().any(unclear)).then_some(kept.count())
+    (!unclear).then_some(kept.count())
 }
 
 #[test]

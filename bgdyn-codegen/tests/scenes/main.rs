@@ -6,6 +6,7 @@ mod causality;
 mod combinations;
 mod combined;
 mod common;
+mod controllers;
 mod cylinders;
 mod drives;
 mod dual;
@@ -14,6 +15,7 @@ mod forms;
 mod friction;
 mod hard_cases;
 mod hydraulics;
+mod input_slopes;
 mod joints;
 mod kinks;
 mod laws;
@@ -21,6 +23,7 @@ mod lines;
 mod motors;
 mod one;
 mod page;
+mod profiles;
 #[allow(dead_code)] // written for more than scenes
 #[path = "../common/random.rs"]
 mod random;

@@ -6,7 +6,7 @@ mod pose;
 mod products;
 // That of the generator, whose crate depends on this one.
 #[allow(dead_code)]
-#[path = "../../../bgdyn-codegen/src/random.rs"]
+#[path = "../../src/random.rs"]
 mod random;
 mod rotations;
 mod stiction;

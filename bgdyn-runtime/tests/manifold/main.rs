@@ -12,7 +12,7 @@ mod joint;
 #[cfg(feature = "wide")]
 mod lanes;
 // That of the generator, whose crate depends on this one.
-#[path = "../../../bgdyn-codegen/src/random.rs"]
+#[path = "../../src/random.rs"]
 #[allow(dead_code)]
 mod random;
 mod ratios;

@@ -12,7 +12,7 @@ mod exact;
 mod lanes;
 // That of the generator, whose crate depends on this one.
 #[allow(dead_code)]
-#[path = "../../../bgdyn-codegen/src/random.rs"]
+#[path = "../../src/random.rs"]
 mod random;
 mod scalars;
 #[cfg(feature = "serde")]

@@ -27,22 +27,29 @@ where
     }
 
     /// Puts the clock on a corner that lies within rounding ahead, where stiction is then resolved anew.
-    /// Gives by how much time went on.
+    /// Several corners may lie there. Gives by how much time went on.
     pub(super) fn reach_corner(&mut self) -> Time<P> {
-        let zero = Time::<P>::from_f64(0.0);
-        let Some(corner) = self.plant.next_corner(self.t()) else {
-            return zero;
-        };
-        let ahead = corner - self.t();
-        if ahead > self.roundings(corner, 2.0 * BEFORE) {
-            return zero;
+        let mut skipped = Time::<P>::from_f64(0.0);
+        while let Some(corner) = self.plant.next_corner(self.t()) {
+            let ahead = corner - self.t();
+            if ahead > self.roundings(corner, 2.0 * BEFORE) {
+                break;
+            }
+            self.solver.set_clock(corner);
+            self.solver.forget();
+            if self.agreement == Agreement::Reached {
+                self.agreement = Agreement::Disturbed;
+            }
+            self.reached();
+            skipped = skipped + ahead;
         }
-        self.solver.set_clock(corner);
-        self.solver.forget();
-        if self.agreement == Agreement::Reached {
-            self.agreement = Agreement::Disturbed;
-        }
-        ahead
+        skipped
+    }
+
+    /// Lets the plant do what happens now from outside.
+    pub(super) fn reached(&mut self) {
+        let (t, y) = (self.solver.t(), self.solver.y());
+        self.plant.reached(t, y, &self.modes);
     }
 
     /// So many roundings of the time around a corner.

@@ -203,7 +203,10 @@ where
     pub(super) fn agree(&mut self) -> Result<(), Refused<P>> {
         let rest = match self.agreement {
             Agreement::Reached => return Ok(()),
-            Agreement::Unknown => Time::<P>::from_f64(0.0),
+            Agreement::Unknown => {
+                self.reached();
+                Time::<P>::from_f64(0.0)
+            }
             Agreement::Disturbed => Time::<P>::from_f64(DRIFT),
         };
         let found = self

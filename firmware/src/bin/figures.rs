@@ -21,7 +21,7 @@ use random::Random;
 
 // That of the generator, which the boards do not depend on.
 #[allow(dead_code)]
-#[path = "../../../bgdyn-codegen/src/random.rs"]
+#[path = "../../../bgdyn-runtime/src/random.rs"]
 mod random;
 
 /// Largest number of instructions of generated functions in `f32`.

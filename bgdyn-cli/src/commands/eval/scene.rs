@@ -26,7 +26,10 @@ impl Eval {
             let message = "`--formulation` and `--prefer` are of mechanisms: a scene has one way to each of its functions";
             return Err(Usage(message.into()).into());
         }
-        let roles = system.roles_with(true, true);
+        let mut roles = system.roles_with(true, true);
+        if system.has_input_jacobian() {
+            roles.push(SceneFunction::InputJacobian);
+        }
         let role = roles.iter().copied().find(|r| r.name() == self.method);
         let role = role.ok_or_else(|| {
             let known: Vec<&str> = roles.iter().map(|r| r.name()).collect();
@@ -99,7 +102,9 @@ impl SceneCall<'_> {
             named.iter().map(|n| n.name.clone()).collect::<Vec<_>>()
         };
         match self.role {
-            SceneFunction::Derivative | SceneFunction::Jacobian => names.state.clone(),
+            SceneFunction::Derivative | SceneFunction::Jacobian | SceneFunction::InputJacobian => {
+                names.state.clone()
+            }
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
             | SceneFunction::CanonicalRates => names.state.clone(),
@@ -235,8 +240,32 @@ impl SceneCall<'_> {
             SceneFunction::Power => rows(3),
             SceneFunction::Contacts => rows(4),
             SceneFunction::Jacobian => self.jacobian(values),
+            SceneFunction::InputJacobian => self.input_jacobian(values),
             _ => json!(values),
         }
+    }
+
+    /// Returns ∂ẏ/∂u row by row.
+    fn input_jacobian(&self, values: &[f64]) -> Value {
+        let layout = &self.system.scene.layout;
+        let (own, inputs) = (layout.nv() + layout.nx(), layout.inputs.len());
+        let rows = own + layout.coupled().len();
+        let row = |at: usize| -> Vec<f64> { (0..inputs).map(|k| values[k * rows + at]).collect() };
+        let mut coupled = own..;
+        let of_positions = layout
+            .positions
+            .iter()
+            .map(|position| match position.coordinate {
+                Some(_) => vec![0.0; inputs],
+                None => row(coupled.next().unwrap_or_default()),
+            });
+        let positions: Vec<Vec<f64>> = of_positions.collect();
+        json!(
+            positions
+                .into_iter()
+                .chain((0..own).map(row))
+                .collect::<Vec<_>>()
+        )
     }
 
     /// Returns ∂ẏ/∂y row by row, and ∂ẏ/∂t.

@@ -89,6 +89,7 @@ fn result_order(role: SceneFunction) -> Option<&'static str> {
         SceneFunction::Jacobian => {
             "Result: the N x N matrix row by row, then the N slopes by time."
         }
+        SceneFunction::InputJacobian => "Result: the N x NU matrix row by row.",
         _ => return None,
     })
 }

@@ -49,6 +49,7 @@ impl SceneResult {
                 }
             }
             SceneFunction::Jacobian => jacobian(layout),
+            SceneFunction::InputJacobian => input_jacobian(layout),
             SceneFunction::ToCanonical => SceneResult {
                 destinations: (nq..nq + nv).collect(),
                 others: [0..nq, nq + nv..nq + rates]
@@ -86,6 +87,24 @@ impl SceneResult {
 fn coupled(layout: &StateLayout) -> impl Iterator<Item = usize> + Clone {
     let positions = layout.positions.iter().enumerate();
     positions.filter_map(|(p, position)| position.coordinate.is_none().then_some(p))
+}
+
+/// The matrix of a rate's row by the inputs' columns. The outputs are columns.
+fn input_jacobian(layout: &StateLayout) -> SceneResult {
+    let (nq, inputs) = (layout.nq(), layout.inputs.len());
+    let n = nq + layout.nv() + layout.nx();
+    let rows: Vec<usize> = (nq..n).chain(coupled(layout)).collect();
+    let of_column = |column: usize| rows.iter().map(move |&row| row * inputs + column);
+    let positions = layout.positions.iter().enumerate();
+    let own = positions.filter(|(_, position)| position.coordinate.is_some());
+    let zeros =
+        |(p, _): (usize, _)| (0..inputs).map(move |column| (p * inputs + column, "0".into()));
+    SceneResult {
+        destinations: (0..inputs).flat_map(of_column).collect(),
+        others: own.flat_map(zeros).collect(),
+        size: "N * NU",
+        checked: 0..n * inputs,
+    }
 }
 
 /// The matrix of a rate's row by the state's columns, then the column of time. The outputs are columns.

@@ -28,6 +28,7 @@ fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<
         SceneFunction::Energy => ("Energy", of_named(&scene.entries)),
         SceneFunction::Outputs => ("Output", of_named(&scene.outputs)),
         SceneFunction::Jacobian
+        | SceneFunction::InputJacobian
         | SceneFunction::ToCanonical
         | SceneFunction::FromCanonical
         | SceneFunction::CanonicalRates
@@ -86,6 +87,7 @@ pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStr
         SceneFunction::PositionRates | SceneFunction::ClosingStep => {
             quote! { __na::SVector<T, NQ> }
         }
+        SceneFunction::InputJacobian => quote! { __na::SMatrix<T, N, NU> },
         SceneFunction::Jacobian => quote! { (__na::SMatrix<T, N, N>, __na::SVector<T, N>) },
         SceneFunction::ToCanonical
         | SceneFunction::FromCanonical
@@ -177,6 +179,7 @@ fn finish(
         SceneFunction::Energy => ok(literal("Energy", parts, values)),
         SceneFunction::Outputs => ok(literal("Output", parts, values)),
         SceneFunction::Jacobian => jacobian(layout, values),
+        SceneFunction::InputJacobian => input_jacobian(layout, values),
         SceneFunction::ToCanonical => to_canonical(layout, values),
         SceneFunction::FromCanonical => from_canonical(layout, values),
         SceneFunction::CanonicalRates => canonical_rates(layout, values),
@@ -222,32 +225,7 @@ fn passed(
 /// Converts columns of v̇, ẋ and the rates of coupled positions to columns of ẏ, with the rates of the other
 /// positions from the velocities.
 fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
-    let (nq, rates) = (layout.nq(), layout.nv() + layout.nx());
-    let rows = rates + layout.coupled().len();
-    let columns = values.chunks(rows.max(1)).enumerate();
-    let mut statements = TokenStream::new();
-    let columns: Vec<TokenStream> = columns
-        .map(|(k, column)| {
-            let (column, coupled) = column.split_at(rates);
-            let (statement, names) = passed(
-                SceneFunction::Jacobian,
-                layout,
-                &format!("column{k}_"),
-                column,
-            );
-            statements.extend(statement);
-            let mut coupled = coupled.iter();
-            let of_positions = layout.positions.iter().map(|p| match p.coordinate {
-                Some(j) => {
-                    let slope = if k == nq + j { 1.0 } else { 0.0 };
-                    let slope = number(slope);
-                    quote! { T::from_f64(#slope) }
-                }
-                None => coupled.next().cloned().unwrap_or_default(),
-            });
-            quote! { [#(#of_positions,)* #(#names),*] }
-        })
-        .collect();
+    let (statements, columns) = columns(SceneFunction::Jacobian, layout, values);
     let (along_time, along_state) = columns.split_last().expect("a column of time");
     quote! {
         #statements
@@ -256,6 +234,46 @@ fn jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
             __rt::vector(#along_time),
         ))
     }
+}
+
+/// Returns the matrix of columns by the inputs.
+fn input_jacobian(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
+    let (statements, columns) = columns(SceneFunction::InputJacobian, layout, values);
+    quote! {
+        #statements
+        ::core::result::Result::Ok(__rt::matrix([#(#columns),*]))
+    }
+}
+
+/// Returns the columns of a Jacobian of ẏ, and the statements before them.
+fn columns(
+    role: SceneFunction,
+    layout: &StateLayout,
+    values: &[TokenStream],
+) -> (TokenStream, Vec<TokenStream>) {
+    let (nq, rates) = (layout.nq(), layout.nv() + layout.nx());
+    let rows = rates + layout.coupled().len();
+    let columns = values.chunks(rows.max(1)).enumerate();
+    let mut statements = TokenStream::new();
+    let columns: Vec<TokenStream> = columns
+        .map(|(k, column)| {
+            let (column, coupled) = column.split_at(rates);
+            let (statement, names) = passed(role, layout, &format!("column{k}_"), column);
+            statements.extend(statement);
+            let mut coupled = coupled.iter();
+            let of_positions = layout.positions.iter().map(|p| match p.coordinate {
+                Some(j) => {
+                    let own = role == SceneFunction::Jacobian && k == nq + j;
+                    let slope = if own { 1.0 } else { 0.0 };
+                    let slope = number(slope);
+                    quote! { T::from_f64(#slope) }
+                }
+                None => coupled.next().cloned().unwrap_or_default(),
+            });
+            quote! { [#(#of_positions,)* #(#names),*] }
+        })
+        .collect();
+    (statements, columns)
 }
 
 /// Returns the code for a state with momenta from its parts.

@@ -46,6 +46,8 @@ pub fn scene_module(
     let system_trait = system::system_trait(&interface, &struct_name);
     let has = |role| functions.iter().any(|f| f.method == Method::Scene(role));
     let slope = has(SceneFunction::Jacobian).then(|| system::slope_trait(&struct_name));
+    let input_slope =
+        has(SceneFunction::InputJacobian).then(|| system::input_slope_trait(&struct_name));
     let canonical = SceneFunction::CANONICAL.into_iter().all(has);
     let canonical = canonical.then(|| system::canonical_trait(&struct_name));
     let all: Vec<&Function> = functions.iter().collect();
@@ -75,6 +77,7 @@ pub fn scene_module(
             }
             #system_trait
             #slope
+            #input_slope
             #canonical
             #operations
         }

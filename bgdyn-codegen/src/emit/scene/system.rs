@@ -1,5 +1,6 @@
 //! The traits of scenes, implemented by a scene's methods.
 
+use bgdyn_runtime::SampledControl;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -44,6 +45,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
     let count = size(entries.len());
     let velocities = &scene.mode_coordinates;
     let corners = corners(&scene.corners);
+    let control = scene.control.as_ref().map(|own| control(own.sampled()));
     let quasi_joints = quasi_joints(layout);
     let constrained = constrained_positions(layout);
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
@@ -66,6 +68,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
             fn event_modes(&self) -> &'static [::core::option::Option<usize>; NE] { &EVENT_MODES }
             fn mode_velocities(&self) -> &'static [usize; NM] { &[#(#mode_velocities),*] }
             #corners
+            #control
             fn output_names(&self) -> &'static [&'static str; NY] { &OUTPUT_NAMES }
             fn entry_names(&self) -> &'static [&'static str; #count] { &ENTRY_NAMES }
             fn start(&self) -> (__na::SVector<T, N>, __na::SVector<T, NM>) {
@@ -148,6 +151,35 @@ fn corners(corners: &[f64]) -> TokenStream {
     quote! { fn corners(&self) -> &'static [f64] { &[#(#instants),*] } }
 }
 
+/// Returns the method for sampled controllers.
+fn control(control: SampledControl<'_>) -> TokenStream {
+    let numbers = |all: &[f64]| {
+        let all = all.iter().map(|&x| number(x));
+        quote! { &[#(#all),*] }
+    };
+    let SampledControl {
+        controlled, seed, ..
+    } = control;
+    let (period, delay) = (number(control.period), number(control.delay));
+    let (resolution, noise) = (numbers(control.resolution), numbers(control.noise));
+    let controlled = controlled.iter().map(|&i| size(i));
+    let input_resolution = numbers(control.input_resolution);
+    let seed = proc_macro2::Literal::u64_unsuffixed(seed);
+    quote! {
+        fn control(&self) -> ::core::option::Option<__rt::SampledControl<'static>> {
+            ::core::option::Option::Some(__rt::SampledControl {
+                period: #period,
+                delay: #delay,
+                resolution: #resolution,
+                noise: #noise,
+                controlled: &[#(#controlled),*],
+                input_resolution: #input_resolution,
+                seed: #seed,
+            })
+        }
+    }
+}
+
 /// Returns the method for the joints with quasi-velocities, if the scene has some.
 fn quasi_joints(layout: &StateLayout) -> TokenStream {
     if layout.quasi_joints.is_empty() {
@@ -215,6 +247,24 @@ pub(super) fn slope_trait(name: &Ident) -> TokenStream {
                 T::Singular<{ NV + NX }>,
             > {
                 self.jacobian(&State::from_vectors(y, modes), &Input::from_vector(given), t)
+            }
+        }
+    }
+}
+
+/// The implementation of the trait `InputSlope`.
+pub(super) fn input_slope_trait(name: &Ident) -> TokenStream {
+    quote! {
+        impl<T: __Scalar> __rt::InputSlope<T> for #name<T> {
+            type InputMatrix = __na::SMatrix<T, N, NU>;
+            fn input_slope(
+                &self,
+                y: &__na::SVector<T, N>,
+                modes: &__na::SVector<T, NM>,
+                input: &__na::SVector<T, NU>,
+                t: T,
+            ) -> ::core::result::Result<Self::InputMatrix, T::Singular<{ NV + NX }>> {
+                self.input_jacobian(&State::from_vectors(y, modes), &Input::from_vector(input), t)
             }
         }
     }

@@ -72,6 +72,28 @@ pub(crate) const TEXT: Wanted<'static> = ("text", "it between quotes: `\"…\"`"
 pub(crate) const INPUT: Wanted<'static> = ("what drives the input", "`{ constant: 2 }`");
 pub(crate) const COURSE: Wanted<'static> = ("a course in time", "`{ constant: 2 }`");
 pub(crate) const RAMP: Wanted<'static> = ("a ramp", "`{ from: 0, rate: 0.1 }`");
+pub(crate) const LIMIT_OF_INPUT: Wanted<'static> = ("a limit", "`20`, or `[-5, 20]`");
+pub(crate) const CONTROL: Wanted<'static> = (
+    "how controllers are sampled",
+    "`{ period: 1 ms, delay: 0.5 ms }`",
+);
+pub(crate) const SENSORS: Wanted<'static> = (
+    "what sensors measure",
+    "`{ position: 0.1 deg, velocity: 0.01 }`",
+);
+pub(crate) const SENSORS_BY_NAME: Wanted<'static> = (
+    "a size for each joint",
+    "`{ shoulder: 0.1 deg, slide: 1 mm }`",
+);
+pub(crate) const STEP: Wanted<'static> = ("a step", "`{ before: 0, after: 1, time: 0.5 s }`");
+pub(crate) const TRAPEZOIDAL: Wanted<'static> = (
+    "a motion with a trapezoidal velocity",
+    "`{ from: 0, to: 1, duration: 2 s, acceleration: 2 }`",
+);
+pub(crate) const QUINTIC: Wanted<'static> = (
+    "a motion of fifth order",
+    "`{ from: 0, to: 1, duration: 2 s }`",
+);
 pub(crate) const POINTS: Wanted<'static> = ("a list of points", "`[[0 s, 0], [1 s, 2]]`");
 pub(crate) const POINT: Wanted<'static> = ("a point", "`[0.5 s, 2]`");
 pub(crate) const CONTROLLER: Wanted<'static> = (

@@ -232,3 +232,53 @@ pub(crate) fn empty_table(location: &Location) -> Fault {
     Fault::new(location, "drive", "the table has no points")
         .with_help("write `[[0 s, 0], [1 s, 2]]`")
 }
+
+// Integral parts and limits
+
+pub(crate) fn pid_without_integral(location: &Location) -> Fault {
+    Fault::new(location, "missing-key", "`pid` has no `integral`")
+        .with_help("add `integral: …`, the gain of the integral part; or use `pd`")
+}
+
+pub(crate) fn anti_windup_not_positive(location: &Location, text: &str) -> Fault {
+    let message = format!("`anti_windup` is {text}: it must be positive");
+    Fault::new(location, "drive", message)
+        .with_help("it is the time in which the integral part follows a limit, such as `0.2 s`")
+}
+
+pub(crate) fn pid_without_anti_windup(location: &Location, name: &str) -> Fault {
+    let message = format!(
+        "the effort of `{name}` is limited, and its `pid` has no positive ratio stiffness/integral from which the time of `anti_windup` would follow"
+    );
+    Fault::new(location, "missing-key", message).with_help("add `anti_windup: 0.2 s`")
+}
+
+pub(crate) fn not_a_limit(location: &Location, least: f64, most: f64) -> Fault {
+    let message =
+        format!("the limits are {least} and {most}: the first must be less than the second");
+    Fault::new(location, "limit", message)
+        .with_help("write a positive number, `limit: 20`, or both limits, `limit: [-5, 20]`")
+}
+
+pub(crate) fn limit_without_effort(location: &Location, name: &str) -> Fault {
+    let message = format!("`{name}` is not what a drive gives: it has no `limit`");
+    Fault::new(location, "limit", message)
+        .with_help("limits are for efforts of joints, voltages of motors and openings of valves")
+}
+
+pub(crate) fn no_effort_limits(location: &Location) -> Fault {
+    let message = "`effort_limits` is true, and no joint of which the effort is an input has `limits: { effort: … }`";
+    Fault::new(location, "limit", message)
+        .with_help("add limits to the mechanism, or `limit: …` to inputs of the scene")
+}
+
+pub(crate) fn not_a_truth(location: &Location, key: &str) -> Fault {
+    let message = format!("`{key}` is true or false");
+    Fault::new(location, "wrong-type", message).with_help("leave the key out for false")
+}
+
+// Motions from point to point
+
+pub(crate) fn profile(location: &Location, message: String, way_out: &str) -> Fault {
+    Fault::new(location, "profile", message).with_help(way_out)
+}

@@ -106,12 +106,16 @@ pub(crate) fn rate_of_prescribed(location: &Location, name: &str, joint: &str) -
     ))
 }
 
-pub(crate) fn prescribed_with_corners(location: &Location, joint: &str) -> Fault {
+pub(crate) fn prescribed_with_corners(location: &Location, joint: &str, step: bool) -> Fault {
+    let what = match step {
+        true => "a step: it jumps",
+        false => "a table: its velocity jumps at every point",
+    };
     let message = format!(
-        "the course of the prescribed joint `{joint}` is a table: its velocity jumps at every point, which takes an infinite effort"
+        "the course of the prescribed joint `{joint}` is {what}, which takes an infinite effort"
     );
     Fault::new(location, "prescribed-with-corners", message).with_help(
-        "write `constant`, `ramp` or `harmonic`, or `given` with position, rate and acceleration from Rust code",
+        "write `constant`, `ramp`, `harmonic`, `trapezoidal` or `quintic`, or `given` with position, rate and acceleration from Rust code",
     )
 }
 

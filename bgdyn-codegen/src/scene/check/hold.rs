@@ -7,7 +7,8 @@ use std::ops::Range;
 use bgdyn_runtime::{Dd, QuasiJointKind};
 
 use super::super::quaternion_of_rpy;
-use super::super::signal::{self, HOLD, InputSource, PoseHold, PoseTarget, Waveform};
+use super::super::signal::{self, HOLD, InputSource, PoseHold, PoseTarget};
+use super::super::waveform::Waveform;
 use crate::fault::wording::expected;
 use crate::fault::{Faults, wording};
 use crate::format::{Dimension, Raw};

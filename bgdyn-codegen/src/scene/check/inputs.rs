@@ -1,6 +1,7 @@
 //! Checks the inputs of a scene and their sources.
 
-use super::super::signal::{self, InputSource, Waveform};
+use super::super::signal::{self, InputSource};
+use super::super::waveform::Waveform;
 use super::hold;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
@@ -140,9 +141,10 @@ pub(super) fn drives(
                 ));
                 continue;
             }
-            let bends = matches!(&drive, InputSource::Waveform(Waveform::Table(_)));
+            let bends = matches!(&drive, InputSource::Waveform(course) if course.rate_jumps());
             if bends && layout.prescribed.contains(name) {
-                faults.push(wording::prescribed_with_corners(&raw.location, name));
+                let step = !matches!(&drive, InputSource::Waveform(Waveform::Table(_)));
+                faults.push(wording::prescribed_with_corners(&raw.location, name, step));
                 continue;
             }
             drives[i] = drive;

@@ -1,17 +1,21 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
+mod control;
 mod effects;
 mod followed;
 mod hold;
 mod initial;
 mod inputs;
 mod joints;
+mod limits;
 mod locks;
 mod outputs;
 mod pose;
 mod prescribed;
 mod run;
 mod state;
+
+pub use limits::{integral_name, limit_events};
 
 use bgdyn_runtime::Dd;
 
@@ -107,6 +111,8 @@ fn scene(
         layout: StateLayout::default(),
         parameters: Vec::new(),
         drives: Vec::new(),
+        limits: Vec::new(),
+        control: None,
         initial: Initial::default(),
         outputs: effects::given(&spec.outputs)
             .iter()
@@ -115,6 +121,8 @@ fn scene(
         integration,
         written: FileEntries {
             inputs: effects::given(&spec.inputs).to_vec(),
+            effort_limits: spec.effort_limits.value().cloned(),
+            control: spec.control.value().cloned(),
             initial: effects::given(&spec.initial).to_vec(),
             unloaded,
             modes: None,
@@ -125,6 +133,7 @@ fn scene(
     let moving = moving_base(spec, &scene, faults);
     let carried = prescribed::places(&scene, faults);
     prescribed::canonical(spec, &scene, faults);
+    control::canonical(&scene, spec.control.value(), faults);
     let drawn = sound && !moving && !carried && scene.layout.repeated().is_none();
     if !drawn {
         outputs::names(&scene, &refused, faults);
@@ -148,17 +157,28 @@ pub(in crate::scene) fn assembled(
     let mut layout = state::layout(&scene.mechanism, &scene.elements);
     let inputs = &scene.written.inputs;
     inputs::add_efforts(&mut layout, inputs);
+    let parameters = state::parameters(&scene.mechanism, &scene.elements, faults);
+    let mut drives = inputs::drives(&layout, inputs, refused, faults);
+    let written = (&inputs[..], scene.written.effort_limits.as_ref());
+    let mut limits = limits::limits((&scene.mechanism, &layout), written, faults);
+    let sampling = scene.written.control.as_ref();
+    let anti_windup = (&drives[..], &limits[..], &inputs[..]);
+    limits::check_anti_windup(&layout, anti_windup, faults);
+    limits::add_events(&mut layout, &drives, &limits, sampling.is_some());
+    limits::add_integrals(&mut layout, &mut drives);
+    let control = control::control((&layout, &drives), sampling, faults);
+    limits.resize(drives.len(), None);
     // Repeated names of effects were reported already.
     let reported = faults.0.iter().any(|f| f.rule == "repeated-name");
     if let Some(name) = layout.repeated().filter(|_| !reported) {
         faults.push(wording::repeated_state_or_input(&Location::file(), name));
     }
-    let parameters = state::parameters(&scene.mechanism, &scene.elements, faults);
-    let drives = inputs::drives(&layout, inputs, refused, faults);
     followed::check((&scene.mechanism, &layout), &drives, inputs, faults);
     Scene {
         parameters,
         drives,
+        limits,
+        control,
         initial: initial::initial(
             (&scene.mechanism, &layout),
             &scene.written.initial,
