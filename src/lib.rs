@@ -26,7 +26,7 @@
 pub use bgdyn_macros::bgdyn;
 pub use bgdyn_runtime as runtime;
 pub use bgdyn_runtime::{
-    Coriolis, Derivatives, Description, Dynamics, Frame, Kinematics, Scalar, Singular,
+    Coriolis, Derivatives, Description, Dynamics, Frame, JointGroups, Kinematics, Scalar, Singular,
 };
 pub use nalgebra;
 

@@ -94,6 +94,7 @@ mod zero_crossing;
 
 pub use audit::Audit;
 pub use bgdyn_runtime::StateVector;
+pub use bgdyn_runtime::step::State;
 pub use control::Tolerance;
 pub use dense::Dense;
 pub use dop853::Dop853;
@@ -104,7 +105,7 @@ pub use finite_differences::FiniteDifferences;
 pub use gauss::{Gauss, Gauss2, Gauss3, Gauss4, Midpoint};
 pub use integrator::{Integrator, IntegratorInfo, Start, Step};
 pub use integrators::{INTEGRATORS, WithIntegrator, with_integrator};
-pub use model_step::{State, rk4_step};
+pub use model_step::rk4_step;
 pub use ode::{Jacobian, Ode, ScalarOf};
 pub use plant::{FixedModes, Plant, Power};
 pub use real::{Of, Real};
