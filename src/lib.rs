@@ -42,6 +42,9 @@ mod pages {
     #[doc = include_str!("../docs/bundles.md")]
     struct Bundles;
 
+    #[doc = include_str!("../docs/steps.md")]
+    struct Steps;
+
     #[doc = include_str!("../docs/spec.md")]
     struct Spec;
 
