@@ -26,7 +26,7 @@
 pub use bgdyn_macros::bgdyn;
 pub use bgdyn_runtime as runtime;
 pub use bgdyn_runtime::{
-    Coriolis, Derivatives, Description, Dynamics, Frame, Kinematics, Scalar, Singular,
+    Coriolis, Derivatives, Description, Dynamics, Frame, JointGroups, Kinematics, Scalar, Singular,
 };
 pub use nalgebra;
 
@@ -41,6 +41,9 @@ mod pages {
 
     #[doc = include_str!("../docs/bundles.md")]
     struct Bundles;
+
+    #[doc = include_str!("../docs/steps.md")]
+    struct Steps;
 
     #[doc = include_str!("../docs/spec.md")]
     struct Spec;

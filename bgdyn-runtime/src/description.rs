@@ -5,7 +5,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::{Limits, Motion, Pose, Scalar};
+use crate::{Limits, Motion, Pose, QuasiJoint, Scalar};
 
 /// Names, labels, motions and limits of the moving joints, in the order of the velocities.
 ///
@@ -96,4 +96,22 @@ pub trait Derivatives<T: Scalar, const NQ: usize, const NV: usize> {
         v: &SVector<T, NV>,
         tau: &SVector<T, NV>,
     ) -> Result<[SMatrix<T, NV, NV>; 3], T::Singular<NV>>;
+}
+
+/// How [`crate::Dynamics::integrate`] moves positions: each joint along a group of its own. Implemented beside
+/// [`Derivatives`] for mechanisms where that holds, for [steps with derivatives](crate::step).
+///
+/// It holds for open trees, and where loops close by joints with one velocity. It does not hold where positions close
+/// along velocities of the open tree: with wheels, balls and knife edges, and with loops through joints of several
+/// velocities.
+#[diagnostic::on_unimplemented(
+    message = "positions of `{Self}` do not move joint by joint, or it has no derivatives",
+    label = "no steps with derivatives",
+    note = "write `derivatives = true` in `bgdyn!`, `.derivatives(true)` in a build script, `--derivatives` for `bgdyn generate`",
+    note = "mechanisms with wheels, balls, knife edges, or loops through joints of several velocities do not have it"
+)]
+pub trait JointGroups {
+    /// The joints whose velocities are not the rates of their positions: planar, spherical and floating ones, by their
+    /// first position in q and their first velocity in v. Empty if q̇ = v for all independent joints.
+    const QUASI_JOINTS: &'static [QuasiJoint];
 }

@@ -23,15 +23,16 @@ pub struct Limits {
     pub effort: f64,
 }
 
-/// A joint of a scene whose velocities are not the rates of its positions, by its components in the state.
+/// A joint whose velocities are not the rates of its positions, by its components in the state of a scene, or in q and v
+/// of a mechanism.
 /// [`crate::manifold`] describes positions and velocities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct QuasiJoint {
     /// Its type.
     pub kind: QuasiJointKind,
-    /// Index in the state of its first position.
+    /// Index of its first position.
     pub position: usize,
-    /// Index in the state of its first velocity.
+    /// Index of its first velocity.
     pub velocity: usize,
 }
 
@@ -76,7 +77,7 @@ impl QuasiJoint {
         }
     }
 
-    /// Returns the index in the state of the first component, x, of its quaternion x, y, z, w. `None` for a
+    /// Returns the index of the first component, x, of its quaternion x, y, z, w. `None` for a
     /// planar joint.
     pub const fn quaternion(&self) -> Option<usize> {
         match self.kind {

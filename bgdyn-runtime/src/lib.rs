@@ -57,6 +57,7 @@ mod sine;
 mod singular;
 mod sqrt;
 mod state_vector;
+pub mod step;
 mod stiction;
 mod system;
 mod two_sum;
@@ -66,7 +67,7 @@ pub use argument::{Argument, Look};
 pub use arrays::{inner_products, matrix, mirror, vector};
 pub use base_motion::BaseMotion;
 pub use dd::{Dd, Digits, ParseDdError};
-pub use description::{Coriolis, Derivatives, Description, Frame, Kinematics};
+pub use description::{Coriolis, Derivatives, Description, Frame, JointGroups, Kinematics};
 #[cfg(feature = "num-dual")]
 pub use dual::DualPart;
 pub use dynamics::Dynamics;

@@ -97,6 +97,7 @@ mod zero_crossing;
 
 pub use audit::Audit;
 pub use bgdyn_runtime::StateVector;
+pub use bgdyn_runtime::step::State;
 pub use control::Tolerance;
 pub use dense::Dense;
 pub use discrete::discretised;
@@ -108,7 +109,7 @@ pub use finite_differences::FiniteDifferences;
 pub use gauss::{Gauss, Gauss2, Gauss3, Gauss4, Midpoint};
 pub use integrator::{Integrator, IntegratorInfo, Start, Step};
 pub use integrators::{INTEGRATORS, WithIntegrator, with_integrator};
-pub use model_step::{State, rk4_step};
+pub use model_step::rk4_step;
 pub use ode::{Jacobian, Ode, ScalarOf};
 pub use plant::{FixedModes, Plant, Power};
 pub use real::{Of, Real};

@@ -3,17 +3,9 @@
 //! Stages advance positions by their rates q̇ = N(q) v, in which velocities in link axes and those of constraints need
 //! not commute. At the end quaternions are scaled to length 1, loops closed and wheels put on their planes.
 
+use bgdyn_runtime::step::State;
 use bgdyn_runtime::{Dynamics, Scalar};
 use nalgebra::SVector;
-
-/// Positions and velocities of a mechanism.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State<T: Scalar, const NQ: usize, const NV: usize> {
-    /// Positions: rad, m.
-    pub q: SVector<T, NQ>,
-    /// Velocities: rad/s, m/s.
-    pub v: SVector<T, NV>,
-}
 
 /// Returns x + k·y.
 fn plus_scaled<T: Scalar, const N: usize>(

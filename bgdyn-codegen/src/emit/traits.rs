@@ -2,13 +2,15 @@
 //!
 //! They describe its joints and frames, and delegate to its methods.
 
+use bgdyn_runtime::QuasiJointKind;
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::closure;
+use super::constants::size;
 use super::joint_by_joint::joint_by_joint;
 use super::tokens::{argument_type, ident, return_type};
-use crate::bond_graph::{ClosedTree, JointSegment, Site, SiteId};
+use crate::bond_graph::{ClosedTree, JointSegment, Site, SiteId, joint_segments};
 use crate::method::Method;
 
 /// The parts of a module that its traits provide.
@@ -40,7 +42,11 @@ impl Traits<'_> {
             Method::ForwardDynamicsDerivatives,
         ];
         let slopes = derivatives.iter().all(has);
-        let slopes = slopes.then(|| self.delegated(quote! { Derivatives }, None, &derivatives));
+        let slopes = slopes.then(|| {
+            let slopes = self.delegated(quote! { Derivatives }, None, &derivatives);
+            let groups = self.joint_groups();
+            quote! { #slopes #groups }
+        });
         let sites = (0..self.sites.len()).map(SiteId);
         let sites: Vec<SiteId> = sites
             .filter(|&site| Method::of_site(site).iter().all(has))
@@ -121,6 +127,38 @@ impl Traits<'_> {
                 const JOINT_LIMITS: [__rt::Limits; NV] = #limits;
             }
         }
+    }
+
+    /// Returns the trait `JointGroups`, where positions move joint by joint.
+    fn joint_groups(&self) -> Option<TokenStream> {
+        let none = Vec::new();
+        let joints = self.joints.as_ref().unwrap_or(&none);
+        if let Some(closed) = self.closed {
+            let compound = |joint: &JointSegment| !joint.manifold.is_empty();
+            let of_tree = joint_segments(&closed.tree);
+            if closed.closure.closes_along() || of_tree.iter().any(compound) {
+                return None;
+            }
+        }
+        let (mut position, mut velocity, mut quasi) = (0, 0, Vec::new());
+        for joint in joints {
+            if let Some(kind) = QuasiJointKind::of_module(joint.manifold) {
+                let kind = ident(&format!("{kind:?}"));
+                let [position, velocity] = [position, velocity].map(size);
+                quasi.push(quote! {
+                    __rt::QuasiJoint {
+                        kind: __rt::QuasiJointKind::#kind, position: #position, velocity: #velocity
+                    }
+                });
+            }
+            (position, velocity) = (position + joint.nq, velocity + joint.nv);
+        }
+        let name = self.name;
+        Some(quote! {
+            impl<T: __Scalar> __rt::JointGroups for #name<T> {
+                const QUASI_JOINTS: &'static [__rt::QuasiJoint] = &[#(#quasi),*];
+            }
+        })
     }
 
     /// Returns the trait `Dynamics`: the methods, and the integration of positions.

@@ -5,6 +5,7 @@
 use super::functions::Sines;
 use super::quaternion::{self, cross, sum, turn};
 use super::spherical;
+use super::tangent::{self, cross_columns};
 use crate::Scalar;
 
 /// Returns the rates of the coordinates, m/s and 1/s: the linear velocity turned to origin axes, and
@@ -73,6 +74,31 @@ pub fn difference<T: Scalar>(q1: [T; 7], q0: [T; 7]) -> [T; 6] {
     let [x, y, z] = bent(path, angular, T::from_f64(-0.5), e);
     let [rx, ry, rz] = angular;
     [x, y, z, rx, ry, rz]
+}
+
+/// Returns the columns of the matrix of y ↦ \[x, y\] = (ω × v' + v × ω', ω × ω') for the twists x = (v, ω), y = (v', ω').
+pub fn bracket<T: Scalar>(x: [T; 6]) -> [[T; 6]; 6] {
+    let (linear, angular) = halves(x);
+    let zero = T::from_f64(0.0);
+    let [[a, b, c], [d, e, f]] = [cross_columns(angular), cross_columns(linear)];
+    let alone = |[x, y, z]: [T; 3]| [x, y, z, zero, zero, zero];
+    let both = |[x, y, z]: [T; 3], [rx, ry, rz]: [T; 3]| [x, y, z, rx, ry, rz];
+    [
+        alone(a),
+        alone(b),
+        alone(c),
+        both(d, a),
+        both(e, b),
+        both(f, c),
+    ]
+}
+
+/// Returns the derivatives of [`integrate`]`(q, d)` by q and by d, along the tangent, column by column: column k is the
+/// twist in the link axes of the result, for a small displacement of q along component k in its link axes, or a change
+/// of d's component k. d in m and rad.
+pub fn integration_maps<T: Scalar>(d: [T; 6]) -> [[[T; 6]; 6]; 2] {
+    let [_, _, _, x, y, z] = d;
+    tangent::integration_maps(&bracket(d), x * x + y * y + z * z)
 }
 
 /// Returns the coordinates with the quaternion divided by its length. A zero quaternion is returned

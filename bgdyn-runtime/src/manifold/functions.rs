@@ -18,6 +18,13 @@ const TERMS: usize = 18;
 const EVEN: [Words; TERMS] = inverse_factorials(2);
 /// 1/3!, 1/5!, …
 const ODD: [Words; TERMS] = inverse_factorials(3);
+/// 1/4!, 1/6!, …
+const EVEN_FROM_FOUR: [Words; TERMS] = inverse_factorials(4);
+/// 1/5!, 1/7!, …
+const ODD_FROM_FIVE: [Words; TERMS] = inverse_factorials(5);
+
+/// 1/6 without its first word.
+const SIXTH_REST: f64 = 9.25185853854297e-18;
 
 /// Number of halvings of the angle of [`arc_ratio`]. It is at most π/2 before and π/32 after them, with a
 /// tangent below 0.1.
@@ -62,6 +69,54 @@ impl<T: Scalar> Sines<T> {
             versine: T::select(near, versine, (one - c) / far),
             excess: T::select(near, excess, (one - ratio) / far),
         }
+    }
+}
+
+/// Ratios of an angle x, its sine and cosine that the derivative of a group's exponential is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ExponentialSeries<T> {
+    /// Those of lower order.
+    sines: Sines<T>,
+    /// (1/2 − (1 − cos x)/x²)/x²; 1/24 at 0.
+    versine_rest: T,
+    /// (1/6 − (x − sin x)/x³)/x²; 1/120 at 0.
+    excess_rest: T,
+}
+
+impl<T: Scalar> ExponentialSeries<T> {
+    /// Returns the ratios for the angle whose square (rad²) is `square`.
+    pub(super) fn of_square(square: T) -> Self {
+        let sines = Sines::of_square(square);
+        let near = square.less(T::from_f64(SWITCH));
+        let far = T::select(near, T::from_f64(1.0), square);
+        let (half, sixth) = (T::from_f64(0.5), T::from_parts(1.0 / 6.0, SIXTH_REST));
+        let rest = |whole: T, ratio: T, coefficients| {
+            T::select(near, series(coefficients, square), (whole - ratio) / far)
+        };
+        Self {
+            versine_rest: rest(half, sines.versine, &EVEN_FROM_FOUR),
+            excess_rest: rest(sixth, sines.excess, &ODD_FROM_FIVE),
+            sines,
+        }
+    }
+
+    /// Returns c₁ … c₄ of (exp A − 1)/A = 1 + c₁ A + c₂ A² + c₃ A³ + c₄ A⁴ for matrices with A (A² + x²)² = 0: brackets
+    /// of rotations and of twists (Barfoot and Furgale 2014, with the quotients in a form without cancellation at 0).
+    pub(super) fn coefficients(&self) -> [T; 4] {
+        let half = T::from_f64(0.5);
+        let Sines {
+            sine,
+            versine,
+            excess,
+            ..
+        } = self.sines;
+        let (b, c) = (self.versine_rest, self.excess_rest);
+        [
+            versine + versine - half * sine,
+            half * (T::from_f64(5.0) * excess - versine),
+            half * (excess - (b + b)),
+            half * (b - T::from_f64(3.0) * c),
+        ]
     }
 }
 

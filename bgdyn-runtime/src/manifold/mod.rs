@@ -18,7 +18,9 @@
 //! - `difference(q1, q0)`: the d with `integrate(q0, d)` = q1, the logarithm of the group;
 //! - `normalize(q)`: q with a quaternion of length 1;
 //! - `neutral()`: the q with the link at its origin;
-//! - `sample(u)`: an evenly distributed q from numbers in [0, 1).
+//! - `sample(u)`: an evenly distributed q from numbers in [0, 1);
+//! - `bracket(x)`: the matrix of y ↦ \[x, y\], the bracket of two velocities, column by column;
+//! - `integration_maps(d)`: the derivatives of `integrate(q, d)` by q and by d along the tangent. They depend on d only.
 //!
 //! No function branches on a value: lanes, dual numbers and scalars run the same code. A NaN in a
 //! quaternion becomes a NaN in all results that depend on the orientation.
@@ -28,5 +30,8 @@ pub mod functions;
 pub mod planar;
 mod quaternion;
 pub mod spherical;
+mod tangent;
+
+pub(crate) use tangent::Columns;
 
 pub use quaternion::{quaternion_of, rotation};

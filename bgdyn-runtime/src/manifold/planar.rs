@@ -3,6 +3,7 @@
 //! velocity about z (rad/s).
 
 use super::functions::sine_ratio;
+use super::tangent;
 use crate::Scalar;
 
 /// π, as the sum of two words.
@@ -52,6 +53,20 @@ pub fn difference<T: Scalar>(q1: [T; 3], q0: [T; 3]) -> [T; 3] {
     let (s, c) = T::sin_cos_sum(&[angle0, half], (0.0, 0.0));
     let [x, y] = turn((-s, c), [x1 - x0, y1 - y0]);
     [x / chord, y / chord, turned]
+}
+
+/// Returns the columns of the matrix of y ↦ \[x, y\] for the twists x and y: linear along x and y, angular.
+pub fn bracket<T: Scalar>([x, y, turn]: [T; 3]) -> [[T; 3]; 3] {
+    let zero = T::from_f64(0.0);
+    [[zero, turn, zero], [-turn, zero, zero], [y, -x, zero]]
+}
+
+/// Returns the derivatives of [`integrate`]`(q, d)` by q and by d, along the tangent, column by column: column k is the
+/// twist in the link axes of the result, for a small displacement of q along component k in its link axes, or a change
+/// of d's component k. d in m and rad.
+pub fn integration_maps<T: Scalar>(d: [T; 3]) -> [[[T; 3]; 3]; 2] {
+    let [_, _, turn] = d;
+    tangent::integration_maps(&bracket(d), turn * turn)
 }
 
 /// Returns the coordinates unchanged: none of them has a constraint.

@@ -2,6 +2,7 @@
 //! velocity ω of the link relative to its parent in link axes, rad/s.
 
 use super::quaternion;
+use super::tangent::{self, cross_columns};
 use crate::Scalar;
 
 /// Returns the rates of the coordinates, 1/s: q̇ = ½ q∘ω for `v` = ω in link axes, rad/s.
@@ -30,6 +31,19 @@ pub fn change<T: Scalar>(q: [T; 4], d: [T; 3]) -> [T; 4] {
 pub fn difference<T: Scalar>(q1: [T; 4], q0: [T; 4]) -> [T; 3] {
     let (vector, _) = quaternion::logarithm(quaternion::product(quaternion::conjugate(q0), q1));
     vector
+}
+
+/// Returns the columns of the matrix of y ↦ \[x, y\] = x × y.
+pub fn bracket<T: Scalar>(x: [T; 3]) -> [[T; 3]; 3] {
+    cross_columns(x)
+}
+
+/// Returns the derivatives of [`integrate`]`(q, d)` by q and by d, along the tangent, column by column: column k is the
+/// rotation vector in the link axes of the result, for a small turn of q about its link axis k, or a change of d's
+/// component k. d in rad.
+pub fn integration_maps<T: Scalar>(d: [T; 3]) -> [[[T; 3]; 3]; 2] {
+    let [x, y, z] = d;
+    tangent::integration_maps(&bracket(d), x * x + y * y + z * z)
 }
 
 /// Returns the quaternion divided by its length. A zero quaternion is returned unchanged; one whose square
