@@ -121,7 +121,8 @@ fn as_many_base_parameters_as_independent_columns() {
     let own = files.filter(|path| path.extension().is_some_and(|e| e == "yaml"));
     let own = own.map(|path| {
         let text = std::fs::read_to_string(&path).expect("a spec");
-        (path.display().to_string(), Robot::read(&text, Some("spec")))
+        let stem = path.file_stem().and_then(|stem| stem.to_str());
+        (path.display().to_string(), Robot::read(&text, stem))
     });
     let trees = own.filter(|(_, robot)| Method::regressors_of(robot.graph).is_ok());
     let mut checked = 0;
