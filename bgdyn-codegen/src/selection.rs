@@ -3,11 +3,10 @@
 use crate::bond_graph::{self, BondGraph};
 use crate::bundle::bundle;
 use crate::choice::{Choice, prefer};
-use crate::formulation::base_parameter_formulas;
 use crate::function::Function;
 use crate::mechanism::Mechanism;
 use crate::method::{Method, SceneFunction};
-use crate::model::Model;
+use crate::model::{Bundle, Model};
 use crate::options::{Options, UnknownName};
 use crate::system::SceneEquations;
 
@@ -30,24 +29,28 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     let chosen = methods
         .into_iter()
         .filter_map(|method| prefer(&choice, method, options.prefer));
-    let functions = chosen.map(|f| named(f, &bond_graph)).collect();
+    let functions: Vec<Function> = chosen.map(|f| named(f, &bond_graph)).collect();
     let bundles = bundles.iter().filter_map(|(name, methods)| {
         bundle(&choice, &bond_graph, (name, methods), options.prefer)
     });
-    let bundles = bundles.collect();
+    let bundles: Vec<Bundle> = bundles.collect();
+    let parts = bundles.iter().flat_map(|bundle| &bundle.parts);
+    let all = functions.iter().map(|f| f.method);
+    let mut all = all.chain(parts.map(|part| part.method));
+    let has_regressors = all.any(|method| matches!(method, Method::Regressor(_)));
+    let base_parameters = match has_regressors {
+        true => choice.base_parameter_formulas(),
+        false => Vec::new(),
+    };
     drop(choice);
-    let mut model = Model {
+    Ok(Model {
         assembles: options.assembles(&bond_graph),
         mechanism,
         bond_graph,
         functions,
         bundles,
-        base_parameters: Vec::new(),
-    };
-    if model.has_regressors() {
-        model.base_parameters = base_parameter_formulas(&model.bond_graph);
-    }
-    Ok(model)
+        base_parameters,
+    })
 }
 
 /// Returns one function of a mechanism, without the others; `None` if the selected formulation does not

@@ -49,7 +49,9 @@ pub fn of(spec: &Spec, method: Method) -> String {
 pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
     let of_every = Method::possible(&[]).into_iter();
     let of_loops = Method::OF_LOOPS.into_iter().chain(Method::ON_REQUEST);
-    let all = of_every.chain(of_loops).chain([Method::DriveEfforts(0)])
+    let all = of_every
+        .chain(of_loops)
+        .chain([Method::DriveEfforts(0)])
         .chain(Regressor::ALL.map(Method::Regressor));
     let one = |method: Method| {
         let name = method.name(&[]);

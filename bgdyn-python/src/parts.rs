@@ -111,9 +111,7 @@ impl Parts {
             ),
             Shape::CheckedWrenches => (Some("Wrenches"), wrenches(nv)),
             Shape::LinkWrenches => (Some("Wrenches"), wrenches(0)),
-            Shape::ParameterColumns(_) => {
-                (None, vec![Part::run(0, &[nv, results / nv.max(1)])])
-            }
+            Shape::ParameterColumns(_) => (None, vec![Part::run(0, &[nv, results / nv.max(1)])]),
             Shape::Vector
             | Shape::ParameterVector(_)
             | Shape::CheckedVector

@@ -18,7 +18,8 @@ use super::keep_digits::{CheckedCandidate, check, sort};
 use crate::bond_graph::{BondGraph, FreeBase, with_moved_masses};
 use crate::conditioning::error_bounds::{BoundReport, ErrorBounds};
 use crate::formulation::{
-    Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared, create,
+    Candidate, Candidates, DERIVED, FORMULATIONS, Formulation, Offer, Prepared,
+    base_parameter_formulas, create,
 };
 use crate::function::Function;
 use crate::method::Method;
@@ -48,6 +49,11 @@ pub struct Choice<'a> {
 type Offered = (&'static dyn Formulation, Offer);
 
 impl<'a> Choice<'a> {
+    /// Returns the base parameters as formulas of the parameters of the bodies.
+    pub fn base_parameter_formulas(&self) -> Vec<String> {
+        base_parameter_formulas(&self.prepared)
+    }
+
     /// Starts with no choices. If the user selected a formulation (`asked`), it provides the methods that
     /// it supports.
     pub fn new(graph: &'a BondGraph, asked: Option<&'static dyn Formulation>) -> Self {

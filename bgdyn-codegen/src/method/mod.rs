@@ -15,9 +15,9 @@ mod words;
 use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
 pub use argument::Argument;
-pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, ParameterSet, Regressor};
+pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
-pub use shape::Shape;
+pub use shape::{ParameterSet, Shape};
 
 /// A method of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -4,7 +4,7 @@
 //! the tensor Ixx, Ixy, Iyy, Ixz, Iyz, Izz about the origin of the link, in link axes (the order of Pinocchio). The
 //! base parameters π_b = K π are the combinations that efforts depend on.
 
-use super::{Argument, Shape};
+use super::{Argument, ParameterSet, Shape};
 
 /// Number of parameters of a body.
 pub const PARAMETERS_PER_BODY: usize = 10;
@@ -43,15 +43,6 @@ pub enum Regressor {
     Parameters,
     /// K π for any π.
     BaseParameters,
-}
-
-/// What the columns of a regressor belong to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ParameterSet {
-    /// The ten parameters of each body.
-    Bodies,
-    /// The base parameters.
-    Base,
 }
 
 impl Regressor {

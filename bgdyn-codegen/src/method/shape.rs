@@ -1,7 +1,5 @@
 //! The shapes of results.
 
-use super::ParameterSet;
-
 /// The shape of a method's result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -104,4 +102,13 @@ impl Shape {
                 | Shape::CheckedBundle
         )
     }
+}
+
+/// What the columns of a regressor belong to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParameterSet {
+    /// The ten parameters of each body.
+    Bodies,
+    /// The base parameters.
+    Base,
 }

@@ -5,49 +5,24 @@
 //! others (a first joint with a vertical axis, groups of parallel axes). These are found from columns at random states
 //! in double-double, from the base to the tips; the coefficients become entries of K.
 
-use std::collections::BTreeMap;
-
 use bgdyn_runtime::Dd;
 
 use super::super::base_parameters::take_to_parent;
 use super::super::geometry::{Body, Geometry};
 use super::super::inertia::BodyInertia;
 use super::super::plan::Plan;
-use super::columns::{Columns, Motion};
+use super::base_parameter::{BaseParameter, CoefficientRow, InertiaEntry, bodies};
+use super::columns::{Columns, GivenMotion};
 use super::independent::independent;
 use super::sample::random_states;
 use super::wrenches::ENTRIES;
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Inputs, Signed, evaluate};
 use crate::math::Vec3;
-use crate::mechanism::LinkId;
 use crate::method::{Method, PARAMETERS_PER_BODY, Regressor};
 
 /// A coefficient below this size is the rounding error of a zero.
 const NOISE: f64 = 1e-24;
-
-/// A row of K: coefficients by the index of the parameter of a body.
-pub(in crate::formulation) type Row = BTreeMap<usize, Dd>;
-
-/// An entry of the inertia of a body in the frames of the recursion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Entry {
-    /// The body.
-    pub body: usize,
-    /// The index of the entry in [`BodyInertia::entries`].
-    pub index: usize,
-}
-
-/// A base parameter.
-#[derive(Clone, Debug)]
-pub(in crate::formulation) struct BaseParameter {
-    /// The entries with this value: its column is the sum of theirs.
-    pub(super) entries: Vec<Entry>,
-    /// Whether it is the entries' value with the opposite sign: axes of bodies may be opposite to those of links.
-    pub(super) negative: bool,
-    /// Its row of K.
-    pub row: Row,
-}
 
 /// The base parameters of a mechanism.
 #[derive(Clone, Debug)]
@@ -79,20 +54,8 @@ impl BaseParameters {
     }
 }
 
-impl BaseParameter {
-    /// Turns the sign of a first moment or a product of inertia whose first coefficient is negative.
-    fn turn(&mut self) {
-        let signed = |entry: &Entry| matches!(entry.index, 2..=4 | 8..=10);
-        let negative = self.row.values().next().is_some_and(|x| *x < Dd::ZERO);
-        if negative && self.entries.iter().all(signed) {
-            self.negative = true;
-            self.row.values_mut().for_each(|x| *x = -*x);
-        }
-    }
-}
-
 /// Adds a multiple of a row.
-fn add(sum: &mut Row, other: &Row, factor: Dd) {
+fn add(sum: &mut CoefficientRow, other: &CoefficientRow, factor: Dd) {
     for (&k, &x) in other {
         let entry = sum.entry(k).or_insert(Dd::ZERO);
         *entry += x * factor;
@@ -102,7 +65,7 @@ fn add(sum: &mut Row, other: &Row, factor: Dd) {
 
 /// Returns what the transport rules leave in each body: entries that are not zero, those with equal rows together.
 fn transported(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Vec<BaseParameter> {
-    let mut rows = vec![[const { Row::new() }; ENTRIES]; geometry.bodies.len()];
+    let mut rows = vec![[const { CoefficientRow::new() }; ENTRIES]; geometry.bodies.len()];
     for (of, body) in bodies(graph, geometry).into_iter().enumerate() {
         for p in 0..PARAMETERS_PER_BODY {
             let column = of * PARAMETERS_PER_BODY + p;
@@ -115,7 +78,7 @@ fn transported(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Vec<BaseP
     for (body, rows) in rows.into_iter().enumerate() {
         let start = found.len();
         for (index, row) in rows.into_iter().enumerate().filter(|(_, r)| !r.is_empty()) {
-            let entry = Entry { body, index };
+            let entry = InertiaEntry { body, index };
             match found[start..].iter_mut().find(|other| other.row == row) {
                 Some(other) => other.entries.push(entry),
                 None => found.push(BaseParameter {
@@ -129,19 +92,13 @@ fn transported(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Vec<BaseP
     found
 }
 
-/// Returns the bodies of regressors among those of the recursion, in the order of the parameters.
-pub(super) fn bodies(graph: &Multibody, geometry: &Geometry) -> Vec<usize> {
-    let place = |link: &LinkId| geometry.bodies.iter().position(|body| body.link() == *link);
-    graph.moving_links().iter().filter_map(place).collect()
-}
-
 /// Moves a one in the place of a parameter inboard, and calls `keep` for all that remains in each body.
 fn transport(
     graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
     (body, parameter): (usize, usize),
-    mut keep: impl FnMut(Entry, Dd),
+    mut keep: impl FnMut(InertiaEntry, Dd),
 ) {
     let b = Builder::silent();
     let mut at = Some(body);
@@ -150,7 +107,7 @@ fn transport(
         let moved = take_to_parent(&b, graph, geometry, (plan, j), &mut inertia);
         for (index, x) in inertia.entries().into_iter().enumerate() {
             match x.as_constant() {
-                Some(x) if x.to_f64().abs() > NOISE => keep(Entry { body: j, index }, x),
+                Some(x) if x.to_f64().abs() > NOISE => keep(InertiaEntry { body: j, index }, x),
                 _ => {}
             }
         }
@@ -190,7 +147,7 @@ fn sampled_columns(
     let outputs: Vec<Signed> = {
         let method = Method::Regressor(Regressor::Base);
         let columns = Columns::new(&b, graph, geometry, plan, method);
-        let made = columns.matrix(Motion::Given, candidates);
+        let made = columns.matrix(GivenMotion::Given, candidates);
         made.into_iter().map(|e| e.signed()).collect()
     };
     let made = b.into_graph();

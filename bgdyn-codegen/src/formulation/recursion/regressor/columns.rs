@@ -5,8 +5,8 @@ use super::super::geometry::Geometry;
 use super::super::inverse_dynamics::BodyWrench;
 use super::super::motion::{GravityField, motions};
 use super::super::plan::Plan;
-use super::base::{BaseParameter, bodies};
-use super::directions::{Direction, Twist, directions, twists};
+use super::base_parameter::{BaseParameter, bodies};
+use super::directions::{BodyTwist, CoordinateDirection, directions, twists};
 use super::two_velocities;
 use super::wrenches::{Angular, ENTRIES, kinetic_energies, of_entries, of_parameters};
 use crate::bond_graph::Multibody;
@@ -17,7 +17,7 @@ use crate::method::{Method, PARAMETERS_PER_BODY};
 
 /// What moves the bodies.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Motion {
+pub(super) enum GivenMotion {
     /// v and a.
     Given,
     /// v, v_r and a_r.
@@ -54,23 +54,23 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the motion of each body: what wrenches depend on, and the acceleration (velocity) of its origin.
-    pub(super) fn moving(&self, motion: Motion) -> Vec<(Angular<'g>, Vec3<Expr<'g>>)> {
+    pub(super) fn moving(&self, motion: GivenMotion) -> Vec<(Angular<'g>, Vec3<Expr<'g>>)> {
         let (b, frames, x) = (self.b, &self.frames, &self.x);
         match motion {
-            Motion::Given => {
+            GivenMotion::Given => {
                 let moving = motions(b, frames, GravityField::Gravity).into_iter();
                 moving
                     .map(|body| (Angular::from(&body.own), body.a_own))
                     .collect()
             }
-            Motion::Momentum => {
+            GivenMotion::Momentum => {
                 let twists = self.velocities(&x.v).into_iter();
-                let momentum = |twist: Twist<'g>| Angular::of_momentum(b, twist.angular);
+                let momentum = |twist: BodyTwist<'g>| Angular::of_momentum(b, twist.angular);
                 twists
                     .map(|twist| (momentum(twist), twist.linear))
                     .collect()
             }
-            Motion::TwoVelocities => {
+            GivenMotion::TwoVelocities => {
                 let rates = [&x.v[..], &x.reference_v[..]];
                 let [first, second] = rates.map(|rates| self.velocities(rates));
                 let moving = two_velocities::motions(b, frames, [&first, &second], rates);
@@ -81,7 +81,7 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the velocities of the bodies for these rates, and that of a base that is given.
-    fn velocities(&self, rates: &[Expr<'g>]) -> Vec<Twist<'g>> {
+    fn velocities(&self, rates: &[Expr<'g>]) -> Vec<BodyTwist<'g>> {
         let base = |frame: &BodyFrame<'g>| match (frame.given, &frame.relative) {
             (true, Some([velocity, _])) => Some(*velocity),
             _ => None,
@@ -90,7 +90,7 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the wrenches of the entries of each body's inertia.
-    fn wrenches(&self, motion: Motion) -> Vec<[BodyWrench<'g>; ENTRIES]> {
+    fn wrenches(&self, motion: GivenMotion) -> Vec<[BodyWrench<'g>; ENTRIES]> {
         let moving = self.moving(motion).into_iter();
         moving
             .map(|(angular, a)| of_entries(self.b, &angular, a))
@@ -98,7 +98,11 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the matrix of these base parameters, row by row.
-    pub(super) fn matrix(&self, motion: Motion, parameters: &[BaseParameter]) -> Vec<Expr<'g>> {
+    pub(super) fn matrix(
+        &self,
+        motion: GivenMotion,
+        parameters: &[BaseParameter],
+    ) -> Vec<Expr<'g>> {
         let wrenches = self.wrenches(motion);
         let directions = directions(self.b, &self.frames);
         self.b.section(|| "columns of the base parameters".into());
@@ -121,7 +125,7 @@ impl<'a, 'g> Columns<'a, 'g> {
     /// Returns the product of the transposed matrix and a number for each velocity.
     pub(super) fn transposed_times(
         &self,
-        motion: Motion,
+        motion: GivenMotion,
         parameters: &[BaseParameter],
     ) -> Vec<Expr<'g>> {
         let wrenches = self.wrenches(motion);
@@ -136,7 +140,7 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the matrix of all parameters of the bodies, row by row.
-    pub(super) fn whole(&self, motion: Motion) -> Vec<Expr<'g>> {
+    pub(super) fn whole(&self, motion: GivenMotion) -> Vec<Expr<'g>> {
         let moving = self.moving(motion);
         let directions = directions(self.b, &self.frames);
         self.b.section(|| "columns of the parameters".into());
@@ -211,7 +215,7 @@ impl<'a, 'g> Columns<'a, 'g> {
     pub(super) fn add(
         &self,
         column: &mut [Expr<'g>],
-        directions: &[Direction<'g>],
+        directions: &[CoordinateDirection<'g>],
         wrench: &BodyWrench<'g>,
     ) {
         for direction in directions {

@@ -15,23 +15,23 @@ use crate::mechanism::joint::Column;
 
 /// An angular velocity and the velocity of a body's origin, in the axes of the body.
 #[derive(Clone, Copy)]
-pub(super) struct Twist<'g> {
+pub(super) struct BodyTwist<'g> {
     /// ω, or z.
     pub angular: Vec3<Expr<'g>>,
     /// u, or w.
     pub linear: Vec3<Expr<'g>>,
 }
 
-impl<'g> Twist<'g> {
+impl<'g> BodyTwist<'g> {
     fn zero(b: &'g Builder) -> Self {
-        Twist {
+        BodyTwist {
             angular: zero(b),
             linear: zero(b),
         }
     }
 
     fn plus(self, other: Self) -> Self {
-        Twist {
+        BodyTwist {
             angular: self.angular + other.angular,
             linear: self.linear + other.linear,
         }
@@ -47,7 +47,7 @@ impl<'g> Twist<'g> {
         let back = frame.twist.transpose().map(|x| b.constant(x));
         let angular = back * self.angular;
         let linear = back * self.linear + angular.cross(frame.position);
-        Twist {
+        BodyTwist {
             angular: frame.turn.apply_back(angular),
             linear: frame.turn.apply_back(linear),
         }
@@ -55,7 +55,7 @@ impl<'g> Twist<'g> {
 
     /// Returns the twist of a body for a rate of one of its joint's velocities.
     fn of_column(b: &'g Builder, column: &JointColumn, rate: Expr<'g>) -> Self {
-        let mut twist = Twist::zero(b);
+        let mut twist = BodyTwist::zero(b);
         match column.direction {
             ColumnDirection::About(k) => twist.angular.0[k] = rate,
             ColumnDirection::Along(k) => twist.linear.0[k] = rate,
@@ -70,30 +70,33 @@ impl<'g> Twist<'g> {
 
 /// The direction in which a coordinate moves a body.
 #[derive(Clone, Copy)]
-pub(super) struct Direction<'g> {
+pub(super) struct CoordinateDirection<'g> {
     /// Index of the coordinate.
     pub coordinate: usize,
     /// The twist per unit of the velocity, without the factor.
-    pub twist: Twist<'g>,
+    pub twist: BodyTwist<'g>,
     /// The factor: −1 where the body's axis is opposite to the joint's.
     pub factor: Dd,
 }
 
 /// Returns, for each body, the directions of the coordinates that move it, from the base outwards.
-pub(super) fn directions<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Direction<'g>>> {
-    let mut all: Vec<Vec<Direction<'g>>> = Vec::new();
+pub(super) fn directions<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+) -> Vec<Vec<CoordinateDirection<'g>>> {
+    let mut all: Vec<Vec<CoordinateDirection<'g>>> = Vec::new();
     for frame in &frames.bodies {
         b.section(|| format!("{}: directions in which joints move it", frame.name));
         let inboard = frame.parent.map_or_else(Vec::new, |p| all[p].clone());
-        let carried = inboard.into_iter().map(|direction| Direction {
+        let carried = inboard.into_iter().map(|direction| CoordinateDirection {
             twist: direction.twist.outwards(b, frame),
             ..direction
         });
-        let mut found: Vec<Direction<'g>> = carried.collect();
+        let mut found: Vec<CoordinateDirection<'g>> = carried.collect();
         for column in &frame.columns {
-            let own = Direction {
+            let own = CoordinateDirection {
                 coordinate: column.coordinate,
-                twist: Twist::of_column(b, column, b.number(1.0)),
+                twist: BodyTwist::of_column(b, column, b.number(1.0)),
                 factor: column.effort,
             };
             add(b, &mut found, own);
@@ -104,20 +107,20 @@ pub(super) fn directions<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Dir
 }
 
 /// Adds a direction to that of the same coordinate, which also moves joints that follow it.
-fn add<'g>(b: &'g Builder, found: &mut Vec<Direction<'g>>, own: Direction<'g>) {
+fn add<'g>(b: &'g Builder, found: &mut Vec<CoordinateDirection<'g>>, own: CoordinateDirection<'g>) {
     let same = found.iter_mut().find(|d| d.coordinate == own.coordinate);
     let Some(other) = same else {
         found.push(own);
         return;
     };
-    let scaled = |direction: &Direction<'g>| {
+    let scaled = |direction: &CoordinateDirection<'g>| {
         let factor = b.constant(direction.factor);
-        Twist {
+        BodyTwist {
             angular: direction.twist.angular.scale(factor),
             linear: direction.twist.linear.scale(factor),
         }
     };
-    *other = Direction {
+    *other = CoordinateDirection {
         twist: scaled(other).plus(scaled(&own)),
         factor: Dd::ONE,
         ..own
@@ -130,23 +133,22 @@ pub(super) fn twists<'g>(
     frames: &Frames<'g>,
     rates: &[Expr<'g>],
     given: impl Fn(&BodyFrame<'g>) -> Option<Column<Expr<'g>>>,
-) -> Vec<Twist<'g>> {
-    let mut all: Vec<Twist<'g>> = Vec::new();
+) -> Vec<BodyTwist<'g>> {
+    let mut all: Vec<BodyTwist<'g>> = Vec::new();
     for frame in &frames.bodies {
         b.section(|| format!("{}: ω and the velocity u of its origin", frame.name));
         let carried = frame
             .parent
-            .map_or_else(|| Twist::zero(b), |p| all[p].outwards(b, frame));
-        let given = given(frame).map(|velocity| Twist {
+            .map_or_else(|| BodyTwist::zero(b), |p| all[p].outwards(b, frame));
+        let given = given(frame).map(|velocity| BodyTwist {
             angular: velocity.angular,
             linear: velocity.linear,
         });
-        let carried = given.into_iter().fold(carried, Twist::plus);
-        let own = frame
-            .columns
-            .iter()
-            .map(|column| Twist::of_column(b, column, rates[column.coordinate] * column.effort));
-        all.push(own.fold(carried, Twist::plus));
+        let carried = given.into_iter().fold(carried, BodyTwist::plus);
+        let own = frame.columns.iter().map(|column| {
+            BodyTwist::of_column(b, column, rates[column.coordinate] * column.effort)
+        });
+        all.push(own.fold(carried, BodyTwist::plus));
     }
     all
 }

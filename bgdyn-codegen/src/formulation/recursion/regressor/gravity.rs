@@ -1,6 +1,6 @@
 //! Potential energy by the parameters of the bodies: V = −g · (m o + R h).
 
-use super::base::bodies;
+use super::base_parameter::bodies;
 use super::columns::Columns;
 use crate::expr::Expr;
 use crate::math::Vec3;

@@ -16,7 +16,7 @@ pub(super) struct Independence {
 }
 
 /// A column scaled to length 1 after those before it were removed, with its coefficients by them.
-struct Direction {
+struct UnitColumn {
     column: usize,
     unit: Vec<Dd>,
     /// Components along the directions before, and the length along its own.
@@ -25,7 +25,7 @@ struct Direction {
 
 /// Orthogonalises the columns one after the other (modified Gram–Schmidt, twice).
 pub(super) fn independent(columns: &[Vec<Dd>]) -> Independence {
-    let mut directions: Vec<Direction> = Vec::new();
+    let mut directions: Vec<UnitColumn> = Vec::new();
     let mut dependent = Vec::new();
     for (column, values) in columns.iter().enumerate() {
         let size = length(values);
@@ -36,7 +36,7 @@ pub(super) fn independent(columns: &[Vec<Dd>]) -> Independence {
                 let part = dot(&known.unit, &rest);
                 *along += part;
                 for (x, &unit) in rest.iter_mut().zip(&known.unit) {
-                    *x = *x - part * unit;
+                    *x -= part * unit;
                 }
             }
         }
@@ -47,7 +47,7 @@ pub(super) fn independent(columns: &[Vec<Dd>]) -> Independence {
         }
         triangle.push(left);
         let unit = rest.into_iter().map(|x| x / left).collect();
-        directions.push(Direction {
+        directions.push(UnitColumn {
             column,
             unit,
             triangle,
@@ -57,12 +57,12 @@ pub(super) fn independent(columns: &[Vec<Dd>]) -> Independence {
 }
 
 /// Solves R x = y for the upper triangle R of the directions.
-fn solve(directions: &[Direction], mut y: Vec<Dd>) -> Vec<(usize, Dd)> {
+fn solve(directions: &[UnitColumn], mut y: Vec<Dd>) -> Vec<(usize, Dd)> {
     let mut found = Vec::new();
     for (k, direction) in directions.iter().enumerate().rev() {
         let x = y[k] / direction.triangle[k];
         for (y, &r) in y.iter_mut().zip(&direction.triangle) {
-            *y = *y - x * r;
+            *y -= x * r;
         }
         found.push((direction.column, rounded(x)));
     }

@@ -7,12 +7,13 @@
 //! | `two_velocities.rs` | the motion of the bodies with two velocities |
 //! | `columns.rs` | the columns: products of directions and wrenches |
 //! | `transported.rs` | the columns of all parameters, some as sums of columns of the parent |
-//! | `base.rs` | the base parameters π_b = K π |
+//! | `base.rs`, `base_parameter.rs` | the base parameters π_b = K π |
 //! | `independent.rs`, `sample.rs` | which columns are independent at random states |
 //! | `gravity.rs` | potential energy by parameters |
 //! | `parameters.rs` | π of the mechanism, K π, names |
 
 mod base;
+mod base_parameter;
 mod columns;
 mod directions;
 mod gravity;
@@ -32,7 +33,7 @@ use crate::expr::{Builder, Expr, Signed, evaluate};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::{Method, Regressor};
-use columns::{Columns, Motion};
+use columns::{Columns, GivenMotion};
 use sample::random_states;
 
 /// Number of states at which an output that is always zero is found.
@@ -136,13 +137,13 @@ fn outputs<'g>(
     };
     let base = || &prepared.base_parameters().parameters[..];
     match regressor {
-        Regressor::Full | Regressor::Gravity => whole(Motion::Given),
-        Regressor::Momentum => whole(Motion::Momentum),
-        Regressor::Base | Regressor::BaseGravity => columns().matrix(Motion::Given, base()),
-        Regressor::Adaptive => columns().matrix(Motion::TwoVelocities, base()),
-        Regressor::BaseMomentum => columns().matrix(Motion::Momentum, base()),
-        Regressor::AdaptiveStep => columns().transposed_times(Motion::TwoVelocities, base()),
-        Regressor::TransposedTimes => columns().transposed_times(Motion::Given, base()),
+        Regressor::Full | Regressor::Gravity => whole(GivenMotion::Given),
+        Regressor::Momentum => whole(GivenMotion::Momentum),
+        Regressor::Base | Regressor::BaseGravity => columns().matrix(GivenMotion::Given, base()),
+        Regressor::Adaptive => columns().matrix(GivenMotion::TwoVelocities, base()),
+        Regressor::BaseMomentum => columns().matrix(GivenMotion::Momentum, base()),
+        Regressor::AdaptiveStep => columns().transposed_times(GivenMotion::TwoVelocities, base()),
+        Regressor::TransposedTimes => columns().transposed_times(GivenMotion::Given, base()),
         Regressor::KineticEnergy => columns().kinetic_energies(),
         Regressor::PotentialEnergy => columns().potential_energies(),
         Regressor::Parameters => parameters::of_bodies(b, graph, geometry),

@@ -3,11 +3,12 @@
 use bgdyn_runtime::Dd;
 
 use super::super::base_parameters::point;
-use super::super::geometry::{Geometry, geometry};
+use super::super::geometry::Geometry;
 use super::super::inertia::BodyInertia;
-use super::base::{BaseParameter, BaseParameters, Row, bodies};
+use super::base_parameter::{BaseParameter, CoefficientRow, bodies};
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr, Leaf};
+use crate::formulation::Prepared;
 use crate::formulation::arguments::value;
 use crate::method::{PARAMETER_NAMES, PARAMETERS_PER_BODY};
 
@@ -47,17 +48,18 @@ pub(super) fn base<'g>(b: &'g Builder, parameters: &[BaseParameter]) -> Vec<Expr
 }
 
 /// Returns the base parameters as formulas of the parameters of the bodies, like `forearm.Ixx − 0.5 tool.m`.
-pub(crate) fn base_parameter_formulas(graph: &Multibody) -> Vec<String> {
+pub(crate) fn base_parameter_formulas(prepared: &Prepared<'_>) -> Vec<String> {
+    let graph = prepared.graph;
     let bodies: Vec<&str> = (graph.moving_links().iter())
         .map(|link| graph.frames[link.0].name.as_str())
         .collect();
-    let parameters = BaseParameters::new(graph, &geometry(graph)).parameters;
-    let named = parameters.iter().map(|p| formula(&p.row, &bodies));
+    let parameters = prepared.base_parameters().parameters.iter();
+    let named = parameters.map(|p| formula(&p.row, &bodies));
     named.collect()
 }
 
 /// Returns a row of K as a formula, with six digits.
-fn formula(row: &Row, bodies: &[&str]) -> String {
+fn formula(row: &CoefficientRow, bodies: &[&str]) -> String {
     let mut text = String::new();
     for (&k, &factor) in row {
         let (body, name) = (

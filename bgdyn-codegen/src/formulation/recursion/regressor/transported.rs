@@ -6,15 +6,15 @@ use super::super::base_parameters::take_to_parent;
 use super::super::inertia::BodyInertia;
 use super::super::inverse_dynamics::BodyWrench;
 use super::super::plan::Plan;
-use super::base::bodies;
-use super::columns::{Columns, Motion};
-use super::directions::{Direction, directions};
+use super::base_parameter::bodies;
+use super::columns::{Columns, GivenMotion};
+use super::directions::{CoordinateDirection, directions};
 use super::wrenches::{ENTRIES, of_entries, of_parameters};
 use crate::expr::Expr;
 use crate::mechanism;
 
 /// The efforts of a one in the place of a parameter, one for each coordinate.
-type Column<'g> = Vec<Expr<'g>>;
+type ParameterEfforts<'g> = Vec<Expr<'g>>;
 
 /// Indices of D_xx, D_yy, D_zz among the entries of a body's inertia.
 const XX: usize = 5;
@@ -24,17 +24,17 @@ const ZZ: usize = 7;
 impl<'g> Columns<'_, 'g> {
     /// Returns the matrix of all parameters of the bodies, row by row: m, h_z, D_zz of a body that turns about z are
     /// those of its parent, about the parent's origin.
-    pub(super) fn whole_transported(&self, motion: Motion, plan: &Plan) -> Vec<Expr<'g>> {
+    pub(super) fn whole_transported(&self, motion: GivenMotion, plan: &Plan) -> Vec<Expr<'g>> {
         let b = self.b;
         let moving = self.moving(motion);
         let directions = directions(b, &self.frames);
         b.section(|| "columns of the parameters".into());
-        let mut entries: Vec<[Column<'g>; ENTRIES]> = Vec::new();
-        let mut parameters: Vec<[Column<'g>; 10]> = Vec::new();
+        let mut entries: Vec<[ParameterEfforts<'g>; ENTRIES]> = Vec::new();
+        let mut parameters: Vec<[ParameterEfforts<'g>; 10]> = Vec::new();
         for (j, (angular, a)) in moving.iter().enumerate() {
             let parent = self.frames.bodies[j].parent.map(|p| &entries[p]);
             let direct = of_entries(b, angular, *a).map(|w| self.column(&directions[j], &w));
-            let of_body: [Column<'g>; ENTRIES] =
+            let of_body: [ParameterEfforts<'g>; ENTRIES] =
                 std::array::from_fn(|entry| self.transported((plan, j), entry, &direct, parent));
             let straight = of_parameters(b, angular, *a).map(|w| self.column(&directions[j], &w));
             parameters.push(self.parameters_from(j, &of_body, &straight));
@@ -51,15 +51,15 @@ impl<'g> Columns<'_, 'g> {
         &self,
         (plan, j): (&Plan, usize),
         entry: usize,
-        direct: &[Column<'g>; ENTRIES],
-        parent: Option<&[Column<'g>; ENTRIES]>,
-    ) -> Column<'g> {
+        direct: &[ParameterEfforts<'g>; ENTRIES],
+        parent: Option<&[ParameterEfforts<'g>; ENTRIES]>,
+    ) -> ParameterEfforts<'g> {
         let b = self.b;
         let one = std::array::from_fn(|k| if k == entry { Dd::ONE } else { Dd::ZERO });
         let mut own = BodyInertia::of_numbers(b, &one);
         let moved = take_to_parent(b, self.graph, self.geometry, (plan, j), &mut own);
         let mut column = self.empty();
-        let mut add = |inertia: &BodyInertia<'g>, columns: &[Column<'g>; ENTRIES]| {
+        let mut add = |inertia: &BodyInertia<'g>, columns: &[ParameterEfforts<'g>; ENTRIES]| {
             for (factor, other) in inertia.entries().into_iter().zip(columns) {
                 for (sum, x) in column.iter_mut().zip(other) {
                     *sum = *sum + factor * *x;
@@ -78,9 +78,9 @@ impl<'g> Columns<'_, 'g> {
     fn parameters_from(
         &self,
         j: usize,
-        entries: &[Column<'g>; ENTRIES],
-        straight: &[Column<'g>; 10],
-    ) -> [Column<'g>; 10] {
+        entries: &[ParameterEfforts<'g>; ENTRIES],
+        straight: &[ParameterEfforts<'g>; 10],
+    ) -> [ParameterEfforts<'g>; 10] {
         let frame = &self.frames.bodies[j];
         let own: Vec<usize> = frame.columns.iter().map(|c| c.coordinate).collect();
         let whole_moves = frame.motion == mechanism::Motion::Translation;
@@ -117,7 +117,11 @@ impl<'g> Columns<'_, 'g> {
         ]
     }
 
-    fn column(&self, directions: &[Direction<'g>], wrench: &BodyWrench<'g>) -> Column<'g> {
+    fn column(
+        &self,
+        directions: &[CoordinateDirection<'g>],
+        wrench: &BodyWrench<'g>,
+    ) -> ParameterEfforts<'g> {
         let mut column = self.empty();
         self.add(&mut column, directions, wrench);
         column

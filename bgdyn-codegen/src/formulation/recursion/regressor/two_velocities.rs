@@ -8,7 +8,7 @@ use bgdyn_runtime::Dd;
 use super::super::frames::{BodyFrame, Frames};
 use super::super::joint_columns::ColumnDirection;
 use super::super::motion::zero;
-use super::directions::Twist;
+use super::directions::BodyTwist;
 use super::wrenches::Angular;
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
@@ -28,7 +28,7 @@ pub(super) struct Bilinear<'g> {
 pub(super) fn motions<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    [first, second]: [&[Twist<'g>]; 2],
+    [first, second]: [&[BodyTwist<'g>]; 2],
     rates: [&[Expr<'g>]; 2],
 ) -> Vec<Bilinear<'g>> {
     let mut moving: Vec<Bilinear<'g>> = Vec::new();

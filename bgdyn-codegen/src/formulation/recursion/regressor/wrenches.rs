@@ -7,7 +7,7 @@ use bgdyn_runtime::Dd;
 
 use super::super::inverse_dynamics::BodyWrench;
 use super::super::motion::{Spin, zero};
-use super::directions::Twist;
+use super::directions::BodyTwist;
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3, skew};
 
@@ -119,7 +119,7 @@ pub(super) fn of_parameters<'g>(
 
 /// Returns the kinetic energy of ones in the places of m, h, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz:
 /// T = ½ m u·u + h·(u × ω) + ½ ω·I ω.
-pub(super) fn kinetic_energies<'g>(twist: &Twist<'g>) -> [Expr<'g>; 10] {
+pub(super) fn kinetic_energies<'g>(twist: &BodyTwist<'g>) -> [Expr<'g>; 10] {
     let half = Dd::from_f64(0.5);
     let (omega, u) = (twist.angular, twist.linear);
     let [x, y, z] = omega.0;
