@@ -141,6 +141,9 @@ impl CCall {
             Argument::A => Some("a").filter(|_| nv > 0),
             Argument::Tau => Some("tau").filter(|_| nv > 0),
             Argument::TreeV => Some("v"),
+            Argument::ReferenceV => Some("v_r").filter(|_| nv > 0),
+            Argument::ReferenceA => Some("a").filter(|_| nv > 0),
+            Argument::Direction => Some("tau").filter(|_| nv > 0),
             _ => Some("tau"),
         };
         CCall {
@@ -213,7 +216,10 @@ impl CProgram {
         let parameters = model.mechanism.parameters().iter();
         CProgram {
             file: model.mechanism.name().into(),
-            arrays: vec![("q", nq), ("v", n), ("a", n), ("tau", n)],
+            arrays: [("q", nq), ("v", n), ("a", n), ("tau", effort_count(model))]
+                .into_iter()
+                .chain(model.has_regressors().then_some(("v_r", n)))
+                .collect(),
             parameters: parameters.map(|p| p.name.clone()).collect(),
             calls,
         }
@@ -319,8 +325,9 @@ int main(void)
 
 /// Returns a state of a mechanism as the numbers that its program reads.
 pub fn numbers<T: CNumber>(state: &Inputs<T>) -> Vec<T> {
-    let parts = [&state.q, &state.v, &state.a, &state.u, &state.parameters];
-    parts.into_iter().flatten().copied().collect()
+    let parts = [&state.q, &state.v, &state.a, &state.u, &state.x];
+    let parts = parts.into_iter().chain([&state.parameters]);
+    parts.flatten().copied().collect()
 }
 
 /// Returns the number of velocities and efforts of each kind that a program reads: enough for the open tree.
@@ -328,4 +335,14 @@ pub fn velocity_count(model: &Model) -> usize {
     let closed = model.bond_graph.closed.as_deref();
     let of_tree = closed.map_or(0, |closed| closed.tree.coordinates.len());
     of_tree.max(model.mechanism.nv())
+}
+
+/// Returns the number of efforts, or of parameters of the bodies, that a program reads.
+pub fn effort_count(model: &Model) -> usize {
+    let bodies = if model.has_regressors() {
+        model.body_names().len()
+    } else {
+        0
+    };
+    velocity_count(model).max(10 * bodies)
 }
