@@ -8,7 +8,7 @@ use bgdyn_identification::{JointPart, LinkPart, Model};
 use nalgebra::{Matrix3, Vector3};
 
 use super::friction::{EffectNumber, effect_numbers};
-use super::rows::{Places, TreeRows};
+use super::rows::{GeneratedRows, Places};
 
 /// What is to be identified.
 #[derive(Clone, Debug, Default)]
@@ -21,7 +21,7 @@ pub(crate) struct Wanted {
 
 /// A machine whose numbers can be identified.
 pub(crate) struct IdentifiedMachine {
-    rows: TreeRows,
+    rows: GeneratedRows,
     places: Places,
     /// Numbers of its effects.
     pub(crate) effects: Vec<EffectNumber>,
@@ -40,7 +40,7 @@ impl IdentifiedMachine {
     pub(crate) fn new(machine: &Machine, wanted: &Wanted) -> Result<Self, Vec<String>> {
         let mechanism = &machine.mechanism;
         let graph = bond_graph::build(mechanism);
-        let tree = TreeRows::new(&graph).map_err(|what| {
+        let tree = GeneratedRows::new(mechanism, &graph).map_err(|what| {
             vec![format!("{what}: `identify` knows trees of joints about and along axes. Identify such a part of it")]
         })?;
         let (rows, places) = tree;

@@ -1,81 +1,72 @@
-//! The rows of the regressor of a tree, by the Newton–Euler equations: each parameter's wrench on its body, projected
-//! on the joints before it.
+//! The rows of the regressor of a tree by the generated method `regressor`, and where the links are.
 
-use bgdyn_codegen::bond_graph::{BondGraph, LinkFrame};
-use bgdyn_codegen::mechanism::{Motion, Pose};
+use bgdyn_codegen::bond_graph::{BondGraph, LinkFrame, PositionVariable};
+use bgdyn_codegen::engine::{Callable, Engine};
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::mechanism::{LinkId, Mechanism, Motion, Pose};
+use bgdyn_codegen::method::{Method, Regressor};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::selection;
+use bgdyn_codegen::tape::Tape;
 use bgdyn_identification::Rows;
-use nalgebra::{DMatrix, Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
-/// A moving body: a moving link with all that is fixed to it.
-struct MovingBody {
-    parent: Option<usize>,
-    /// Pose of the joint's origin in the parent's axes.
-    rotation: Matrix3<f64>,
-    translation: Vector3<f64>,
-    axis: Unit<Vector3<f64>>,
-    /// The positions that it follows with their factors, and its position where they are zero.
-    positions: Vec<(usize, f64)>,
-    offset: f64,
-    /// Turn and shift along the axis per unit position.
-    pitch: [f64; 2],
-    /// Velocities with the motion per unit velocity, angular and linear, link axes.
-    columns: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
-}
-
-/// A tree of joints about and along axes.
-pub(crate) struct TreeRows {
+/// The regressor of a tree of joints about and along axes.
+pub(crate) struct GeneratedRows {
     joints: usize,
-    bodies: Vec<MovingBody>,
-    gravity: Vector3<f64>,
+    bodies: usize,
+    regressor: Box<dyn Callable>,
+    /// Values of the run-time parameters.
+    parameters: Vec<f64>,
 }
 
-/// Where a link is: its moving body and its pose there; `None` for one that is fixed to the world.
+/// Where a link is: its moving body and its pose there; `None` for one that is fixed to the world, or hidden.
 pub(crate) type Places = Vec<Option<(usize, Matrix3<f64>, Vector3<f64>)>>;
 
-impl TreeRows {
+impl GeneratedRows {
     /// Returns the rows of a mechanism and the places of its links.
     ///
     /// # Errors
     /// What the mechanism has that is no tree of joints about and along axes with q̇ = v.
-    pub(crate) fn new(graph: &BondGraph) -> Result<(Self, Places), String> {
+    pub(crate) fn new(mechanism: &Mechanism, graph: &BondGraph) -> Result<(Self, Places), String> {
         refuse(graph)?;
-        let (mut bodies, mut places): (Vec<MovingBody>, Places) = (Vec::new(), Vec::new());
-        for frame in &graph.frames {
-            let parent = frame.parent.map_or(Some(None), |p| places[p.0].map(Some));
-            // A link on one that is fixed to the world has its pose there from the chain of origins.
-            let (own_rotation, own_translation) = pose(&frame.origin);
-            let base = match (frame.parent, parent) {
-                (Some(p), None) => Some(world_pose(graph, p.0)),
-                _ => None,
-            };
-            let (body, rotation, translation) = match (parent.flatten(), base) {
-                (Some((body, r, p)), _) => (Some(body), r * own_rotation, p + r * own_translation),
-                (None, Some((r, p))) => (None, r * own_rotation, p + r * own_translation),
-                (None, None) => (None, own_rotation, own_translation),
-            };
-            if frame.motion == Motion::None {
-                places.push(body.map(|body| (body, rotation, translation)));
-                continue;
-            }
-            places.push(Some((bodies.len(), Matrix3::identity(), Vector3::zeros())));
-            bodies.push(moving(frame, body, rotation, translation));
-        }
-        let gravity = vector(&graph.gravity.0);
-        let joints = graph.coordinates.len();
-        Ok((
-            TreeRows {
-                joints,
-                bodies,
-                gravity,
-            },
-            places,
-        ))
+        let method = Method::Regressor(Regressor::Full);
+        let function = selection::function(mechanism, method, &Options::default());
+        let function = function.ok_or("the mechanism has no regressor")?;
+        let parameters = mechanism.parameters().iter();
+        let rows = GeneratedRows {
+            joints: graph.coordinates.len(),
+            bodies: graph.moving_links().len(),
+            regressor: Tape.prepare(&function),
+            parameters: parameters.map(|p| p.default.to_f64()).collect(),
+        };
+        Ok((rows, places(graph)))
     }
 }
 
+/// Returns where each link is.
+fn places(graph: &BondGraph) -> Places {
+    let bodies = graph.moving_links();
+    let mut places: Places = Vec::new();
+    for (i, frame) in graph.frames.iter().enumerate() {
+        let body = bodies.iter().position(|link| *link == LinkId(i));
+        let fixed = || {
+            let (body, outer, at) = places[frame.parent?.0]?;
+            let (rotation, translation) = pose(&frame.origin);
+            Some((body, outer * rotation, at + outer * translation))
+        };
+        let place = match frame.motion {
+            Motion::None => fixed(),
+            _ => body.map(|body| (body, Matrix3::identity(), Vector3::zeros())),
+        };
+        places.push(place);
+    }
+    places
+}
+
 fn refuse(graph: &BondGraph) -> Result<(), String> {
-    let own = |(i, p): (usize, &bgdyn_codegen::bond_graph::PositionVariable)| {
-        p.coordinate.is_some_and(|c| c.0 == i)
+    let own = |(i, p): (usize, &PositionVariable)| {
+        p.coordinate.is_some_and(|coordinate| coordinate.0 == i)
     };
     let what = if graph.closed.is_some() {
         "loops, wheels or knife edges"
@@ -105,176 +96,37 @@ fn along_axis(frame: &LinkFrame) -> bool {
     }
 }
 
-fn world_pose(graph: &BondGraph, link: usize) -> (Matrix3<f64>, Vector3<f64>) {
-    let frame = &graph.frames[link];
-    let (r, p) = pose(&frame.origin);
-    match frame.parent {
-        None => (r, p),
-        Some(parent) => {
-            let (outer, at) = world_pose(graph, parent.0);
-            (outer * r, at + outer * p)
-        }
-    }
-}
-
-fn moving(
-    frame: &LinkFrame,
-    parent: Option<usize>,
-    rotation: Matrix3<f64>,
-    translation: Vector3<f64>,
-) -> MovingBody {
-    let degrees = &frame.degrees;
-    let ratios = degrees.position_ratios();
-    let columns = frame.columns().into_iter();
-    let pitch = match frame.motion {
-        Motion::Translation => [0.0, 1.0],
-        Motion::Compound(_) => [1.0, degrees.advance.to_f64()],
-        _ => [1.0, 0.0],
-    };
-    MovingBody {
-        parent,
-        rotation,
-        translation,
-        axis: Unit::new_normalize(vector(&frame.axis.0)),
-        positions: degrees
-            .positions
-            .iter()
-            .zip(ratios)
-            .map(|(p, r)| (p.0, r.to_f64()))
-            .collect(),
-        offset: degrees.offset().to_f64(),
-        pitch,
-        columns: columns
-            .map(|(j, c)| (j.0, vector(&c.angular.0), vector(&c.linear.0)))
-            .collect(),
-    }
-}
-
-fn vector(x: &[bgdyn_runtime::Dd; 3]) -> Vector3<f64> {
-    Vector3::from(x.map(|x| x.to_f64()))
-}
-
 fn pose(pose: &Pose) -> (Matrix3<f64>, Vector3<f64>) {
-    let r = &pose.rotation.0;
+    let (rotation, translation) = (&pose.rotation.0, &pose.translation.0);
     (
-        Matrix3::from_fn(|i, j| r[i][j].to_f64()),
-        vector(&pose.translation.0),
+        Matrix3::from_fn(|i, j| rotation[i][j].to_f64()),
+        Vector3::from_fn(|i, _| translation[i].to_f64()),
     )
 }
 
-/// A body's motion in its own axes; `a` is the acceleration of its origin less gravity.
-struct BodyMotion {
-    w: Vector3<f64>,
-    dw: Vector3<f64>,
-    a: Vector3<f64>,
-    /// Angular and linear velocity per unit velocity of the joints before it.
-    twists: Vec<(usize, Vector3<f64>, Vector3<f64>)>,
-}
-
-impl MovingBody {
-    fn motion(
-        &self,
-        before: Option<&BodyMotion>,
-        gravity: &Vector3<f64>,
-        (q, v, a): (&[f64], &[f64], &[f64]),
-    ) -> BodyMotion {
-        let x = self
-            .positions
-            .iter()
-            .fold(self.offset, |x, (p, ratio)| x + ratio * q[*p]);
-        let turn =
-            self.rotation * Rotation3::from_axis_angle(&self.axis, self.pitch[0] * x).into_inner();
-        let at = self.translation + turn * (self.axis.into_inner() * (self.pitch[1] * x));
-        let back = turn.transpose();
-        let rest = BodyMotion {
-            w: Vector3::zeros(),
-            dw: Vector3::zeros(),
-            a: -gravity,
-            twists: Vec::new(),
-        };
-        let before = before.unwrap_or(&rest);
-        let (w0, dw0) = (back * before.w, back * before.dw);
-        let sum = |of: &[f64], angular: bool| {
-            let own = self.columns.iter().map(|(j, turn, shift)| {
-                if angular {
-                    turn * of[*j]
-                } else {
-                    shift * of[*j]
-                }
-            });
-            own.fold(Vector3::zeros(), |s, x| s + x)
-        };
-        let (w_own, v_own) = (sum(v, true), sum(v, false));
-        // Of the origin: carried, Coriolis, and along the joint.
-        let carried = before.a + before.dw.cross(&at) + before.w.cross(&before.w.cross(&at));
-        let twists = before
-            .twists
-            .iter()
-            .map(|(j, w, u)| (*j, back * w, back * (u + w.cross(&at))));
-        BodyMotion {
-            w: w0 + w_own,
-            dw: dw0 + sum(a, true) + w0.cross(&w_own),
-            a: back * carried + 2.0 * w0.cross(&v_own) + sum(a, false),
-            twists: twists.chain(self.columns.iter().copied()).collect(),
-        }
-    }
-}
-
-/// Returns force and moment about the origin for each parameter of a body: m a; U h with U = [ω̇]× + [ω]×[ω]×, h × a;
-/// E ω̇ + ω × E ω for an entry E of the tensor.
-fn wrenches(body: &BodyMotion) -> [(Vector3<f64>, Vector3<f64>); 10] {
-    let BodyMotion { w, dw, a, .. } = body;
-    let zero = Vector3::zeros();
-    let moment = |k: usize| {
-        let e = Vector3::ith(k, 1.0);
-        (dw.cross(&e) + w.cross(&w.cross(&e)), e.cross(a))
-    };
-    let tensor = |i: usize, k: usize| {
-        let times = |x: &Vector3<f64>| {
-            let mut y = Vector3::zeros();
-            y[i] += x[k];
-            if i != k {
-                y[k] += x[i];
-            }
-            y
-        };
-        (zero, times(dw) + w.cross(&times(w)))
-    };
-    [
-        (*a, zero),
-        moment(0),
-        moment(1),
-        moment(2),
-        tensor(0, 0),
-        tensor(0, 1),
-        tensor(1, 1),
-        tensor(0, 2),
-        tensor(1, 2),
-        tensor(2, 2),
-    ]
-}
-
-impl Rows for TreeRows {
+impl Rows for GeneratedRows {
     fn joints(&self) -> usize {
         self.joints
     }
 
     fn bodies(&self) -> usize {
-        self.bodies.len()
+        self.bodies
     }
 
     fn effort_rows(&self, q: &[f64], v: &[f64], a: &[f64], rows: &mut DMatrix<f64>) {
-        rows.fill(0.0);
-        let mut motions: Vec<BodyMotion> = Vec::with_capacity(self.bodies.len());
-        for (b, body) in self.bodies.iter().enumerate() {
-            let own = body.motion(body.parent.map(|p| &motions[p]), &self.gravity, (q, v, a));
-            for (k, (force, moment)) in wrenches(&own).iter().enumerate() {
-                for (j, w, u) in &own.twists {
-                    rows[(*j, 10 * b + k)] += w.dot(moment) + u.dot(force);
-                }
-            }
-            motions.push(own);
-        }
+        let inputs = Inputs {
+            q: q.to_vec(),
+            v: v.to_vec(),
+            a: a.to_vec(),
+            parameters: self.parameters.clone(),
+            ..Inputs::default()
+        };
+        let (values, _) = self.regressor.value(&(&inputs).into());
+        rows.copy_from(&DMatrix::from_row_slice(
+            self.joints,
+            10 * self.bodies,
+            &values,
+        ));
     }
 }
 
@@ -282,12 +134,7 @@ impl Rows for TreeRows {
 mod tests {
     use std::path::Path;
 
-    use bgdyn_codegen::engine::Engine;
-    use bgdyn_codegen::expr::Inputs;
-    use bgdyn_codegen::method::Method;
-    use bgdyn_codegen::options::Options;
     use bgdyn_codegen::read_machine;
-    use bgdyn_codegen::tape::Tape;
     use bgdyn_identification::model::Unknown;
 
     use super::super::{IdentifiedMachine, Wanted};
