@@ -94,10 +94,9 @@ pub(super) fn trapezoidal(
             (ramp, total)
         }
         _ => {
-            let message = "`trapezoidal` is given by two of `duration`, `velocity`, `acceleration`";
             return refuse(
                 faults,
-                message.into(),
+                expected::TRAPEZOIDAL_NUMBERS.into(),
                 "write two of them, and leave the third out",
             );
         }
@@ -140,8 +139,7 @@ pub(super) fn quintic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> O
         (None, Some(one), _) => one,
         (None, None, Some(one)) => one,
         _ => {
-            let message =
-                "`quintic` is given by `duration`, or by limits: `velocity`, `acceleration`";
+            let message = expected::QUINTIC_NUMBERS;
             let way_out = "write `duration`, or one or both limits";
             faults.push(wording::profile(&raw.location, message.into(), way_out));
             return None;
@@ -202,9 +200,11 @@ fn motion(
         let number = entry.number(&[fit], faults)?.value;
         let value = number.value;
         if matches!(key, "duration" | "velocity" | "acceleration") && value <= Dd::ZERO {
-            let message = format!("`{key}` is {}: it must be positive", number.text);
-            let way_out = "the sign of the motion is that of `to` minus `from`";
-            faults.push(wording::profile(&entry.location, message, way_out));
+            faults.push(wording::profile_not_positive(
+                &entry.location,
+                key,
+                &number.text,
+            ));
             sound = false;
         }
         match key {

@@ -140,4 +140,9 @@ pub(crate) const HOLD_OF_ANGLE: &str = "`{ angle: { target: 90 deg, stiffness: 8
 pub(crate) const HOLD_OF_ATTITUDE: &str =
     "`{ attitude: { target: { rpy: [0, 0, 0] }, stiffness: 8, damping: 2 } }`";
 pub(crate) const HOLD: &str = "`{ target: …, stiffness: 8, damping: 2 }`";
+pub(crate) const TWO_LIMITS: &str = "`[-5, 20]`";
+pub(crate) const TRAPEZOIDAL_NUMBERS: &str =
+    "`trapezoidal` is given by two of `duration`, `velocity`, `acceleration`";
+pub(crate) const QUINTIC_NUMBERS: &str =
+    "`quintic` is given by `duration`, or by limits: `velocity`, `acceleration`";
 pub(crate) const TWO_NUMBERS: &str = "`[0, 1]`";

@@ -279,6 +279,15 @@ pub(crate) fn not_a_truth(location: &Location, key: &str) -> Fault {
 
 // Motions from point to point
 
+pub(crate) fn profile_not_positive(location: &Location, key: &str, text: &str) -> Fault {
+    let message = format!("`{key}` is {text}: it must be positive");
+    profile(
+        location,
+        message,
+        "the sign of the motion is that of `to` minus `from`",
+    )
+}
+
 pub(crate) fn profile(location: &Location, message: String, way_out: &str) -> Fault {
     Fault::new(location, "profile", message).with_help(way_out)
 }

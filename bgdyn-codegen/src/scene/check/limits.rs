@@ -87,7 +87,7 @@ fn read(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> InputLimits {
                     &raw.location,
                     items.len(),
                     2,
-                    "`[-5, 20]`",
+                    expected::TWO_LIMITS,
                 ));
                 return None;
             };
@@ -170,7 +170,7 @@ pub(super) fn add_events(
         }
         let name = layout.inputs[i].name.clone();
         for (event, side) in limit_events(&name).into_iter().zip(["least", "largest"]) {
-            layout.event(event, format!("`{name}` reaches its {side} value"));
+            layout.event(event, format!("input `{name}` reaches its {side} value"));
         }
     }
 }
