@@ -102,9 +102,9 @@ fn draw_distances(arm: &Panda7<f64>, cost: &Reach, motions: &[Solver], area: &Ar
         states.enumerate().map(distance).collect()
     };
     let lines: Vec<_> = motions.iter().map(distances).collect();
-    let all = lines.iter().flatten().map(|p| p.1).chain([0.0]);
+    let all = || lines.iter().flatten().map(|p| p.1).chain([0.0]);
     let x = Axis::linear(0.0, NODES as f64 * STEP, 6).label("time / s");
-    let y = Axis::around(all, 7).label("distance / m");
+    let y = under_legend(all, 7).label("distance / m");
     let chart = Panel::new("Distance of the last joint from the target", x, y).draw(area)?;
     let last = lines.len().saturating_sub(1);
     for (k, line) in lines.into_iter().enumerate() {
@@ -133,7 +133,7 @@ fn draw_joints(
 ) -> Drawn {
     let lines: [Vec<f64>; JOINTS] = std::array::from_fn(values);
     let x = Axis::linear(0.0, NODES as f64 * STEP, 6).label("time / s");
-    let y = Axis::around(lines.iter().flatten().copied(), 7).label(format!("{name} / {unit}"));
+    let y = under_legend(|| lines.iter().flatten().copied(), 7).label(format!("{name} / {unit}"));
     let chart = Panel::new(title, x, y).draw(area)?;
     for (line, colour) in lines.iter().zip(COLOURS) {
         let points = line.iter().copied().enumerate().map(&time);
@@ -146,4 +146,13 @@ fn draw_joints(
         .map(|(name, colour)| (Sign::Line(Stroke::new(colour, 2.0)), name.as_str()))
         .collect();
     legend(area, (90.0, 48.0), &entries)
+}
+
+/// Returns an axis over values with room for a legend above them.
+fn under_legend<V: Iterator<Item = f64>>(values: impl Fn() -> V, most: usize) -> Axis {
+    let (low, high) = (
+        values().fold(f64::INFINITY, f64::min),
+        values().fold(f64::NEG_INFINITY, f64::max),
+    );
+    Axis::around([low, high + 0.1 * (high - low)], most)
 }
