@@ -1,6 +1,6 @@
 //! Limits of the efforts: they hold, and the optimum satisfies the conditions of Karush, Kuhn and Tucker.
 
-use bgdyn_sim::ilqr::End;
+use bgdyn_sim::ilqr::Ending;
 
 use super::task::{Joints, Reach, problem};
 use super::{Panda7, at_rest};
@@ -22,7 +22,7 @@ fn limits_hold_and_the_optimum_is_one() {
     problem.limits = Some([lower, upper]);
     let mut ilqr = at_rest(&problem);
     let outcome = ilqr.solve(&problem, 1e-14, 300).expect("an optimum");
-    assert_eq!(outcome.end, End::Converged);
+    assert_eq!(outcome.end, Ending::Converged);
     assert!(outcome.cost > without, "limits cost something");
 
     let gradient = ilqr.gradient(&problem).expect("derivatives");

@@ -14,7 +14,7 @@ bgdyn::bgdyn!(
 
 use bgdyn::nalgebra::{SVector, Vector3};
 use bgdyn_codegen::random::Random;
-use bgdyn_sim::ilqr::{End, Ilqr, Iteration};
+use bgdyn_sim::ilqr::{Ending, Ilqr, Iteration};
 use panda7::Panda7;
 use serde_json::Value;
 use task::{JOINTS, Joints, NODES, Reach, Reaching, problem, start};
@@ -77,7 +77,7 @@ fn optimum_and_first_gain_are_the_recorded_ones() {
     let problem = problem(&arm, &cost);
     let mut ilqr = at_rest(&problem);
     let outcome = ilqr.solve(&problem, 1e-15, 100).expect("an optimum");
-    assert_eq!(outcome.end, End::Converged);
+    assert_eq!(outcome.end, Ending::Converged);
     let optimum = recorded["cost"].as_f64().expect("a number");
     let off = (outcome.cost - optimum).abs();
     assert!(off < 1e-9, "the cost {} is off by {off:e}", outcome.cost);
@@ -137,7 +137,7 @@ fn gradient_by_adjoint_is_that_by_sweep() {
     assert!(largest > 0.1);
     assert_eq!(
         ilqr.iterate(&problem, 0.0),
-        Ok(Iteration::Ended(End::Converged))
+        Ok(Iteration::Ended(Ending::Converged))
     );
     for (k, by_adjoint) in gradient.iter().enumerate() {
         let off = (ilqr.slope(k) - by_adjoint).amax();

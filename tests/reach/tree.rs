@@ -4,7 +4,7 @@ use bgdyn::Dynamics;
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::step::{SemiImplicit, State};
 use bgdyn_codegen::random::Random;
-use bgdyn_sim::ilqr::{Cost, End, Ilqr, Iteration, Part, Problem, Quadratic};
+use bgdyn_sim::ilqr::{Cost, Ending, Ilqr, Iteration, Part, Problem, Quadratic};
 
 bgdyn::bgdyn!("tests/steps/random_tree.yaml", derivatives = true);
 use random_tree::{NQ, NV, RandomTree};
@@ -60,7 +60,7 @@ fn joints_of_every_type_take_part() {
     let gradient = ilqr.gradient(&problem).expect("derivatives");
     let largest = gradient.iter().map(V::amax).fold(0.0, f64::max);
     let held = ilqr.iterate(&problem, 0.0).expect("an iteration");
-    assert_eq!(held, Iteration::Ended(End::Converged));
+    assert_eq!(held, Iteration::Ended(Ending::Converged));
     for (k, by_adjoint) in gradient.iter().enumerate() {
         let off = (ilqr.slope(k) - by_adjoint).amax();
         assert!(off < 1e-12 * largest, "node {k} is off by {off:e}");
@@ -68,7 +68,7 @@ fn joints_of_every_type_take_part() {
 
     problem.limits = None;
     let outcome = ilqr.solve(&problem, 1e-13, 100).expect("an optimum");
-    assert_eq!(outcome.end, End::Converged);
+    assert_eq!(outcome.end, Ending::Converged);
     let left = ilqr.gradient(&problem).expect("derivatives");
     let left = left.iter().map(V::amax).fold(0.0, f64::max);
     println!("{outcome:?}, gradient {largest:e}, then {left:e}");

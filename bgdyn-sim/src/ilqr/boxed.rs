@@ -1,7 +1,7 @@
 //! The minimum of a quadratic function in a box, by Newton steps projected onto it (Bertsekas 1982; Tassa, Mansard and
 //! Todorov 2014).
 
-use super::value::inner;
+use super::rows::inner;
 use crate::real::Real;
 
 /// Most iterations.

@@ -3,7 +3,7 @@
 use bgdyn_runtime::step::State;
 use nalgebra::{SMatrix, SVector};
 
-use super::value::inner;
+use super::rows::inner;
 use crate::real::Real;
 
 /// The arguments of a node's cost, in the order of the blocks of [`Quadratic`].

@@ -3,9 +3,10 @@
 use bgdyn_runtime::step::{Linearizable, Step, StepBlocks, Tangent};
 use nalgebra::SVector;
 
+use super::Ilqr;
 use super::cost::{Cost, Quadratic};
-use super::problem::{Failure, Problem};
-use super::{Ilqr, Node};
+use super::motion::Node;
+use super::problem::{NoLaw, Problem};
 use crate::real::Real;
 
 /// Returns a part of the first derivatives of a cost.
@@ -24,11 +25,11 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
     /// effort and not positive at the largest.
     ///
     /// # Errors
-    /// [`Failure::Singular`].
+    /// [`NoLaw::Singular`].
     pub fn gradient<M, C>(
         &self,
         problem: &Problem<'_, M, C, T, NV>,
-    ) -> Result<[SVector<T, NV>; N], Failure<T::Singular<NV>>>
+    ) -> Result<[SVector<T, NV>; N], NoLaw<T::Singular<NV>>>
     where
         M: Linearizable<T, NQ, NV>,
         C: Cost<M, T, NQ, NV>,
@@ -43,7 +44,7 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
         let nodes = self.motion.nodes.iter().zip(&mut gradient).enumerate();
         for (k, (Node { state, tau }, slope)) in nodes.rev() {
             let blocks = problem.step.linear(problem.model, state, tau);
-            let blocks = blocks.map_err(|error| Failure::Singular { node: k, error })?;
+            let blocks = blocks.map_err(|error| NoLaw::Singular { node: k, error })?;
             let mut sum = Quadratic::zero();
             problem
                 .cost

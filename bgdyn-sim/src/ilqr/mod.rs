@@ -17,7 +17,7 @@
 //! ```
 //! use bgdyn::nalgebra::SVector;
 //! use bgdyn::runtime::step::{SemiImplicit, State};
-//! use bgdyn_sim::ilqr::{Cost, End, Ilqr, Part, Problem, Quadratic};
+//! use bgdyn_sim::ilqr::{Cost, Ending, Ilqr, Part, Problem, Quadratic};
 //! bgdyn::bgdyn!("../specs/cart_pole.yaml", derivatives = true);
 //! use cart_pole::CartPole;
 //!
@@ -47,7 +47,7 @@
 //! let tilted = State { q: SVector::from([0.0, 0.3]), v: SVector::zeros() };
 //! let mut ilqr = Ilqr::<f64, 2, 2, 50>::new(&problem, &tilted, &[SVector::zeros(); 50])?;
 //! let outcome = ilqr.solve(&problem, 1e-9, 100).expect("a regular mass matrix");
-//! assert_eq!(outcome.end, End::Converged);
+//! assert_eq!(outcome.end, Ending::Converged);
 //! assert!(ilqr.last().q.amax() < 0.05);
 //! # Ok::<(), bgdyn::runtime::Singular>(())
 //! ```
@@ -55,6 +55,7 @@
 mod boxed;
 mod cost;
 mod gradient;
+mod motion;
 mod problem;
 mod rows;
 mod search;
@@ -65,8 +66,9 @@ use bgdyn_runtime::step::{Linearizable, State, Step};
 use nalgebra::{SMatrix, SVector};
 
 pub use cost::{Cost, Part, Quadratic};
-pub use problem::{End, Failure, Iteration, Outcome, Problem};
-use sweep::{Law, add_value, eliminate};
+use motion::{Motion, Node, roll_out};
+pub use problem::{Ending, Iteration, NoLaw, Problem, Solution};
+use sweep::{Law, Promise, add_value, eliminate};
 use value::Value;
 
 use crate::real::Real;
@@ -78,21 +80,6 @@ const FACTOR: f64 = 10.0;
 /// Damping at which a search is given up.
 const MOST_DAMPING: f64 = 1e8;
 
-/// A state and the efforts that follow.
-#[derive(Clone, Copy, Debug)]
-struct Node<T: Real, const NQ: usize, const NV: usize> {
-    state: State<T, NQ, NV>,
-    tau: SVector<T, NV>,
-}
-
-/// A motion of N steps.
-#[derive(Clone, Copy, Debug)]
-struct Motion<T: Real, const NQ: usize, const NV: usize, const N: usize> {
-    nodes: [Node<T, NQ, NV>; N],
-    end: State<T, NQ, NV>,
-    cost: T,
-}
-
 /// A motion of `N` steps with its laws: the unknowns of a [`Problem`], and the memory that solving it takes.
 ///
 /// It contains about N (NV² · 2 + NV · 9) numbers: 56 kB for 7 joints, 50 nodes and `f64`.
@@ -103,20 +90,6 @@ pub struct Ilqr<T: Real, const NQ: usize, const NV: usize, const N: usize> {
     trial: Motion<T, NQ, NV, N>,
     laws: [Law<T, NV>; N],
     damping: T,
-}
-
-/// What a sweep promises: the derivative of the cost along the laws' steps, and half of the second one.
-#[derive(Clone, Copy, Debug)]
-struct Promise<T> {
-    slope: T,
-    half_curvature: T,
-}
-
-impl<T: Real> Promise<T> {
-    /// Returns by how much the cost should fall with a share of the step.
-    fn decrease(&self, share: T) -> T {
-        -(share * (self.slope + share * self.half_curvature))
-    }
 }
 
 impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, N> {
@@ -170,7 +143,7 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
         M: Linearizable<T, NQ, NV>,
         C: Cost<M, T, NQ, NV>,
     {
-        search::roll_out(problem, first, &mut self.trial, |k, _| efforts[k])?;
+        roll_out(problem, first, &mut self.trial, |k, _| efforts[k])?;
         core::mem::swap(&mut self.motion, &mut self.trial);
         self.damping = T::from_f64(0.0);
         Ok(())
@@ -199,7 +172,7 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
     /// Returns the gains of node `k` from the last sweep, by positions along the tangent and by velocities:
     /// u = u_k − K_q δq − K_v δv.
     ///
-    /// After [`End::Converged`] they are those around this motion, otherwise those around the motion before the last
+    /// After [`Ending::Converged`] they are those around this motion, otherwise those around the motion before the last
     /// search.
     ///
     /// # Panics
@@ -221,13 +194,13 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
     /// Iterates until the promised decrease of the cost is no larger than `tolerance`, in units of the cost.
     ///
     /// # Errors
-    /// See [`Failure`]; the motion is then the last one.
+    /// See [`NoLaw`]; the motion is then the last one.
     pub fn solve<M, C>(
         &mut self,
         problem: &Problem<'_, M, C, T, NV>,
         tolerance: T,
         iterations: usize,
-    ) -> Result<Outcome<T>, Failure<T::Singular<NV>>>
+    ) -> Result<Solution<T>, NoLaw<T::Singular<NV>>>
     where
         M: Linearizable<T, NQ, NV>,
         C: Cost<M, T, NQ, NV>,
@@ -237,12 +210,12 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
                 return Ok(self.outcome(done, end));
             }
         }
-        Ok(self.outcome(iterations, End::Iterations))
+        Ok(self.outcome(iterations, Ending::Iterations))
     }
 
     /// Returns the outcome after so many searches.
-    fn outcome(&self, iterations: usize, end: End) -> Outcome<T> {
-        Outcome {
+    fn outcome(&self, iterations: usize, end: Ending) -> Solution<T> {
+        Solution {
             cost: self.motion.cost,
             iterations,
             end,
@@ -252,12 +225,12 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
     /// Sweeps and searches once; does not search if the promised decrease of the cost is no larger than `tolerance`.
     ///
     /// # Errors
-    /// See [`Failure`]; the motion is then the one before.
+    /// See [`NoLaw`]; the motion is then the one before.
     pub fn iterate<M, C>(
         &mut self,
         problem: &Problem<'_, M, C, T, NV>,
         tolerance: T,
-    ) -> Result<Iteration<T>, Failure<T::Singular<NV>>>
+    ) -> Result<Iteration<T>, NoLaw<T::Singular<NV>>>
     where
         M: Linearizable<T, NQ, NV>,
         C: Cost<M, T, NQ, NV>,
@@ -267,7 +240,7 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
             let tried = self.sweep(problem);
             if let Ok(promise) = &tried {
                 if promise.decrease(T::from_f64(1.0)) <= tolerance {
-                    return Ok(Iteration::Ended(End::Converged));
+                    return Ok(Iteration::Ended(Ending::Converged));
                 }
                 if let Some(share) = self.search(problem, promise) {
                     let less = self.damping / factor;
@@ -276,14 +249,14 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
                     return Ok(Iteration::Moved { cost, share });
                 }
             }
-            if let Err(failure @ Failure::Singular { .. }) = tried {
+            if let Err(failure @ NoLaw::Singular { .. }) = tried {
                 return Err(failure);
             }
             self.damping = (self.damping * factor).max(least);
             if self.damping > T::from_f64(MOST_DAMPING) {
                 self.damping = T::from_f64(0.0);
                 tried?;
-                return Ok(Iteration::Ended(End::Stalled));
+                return Ok(Iteration::Ended(Ending::Stalled));
             }
         }
     }
@@ -292,7 +265,7 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
     fn sweep<M, C>(
         &mut self,
         problem: &Problem<'_, M, C, T, NV>,
-    ) -> Result<Promise<T>, Failure<T::Singular<NV>>>
+    ) -> Result<Promise<T>, NoLaw<T::Singular<NV>>>
     where
         M: Linearizable<T, NQ, NV>,
         C: Cost<M, T, NQ, NV>,
@@ -308,13 +281,13 @@ impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, 
         let nodes = self.motion.nodes.iter().zip(&mut self.laws).enumerate();
         for (k, (Node { state, tau }, law)) in nodes.rev() {
             let blocks = step.linear(*model, state, tau);
-            let blocks = blocks.map_err(|error| Failure::Singular { node: k, error })?;
+            let blocks = blocks.map_err(|error| NoLaw::Singular { node: k, error })?;
             sum = Quadratic::zero();
             cost.add_node(model, k, state, tau, &mut sum);
             add_value(&value, &blocks, &mut sum);
             let room = problem.room(tau);
             let found = eliminate(&sum, self.damping, room.as_ref());
-            (*law, value) = found.ok_or(Failure::Indefinite { node: k })?;
+            (*law, value) = found.ok_or(NoLaw::Indefinite { node: k })?;
             promise = [promise[0] + law.promise[0], promise[1] + law.promise[1]];
         }
         Ok(Promise {

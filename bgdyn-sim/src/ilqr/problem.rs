@@ -54,12 +54,12 @@ pub enum Iteration<T> {
         share: T,
     },
     /// The motion is as before.
-    Ended(End),
+    Ended(Ending),
 }
 
 /// Why iterations ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum Ending {
     /// The promised decrease is no larger than the tolerance.
     Converged,
     /// No step lowers the cost by a tenth of what is promised. The tolerance is below the rounding errors of the cost, or
@@ -71,18 +71,18 @@ pub enum End {
 
 /// The outcome of [`Ilqr::solve`](super::Ilqr::solve).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Outcome<T> {
+pub struct Solution<T> {
     /// Cost of the motion.
     pub cost: T,
     /// Number of iterations that have lowered the cost.
     pub iterations: usize,
     /// Why it ended.
-    pub end: End,
+    pub end: Ending,
 }
 
 /// Why there is no law.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Failure<E> {
+pub enum NoLaw<E> {
     /// The mass matrix is singular at a node.
     Singular {
         /// Number of the node.
@@ -98,7 +98,7 @@ pub enum Failure<E> {
     },
 }
 
-impl<E: fmt::Debug> fmt::Display for Failure<E> {
+impl<E: fmt::Debug> fmt::Display for NoLaw<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Singular { node, error } => {
@@ -113,4 +113,4 @@ impl<E: fmt::Debug> fmt::Display for Failure<E> {
     }
 }
 
-impl<E: fmt::Debug> core::error::Error for Failure<E> {}
+impl<E: fmt::Debug> core::error::Error for NoLaw<E> {}

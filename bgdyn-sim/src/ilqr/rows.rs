@@ -41,3 +41,9 @@ fn add_pieces<'a, T: Real, const L: usize>(
     }
     from
 }
+
+/// Returns Σ a_i b_i.
+pub(super) fn inner<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+    let pairs = a.iter().zip(b);
+    pairs.fold(T::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
+}

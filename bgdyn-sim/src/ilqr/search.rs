@@ -1,46 +1,19 @@
-//! Motions under given efforts, and the search along the laws of a sweep.
+//! The search along the laws of a sweep.
 
-use bgdyn_runtime::step::{Linearizable, State, Step};
+use bgdyn_runtime::step::Linearizable;
 use nalgebra::SVector;
 
+use super::Ilqr;
 use super::cost::Cost;
+use super::motion::roll_out;
 use super::problem::Problem;
-use super::{Ilqr, Motion, Promise};
+use super::sweep::Promise;
 use crate::real::Real;
 
 /// Shares of the step that a search tries: 1 … 2⁻⁹.
 const SHARES: usize = 10;
 /// The part of the promised decrease that is enough.
 const ENOUGH: f64 = 0.1;
-
-/// Fills a motion from its first state under `efforts(k, state)`, moved into the limits.
-#[inline]
-pub(super) fn roll_out<M, C, T, const NQ: usize, const NV: usize, const N: usize>(
-    problem: &Problem<'_, M, C, T, NV>,
-    first: &State<T, NQ, NV>,
-    motion: &mut Motion<T, NQ, NV, N>,
-    mut efforts: impl FnMut(usize, &State<T, NQ, NV>) -> SVector<T, NV>,
-) -> Result<(), T::Singular<NV>>
-where
-    M: Linearizable<T, NQ, NV>,
-    C: Cost<M, T, NQ, NV>,
-    T: Real,
-{
-    let Problem {
-        model, cost, step, ..
-    } = problem;
-    let mut state = *first;
-    let mut sum = T::from_f64(0.0);
-    for (k, node) in motion.nodes.iter_mut().enumerate() {
-        node.state = state;
-        node.tau = problem.limited(efforts(k, &state));
-        sum = sum + cost.node(model, k, &state, &node.tau);
-        state = step.next(*model, &state, &node.tau)?;
-    }
-    motion.end = state;
-    motion.cost = sum + cost.end(model, &state);
-    Ok(())
-}
 
 impl<T: Real, const NQ: usize, const NV: usize, const N: usize> Ilqr<T, NQ, NV, N> {
     /// Follows the laws with the whole step, a half … until the cost falls enough; returns the share, or `None` if no

@@ -14,8 +14,8 @@ use bgdyn_runtime::step::SemiImplicitBlocks;
 
 use super::boxed::{BoxMinimum, minimize};
 use super::cost::{Quadratic, Row};
-use super::rows::add_rows;
-use super::value::{Value, inner};
+use super::rows::{add_rows, inner};
+use super::value::Value;
 use crate::real::Real;
 
 /// The law of a node: δu = `step` − `gain` δ(q, v).
@@ -213,4 +213,18 @@ fn value_before<T: Real, const NV: usize>(
         }
     }
     value
+}
+
+/// What a sweep promises: the derivative of the cost along the laws' steps, and half of the second one.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Promise<T> {
+    pub(super) slope: T,
+    pub(super) half_curvature: T,
+}
+
+impl<T: Real> Promise<T> {
+    /// Returns by how much the cost should fall with a share of the step.
+    pub(super) fn decrease(&self, share: T) -> T {
+        -(share * (self.slope + share * self.half_curvature))
+    }
 }

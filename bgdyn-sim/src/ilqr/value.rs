@@ -4,6 +4,7 @@ use bgdyn_runtime::step::SemiImplicitBlocks;
 use nalgebra::SMatrix;
 
 use super::cost::Quadratic;
+use super::rows::inner;
 use crate::real::Real;
 
 /// A square matrix, row by row.
@@ -79,12 +80,6 @@ impl<T: Real, const NV: usize> Value<T, NV> {
             vv: plus(&plus(&self.vv, &product(columns_of_d, &moved)), &through),
         }
     }
-}
-
-/// Returns Σ a_i b_i.
-pub(super) fn inner<T: Real, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
-    let pairs = a.iter().zip(b);
-    pairs.fold(T::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
 }
 
 /// Returns the transpose.
