@@ -48,7 +48,8 @@
 //! let mut ilqr = Ilqr::<f64, 2, 2, 50>::new(&problem, &tilted, &[SVector::zeros(); 50])?;
 //! let outcome = ilqr.solve(&problem, 1e-9, 100).expect("a regular mass matrix");
 //! assert_eq!(outcome.end, Ending::Converged);
-//! assert!(ilqr.last().q.amax() < 0.05);
+//! // Effort has a cost: the pole is nearly at rest, and not quite upright.
+//! assert!(ilqr.last().v.amax() < 0.05 && ilqr.last().q[1] < 0.15);
 //! # Ok::<(), bgdyn::runtime::Singular>(())
 //! ```
 
