@@ -46,6 +46,8 @@
 //! assert!(state.q[0] > 0.0);
 //! ```
 //!
+//! [`ilqr`] finds efforts and feedback for a motion of least cost.
+//!
 //! SI units and radians, time in s, energy in J. Frames, signs and the order of spatial vectors are those
 //! of the models: see [`bgdyn_runtime`].
 //!
@@ -72,6 +74,7 @@ mod extrapolation;
 mod failure;
 mod finite_differences;
 mod gauss;
+pub mod ilqr;
 mod integrator;
 mod integrators;
 pub mod lanes;

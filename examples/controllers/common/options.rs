@@ -11,7 +11,7 @@ pub struct Options {
 /// Returns the usage text of the example.
 pub fn usage(name: &str) -> String {
     format!(
-        "Pick and place under computed torque with a generated model
+        "A generated model under control: prints a report and draws a figure
 
 Usage: cargo run --release -p controllers --example {name} [-- --out DIR]
 
