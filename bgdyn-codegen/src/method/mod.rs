@@ -175,7 +175,9 @@ impl Method {
         let (own, of_sites): (Vec<_>, Vec<_>) = Method::possible(&graph.sites)
             .into_iter()
             .partition(|method| method.site().is_none());
-        let mut all: Vec<Method> = own.into_iter().chain(drives).chain(of_sites).collect();
+        let regressors = Method::regressors_of(graph).unwrap_or_default();
+        let own = own.into_iter().chain(drives).chain(regressors);
+        let mut all: Vec<Method> = own.chain(of_sites).collect();
         let [inverse, forward] = Method::derivatives_of(graph);
         for method in &mut all {
             *method = match *method {
@@ -184,7 +186,6 @@ impl Method {
                 other => other,
             };
         }
-        all.extend(Method::regressors_of(graph).unwrap_or_default());
         if let Some(closed) = &graph.closed {
             all.extend(Method::of_closed(closed));
             all.extend(Method::ON_REQUEST);
