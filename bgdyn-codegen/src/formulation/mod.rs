@@ -48,7 +48,7 @@ pub(crate) use velocity_map::velocity_map;
 pub(crate) const LITERAL: &str = literal::NAME;
 
 /// All formulations that the user can select.
-pub static FORMULATIONS: [&dyn Formulation; 8] = [
+pub static FORMULATIONS: [&dyn Formulation; 7] = [
     &literal::Literal,
     &recursion::Recursion,
     &recursion::OwnInertia,
@@ -56,12 +56,11 @@ pub static FORMULATIONS: [&dyn Formulation; 8] = [
     &recursion::Articulated::Own,
     &recursion::Articulated::Base,
     &subspaces::Subspaces,
-    &recursion::ParameterColumns,
 ];
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
-/// make offers for any selected formulation, because those functions belong to it.
-pub(crate) static DERIVED: [&dyn Formulation; 7] = [
+/// make offers for any selected formulation, because those functions belong to it. Regressors have one formulation.
+pub(crate) static DERIVED: [&dyn Formulation; 8] = [
     &loops::Elimination,
     &base_twist::BaseTwist(0),
     &base_twist::BaseTwist(1),
@@ -69,6 +68,7 @@ pub(crate) static DERIVED: [&dyn Formulation; 7] = [
     &closed_loops::ClosedLoops,
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
+    &recursion::ParameterColumns,
 ];
 
 /// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, for joints of any type.

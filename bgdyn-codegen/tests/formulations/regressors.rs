@@ -51,6 +51,23 @@ fn regressors_of_the_golden_robots_equal_equation_6() {
     }
 }
 
+/// Joints that follow others: columns that are zero or depend on others in more ways.
+#[test]
+fn regressors_of_coupled_joints_equal_equation_6() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../specs/constraints");
+    let mut checked = 0;
+    for entry in std::fs::read_dir(folder).expect("the folder of specs") {
+        let path = entry.expect("a file").path();
+        let text = std::fs::read_to_string(&path).expect("a spec");
+        let robot = Robot::read(&text, path.file_stem().and_then(|stem| stem.to_str()));
+        if Method::regressors_of(robot.graph).is_ok() {
+            passes(robot, &path.display().to_string());
+            checked += 1;
+        }
+    }
+    assert!(checked > 1, "{checked}");
+}
+
 #[test]
 fn every_turned_sign_is_refused() {
     let robot = golden::robot("puma560");

@@ -6,6 +6,9 @@ use bgdyn_runtime::{Dd, Scalar};
 /// columns are above 1e-3, and the rounding errors below 1e-25.
 const LEAST: f64 = 1e-12;
 
+/// A column shorter than this share of the longest one consists of rounding errors of zeros.
+const ZERO: f64 = 1e-26;
+
 /// A coefficient below this share of the largest one is a rounding error.
 const NOISE: f64 = 1e-20;
 
@@ -27,6 +30,8 @@ struct UnitColumn {
 pub(super) fn independent(columns: &[Vec<Dd>]) -> Independence {
     let mut directions: Vec<UnitColumn> = Vec::new();
     let mut dependent = Vec::new();
+    let longest = columns.iter().map(|column| length(column).to_f64());
+    let longest = longest.fold(0.0, f64::max);
     for (column, values) in columns.iter().enumerate() {
         let size = length(values);
         let mut rest = values.clone();
@@ -41,7 +46,11 @@ pub(super) fn independent(columns: &[Vec<Dd>]) -> Independence {
             }
         }
         let left = length(&rest);
-        if size == Dd::ZERO || left.to_f64() <= LEAST * size.to_f64() {
+        if size.to_f64() <= ZERO * longest {
+            dependent.push((column, Vec::new()));
+            continue;
+        }
+        if left.to_f64() <= LEAST * size.to_f64() {
             dependent.push((column, solve(&directions, triangle)));
             continue;
         }
