@@ -52,7 +52,9 @@ pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
     let all = of_every
         .chain(of_loops)
         .chain([Method::DriveEfforts(0)])
-        .chain(Regressor::ALL.map(Method::Regressor));
+        .chain(Regressor::ALL.map(Method::Regressor))
+        // The class has a property of this name.
+        .filter(|method| *method != Method::Regressor(Regressor::Parameters));
     let one = |method: Method| {
         let name = method.name(&[]);
         let arguments = method.arguments().iter().map(|a| a.name()).collect();

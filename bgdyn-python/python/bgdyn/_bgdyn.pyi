@@ -301,6 +301,22 @@ class Model:
     """
     drive_efforts: MethodOfClass[_QVA[Array, Array]]
     """With prescribed joints: the efforts of their drives, N·m, N."""
+    regressor: MethodOfClass[_QVA[Array, Array]]
+    """Y(q, v, a), (..., nv, 10 nb): the efforts are Y π, with ten parameters of each body that moves."""
+    base_regressor: MethodOfClass[_QVA[Array, Array]]
+    """Y of the base parameters, (..., nv, nbp)."""
+    gravity_regressor: MethodOfClass[_Q[Array, Array]]
+    """Y(q, 0, 0), (..., nv, 10 nb)."""
+    base_gravity_regressor: MethodOfClass[_Q[Array, Array]]
+    """Y(q, 0, 0) of the base parameters, (..., nv, nbp)."""
+    momentum_regressor: MethodOfClass[_QV[Array, Array]]
+    """The momenta M v by the parameters of the bodies, (..., nv, 10 nb)."""
+    base_momentum_regressor: MethodOfClass[_QV[Array, Array]]
+    """The momenta M v by the base parameters, (..., nv, nbp)."""
+    kinetic_energy_regressor: MethodOfClass[_QV[Array, Array]]
+    """The kinetic energy by the parameters of the bodies, (..., 10 nb)."""
+    potential_energy_regressor: MethodOfClass[_Q[Array, Array]]
+    """The potential energy by the parameters of the bodies, (..., 10 nb)."""
     velocity_map: MethodOfClass[_Q[Array, Array]]
     """With loops: S(q), (..., nt, nv); the velocities of the open tree are S v."""
     tree_velocity: MethodOfClass[_QV[Array, Array]]
