@@ -115,12 +115,14 @@ fn calls_from_several_threads_do_not_disturb_each_other() {
     let tapes: Vec<_> = functions.iter().map(|f| Tape.prepare(f)).collect();
     let inputs = |seed| {
         let mut rng = Rng::new(seed);
-        let mut four = || (0..4).map(|_| rng.within(3.0)).collect::<Vec<f64>>();
+        let mut some = |n: usize| (0..n).map(|_| rng.within(3.0)).collect::<Vec<f64>>();
         Inputs {
-            q: four(),
-            v: four(),
-            a: four(),
-            u: four(),
+            q: some(4),
+            v: some(4),
+            a: some(4),
+            x: some(4),
+            // Ten parameters of each body are the longest argument.
+            u: some(40),
             ..Inputs::default()
         }
     };
