@@ -13,6 +13,10 @@ pub const NODES: usize = 50;
 /// Length of a step, s.
 pub const STEP: f64 = 0.02;
 /// Positions at the start, rad; the arm is at rest there.
+#[expect(
+    clippy::approx_constant,
+    reason = "the numbers of the recorded task, as they are"
+)]
 pub const START: [f64; JOINTS] = [
     0.0,
     -0.785398163,
