@@ -19,6 +19,8 @@ fn example(name: &str, arguments: &[&str]) -> Output {
             "puma560",
             "--example",
             "balance",
+            "--example",
+            "reach",
         ]);
         if !cfg!(debug_assertions) {
             cargo.arg("--release");
@@ -54,6 +56,11 @@ fn scara_runs() {
 #[test]
 fn puma560_runs() {
     runs("puma560");
+}
+
+#[test]
+fn reach_runs() {
+    runs("reach");
 }
 
 /// The regulator that knows of the delay ends with the pole upright, within what the sensors' noise leaves.

@@ -18,6 +18,7 @@ pub mod schema;
 pub mod simulate;
 pub mod spec_file;
 mod table;
+mod template;
 mod timing;
 mod usage;
 

@@ -1,6 +1,7 @@
 //! Base parameters: the combinations of parameters that have an effect on the efforts, found by a rank-revealing
 //! orthogonalisation of the regressor at random states.
 
+use bgdyn_runtime::random::Random;
 use nalgebra::{DMatrix, DVector};
 
 use crate::model::{BODY_PARAMETERS, Model, Unknown, joint_columns};
@@ -73,7 +74,8 @@ fn order(model: &Model<'_>, free: &[Unknown]) -> Vec<usize> {
 fn random_rows(model: &Model<'_>, free: &[Unknown]) -> DMatrix<f64> {
     let n = model.joints.len();
     let states = 60.max(12 * n);
-    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut random = Random(1);
+    let mut within = |most: f64| most * random.signed();
     let mut rows = DMatrix::zeros(states * n, free.len());
     let mut of_bodies = DMatrix::zeros(n, BODY_PARAMETERS * model.rows.bodies());
     for s in 0..states {
@@ -81,10 +83,10 @@ fn random_rows(model: &Model<'_>, free: &[Unknown]) -> DMatrix<f64> {
         let q: Vec<f64> = model
             .joints
             .iter()
-            .map(|j| random.within(spread(j.linear)))
+            .map(|j| within(spread(j.linear)))
             .collect();
-        let v: Vec<f64> = (0..n).map(|_| random.within(2.0)).collect();
-        let a: Vec<f64> = (0..n).map(|_| random.within(4.0)).collect();
+        let v: Vec<f64> = (0..n).map(|_| within(2.0)).collect();
+        let a: Vec<f64> = (0..n).map(|_| within(4.0)).collect();
         model.rows.effort_rows(&q, &v, &a, &mut of_bodies);
         let of_links = model.rows_of_links(&of_bodies);
         for (column, unknown) in free.iter().enumerate() {
@@ -157,18 +159,4 @@ fn combinations(rows: &DMatrix<f64>, kept: &[usize]) -> DMatrix<f64> {
         }
     }
     map
-}
-
-/// Random numbers (xorshift64*, Vigna 2016), the same in every run.
-struct Random(u64);
-
-impl Random {
-    /// Returns a number between −`most` and `most`.
-    fn within(&mut self, most: f64) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        let bits = self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11;
-        most * (bits as f64 / (1_u64 << 52) as f64 - 1.0)
-    }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use bgdyn_runtime::Digits;
+
 /// A fault of a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LogFault {
@@ -103,6 +105,5 @@ impl LogFaults {
 
 /// Returns a number with four digits.
 pub(crate) fn short(x: f64) -> String {
-    let text = format!("{x:.3e}");
-    text.parse::<f64>().map_or(text, |x| x.to_string())
+    Digits::new(x, 4).to_string()
 }

@@ -35,7 +35,7 @@ pub struct Samples {
     pub step: f64,
 }
 
-/// Returns the filtered rows of a log; tells the finished share to `progress`.
+/// Returns the filtered rows of a log; calls `progress` with the finished share.
 pub fn prepare(
     model: &Model<'_>,
     log: &EvenLog,

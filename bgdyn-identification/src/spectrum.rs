@@ -21,7 +21,7 @@ const HIGHEST: f64 = 0.2;
 
 /// Returns the default cut, Hz: the frequency above which 1e-4 of the power of the accelerations is left, but at least
 /// five times the highest excited one; the largest of all joints. Noise has no part in it: its floor is the median of
-/// the upper half of the spectrum, and only what stands out of it counts.
+/// the upper half of the spectrum, and only what exceeds it counts.
 pub fn default_cut(log: &EvenLog) -> f64 {
     let rate = 1.0 / log.step;
     let cuts = log.q.iter().map(|q| cut_of(q, rate));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bgdyn_cli::graph::mechanism_svg;
 use bgdyn_cli::spec_file::SpecFile;
-use bgdyn_codegen::method::Method;
+use bgdyn_codegen::method::{Method, Regressor};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyAttributeError, PyValueError};
 use pyo3::prelude::*;
@@ -392,6 +392,9 @@ impl Model {
 
     fn method_names(&self) -> Vec<String> {
         let all = Method::possible_of(&self.data.spec.graph);
-        all.into_iter().map(|m| self.data.spec.name_of(m)).collect()
+        // The property `parameters` has the name of a method.
+        let shown = |method: &Method| *method != Method::Regressor(Regressor::Parameters);
+        let all = all.into_iter().filter(shown);
+        all.map(|m| self.data.spec.name_of(m)).collect()
     }
 }

@@ -11,9 +11,18 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::selection;
 use bgdyn_codegen::verify::{check_model, explain};
 
-fn options(derivatives: bool) -> Options {
+/// Models compiled with regressors.
+const WITH_REGRESSORS: [&str; 2] = ["scara", "tree_04"];
+
+/// Returns whether the model of a spec has regressors.
+fn has_regressors(path: &Path) -> bool {
+    WITH_REGRESSORS.contains(&stem(path).as_str())
+}
+
+fn options(path: &Path, derivatives: bool) -> Options {
     Options {
         derivatives,
+        identification: has_regressors(path),
         ..Options::default()
     }
 }
@@ -24,7 +33,7 @@ pub fn model(path: &Path, derivatives: bool) -> Model {
     let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem(path)));
     let shown = path.display().to_string();
     let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&shown, &text)));
-    selection::model(mechanism, &options(derivatives)).expect("no name is asked for")
+    selection::model(mechanism, &options(path, derivatives)).expect("no name is asked for")
 }
 
 /// The model of a spec, compared with equation (6), and the text of its module.
@@ -40,6 +49,9 @@ pub fn model_and_text(path: &Path, derivatives: bool) -> (Model, String) {
 
 /// The text of its module, as a user's build script has it.
 pub fn source(path: &Path, derivatives: bool) -> String {
-    let source = Build::new(path).derivatives(derivatives).source();
+    let source = Build::new(path)
+        .derivatives(derivatives)
+        .identification(has_regressors(path))
+        .source();
     source.unwrap_or_else(|error| panic!("{error}")).text
 }

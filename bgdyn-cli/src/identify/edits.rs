@@ -104,10 +104,5 @@ pub(super) fn written(x: f64) -> String {
 
 /// Returns a number with so many significant digits.
 pub(super) fn digits(x: f64, count: usize) -> String {
-    let text = format!("{x:.*e}", count - 1);
-    let short = text.parse::<f64>().unwrap_or(x);
-    match short != 0.0 && short.abs() < 1e-4 {
-        true => format!("{short:e}"),
-        false => short.to_string(),
-    }
+    Digits::new(x, count).plain(-4..count as i32).to_string()
 }

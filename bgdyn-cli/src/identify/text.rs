@@ -2,15 +2,14 @@
 
 use bgdyn_identification::model::{JOINT_COLUMNS, Model, Unknown};
 use bgdyn_identification::{Identification, pseudo_inertia::to_centre};
+use bgdyn_runtime::Digits;
 
 use super::IdentifiedMachine;
 use super::json::number;
 
 /// Returns a number with four digits.
 pub(super) fn short(x: f64) -> String {
-    format!("{x:.3e}")
-        .parse::<f64>()
-        .map_or_else(|_| x.to_string(), |x| x.to_string())
+    Digits::new(x, 4).to_string()
 }
 
 /// Returns what the log is, how it was used, and what it does not say.

@@ -202,7 +202,7 @@ fn each_fault_is_refused_at_its_place() {
             }),
             &[
                 "[constant-channel]",
-                "joint `lift` stands at 0.5",
+                "joint `lift` stays at 0.5",
                 "effort of joint `bend` is 1",
             ],
         ),

@@ -1,9 +1,12 @@
 //! Values of the literal sum at a state, which the laws of several methods read.
 
+use std::cell::OnceCell;
+
 use bgdyn_runtime::Dd;
 
 use super::compare::{largest, minus, turned};
 use super::dual::{Direction, along, rates, with_rates};
+use super::regressor::LiteralRegressors;
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::formulation::{Prepared, create, specification};
@@ -14,6 +17,8 @@ use crate::method::Method;
 pub(super) struct LiteralValues<'a> {
     pub(super) prepared: Prepared<'a>,
     pub(super) inverse: Function,
+    /// What the laws of regressors read, created on demand.
+    regressors: OnceCell<Option<LiteralRegressors>>,
 }
 
 impl<'a> LiteralValues<'a> {
@@ -22,6 +27,7 @@ impl<'a> LiteralValues<'a> {
         let inverse = create(specification(), &prepared, Method::InverseDynamics);
         LiteralValues {
             inverse: inverse.expect("the literal sum knows inverse dynamics"),
+            regressors: OnceCell::new(),
             prepared,
         }
     }
@@ -29,6 +35,12 @@ impl<'a> LiteralValues<'a> {
     /// Returns the method by the literal sum.
     pub(super) fn form(&self, method: Method) -> Option<Function> {
         create(specification(), &self.prepared, method)
+    }
+
+    /// Returns what the laws of regressors read.
+    pub(super) fn regressors(&self) -> Option<&LiteralRegressors> {
+        let new = || LiteralRegressors::new(&self.prepared);
+        self.regressors.get_or_init(new).as_ref()
     }
 
     /// Returns P(q, v, a), with all other arguments as in `at`.

@@ -143,12 +143,8 @@ impl Subject<'_> {
     /// Returns the first law that a regressor violates at this state.
     fn check_regressor(&self, of: Regressor, state: &State) -> Option<Difference> {
         let at = &regressor::extended(&state.at);
-        let mut graph = self.literal.prepared.graph.clone();
-        graph.multibody.rotors.clear();
-        let without_rotors = LiteralValues::new(&graph);
-        let efforts = without_rotors.efforts(at, &at.v, &at.a);
-        let prepared = &self.literal.prepared;
-        let laws = regressor::laws(prepared, (of, self.function), at, &efforts)?;
+        let read = (&self.literal.prepared, self.literal.regressors()?);
+        let laws = regressor::laws(read, (of, self.function), at)?;
         laws.into_iter().find_map(|(text, found, expected, size)| {
             let law = Law {
                 text,

@@ -6,7 +6,7 @@ use bgdyn_runtime::Dd;
 
 use super::compare::{dot, largest, minus, plus, times};
 use crate::expr::Inputs;
-use crate::formulation::{Prepared, create};
+use crate::formulation::{Prepared, columns, create, specification};
 use crate::function::Function;
 use crate::method::{Method, Regressor};
 use crate::random::Random;
@@ -14,10 +14,37 @@ use crate::random::Random;
 /// A law, its two sides, and the size of their terms.
 pub(super) type RegressorLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
-/// What the laws read: the literal regressor, K, and any parameters.
-struct Reference<'a> {
+/// The functions that the laws of regressors read.
+pub(super) struct LiteralRegressors {
+    /// Y by equation (6).
     whole: Function,
+    /// K π.
     base: Function,
+    /// P(q, v, a) by equation (6), without rotors.
+    without_rotors: Function,
+}
+
+impl LiteralRegressors {
+    pub(super) fn new(prepared: &Prepared<'_>) -> Option<Self> {
+        let mut graph = prepared.graph.clone();
+        graph.multibody.rotors.clear();
+        let bare = Prepared::new(&graph);
+        let base = Method::Regressor(Regressor::BaseParameters);
+        Some(LiteralRegressors {
+            whole: literal(prepared, Method::Regressor(Regressor::Full))?,
+            base: create(columns(), prepared, base)?,
+            without_rotors: literal(&bare, Method::InverseDynamics)?,
+        })
+    }
+}
+
+fn literal(prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+    create(specification(), prepared, method)
+}
+
+/// The literal functions, any parameters, and the state.
+struct Reference<'a> {
+    of: &'a LiteralRegressors,
     parameters: Vec<Dd>,
     at: &'a Inputs<Dd>,
 }
@@ -30,7 +57,7 @@ impl Reference<'_> {
             a: a.to_vec(),
             ..self.at.clone()
         };
-        times(&self.whole.evaluate(inputs).0, &self.parameters)
+        times(&self.of.whole.evaluate(inputs).0, &self.parameters)
     }
 
     /// Returns Y(q, 0, a) π.
@@ -75,7 +102,7 @@ impl Reference<'_> {
             u: self.parameters.clone(),
             ..Inputs::default()
         };
-        self.base.evaluate(inputs).0
+        self.of.base.evaluate(inputs).0
     }
 }
 
@@ -90,28 +117,18 @@ pub(super) fn extended(at: &Inputs<Dd>) -> Inputs<Dd> {
     Inputs { x, u, ..at.clone() }
 }
 
-/// Returns the laws of a regressor at an [`extended`] state. `efforts` are P(q, v, a), without the rotors.
+/// Returns the laws of a regressor at an [`extended`] state.
 pub(super) fn laws(
-    prepared: &Prepared<'_>,
+    (prepared, literals): (&Prepared<'_>, &LiteralRegressors),
     (regressor, function): (Regressor, &Function),
     at: &Inputs<Dd>,
-    efforts: &[Dd],
 ) -> Option<Vec<RegressorLaw>> {
-    let literal = |of| {
-        create(
-            crate::formulation::specification(),
-            prepared,
-            Method::Regressor(of),
-        )
-    };
     let mut random = Random(29);
     let count = 10 * prepared.graph.moving_links().len();
     let number = |_| Dd::from_f64(random.signed());
     let parameters: Vec<Dd> = (0..count).map(number).collect();
-    let base = Method::Regressor(Regressor::BaseParameters);
     let of = Reference {
-        whole: literal(Regressor::Full)?,
-        base: create(crate::formulation::columns(), prepared, base)?,
+        of: literals,
         parameters,
         at,
     };
@@ -150,37 +167,35 @@ pub(super) fn laws(
             vec![dot(&at.v, &of.momenta(&at.v)) * Dd::from_f64(0.5)],
         ),
         Regressor::PotentialEnergy => {
-            let expected = literal(regressor)?.evaluate(at.clone()).0;
+            let expected = literal(prepared, Method::Regressor(regressor))?;
+            let expected = expected.evaluate(at.clone()).0;
             ("its literal form", found, expected)
         }
         Regressor::Parameters => {
-            let expected = literal(regressor)?.evaluate(at.clone()).0;
+            let expected = literal(prepared, Method::Regressor(regressor))?;
+            let expected = expected.evaluate(at.clone()).0;
             let own = Reference {
                 parameters: found.clone(),
                 ..of
             };
-            let size = largest(efforts);
+            let efforts = literals.without_rotors.evaluate(at.clone()).0;
+            let size = largest(&efforts);
             let moved = own.efforts(&at.v, &at.a);
             return Some(vec![
                 ("its literal form", found, expected, 0.0),
-                (
-                    "Y π = P(q, v, a) without rotors",
-                    moved,
-                    efforts.to_vec(),
-                    size,
-                ),
+                ("Y π = P(q, v, a) without rotors", moved, efforts, size),
             ]);
         }
         // Its laws are those of the regressors of base parameters.
         Regressor::BaseParameters => {
             let base = Method::Regressor(Regressor::Base);
-            let columns = create(crate::formulation::columns(), prepared, base)?;
-            let columns = columns.evaluate(at.clone()).0;
+            let by_base = create(columns(), prepared, base)?;
+            let by_base = by_base.evaluate(at.clone()).0;
             let own = function.evaluate(Inputs {
                 u: of.parameters.clone(),
                 ..at.clone()
             });
-            let efforts = times(&columns, &own.0);
+            let efforts = times(&by_base, &own.0);
             ("Y_b K π = Y π", efforts, of.efforts(&at.v, &at.a))
         }
     };

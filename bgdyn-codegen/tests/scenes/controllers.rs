@@ -172,6 +172,14 @@ fn wrong_controllers_and_limits_are_refused() {
         assert!(shown.contains(message), "{shown}");
         assert!(shown.contains(help), "{shown}");
     }
+    let limited = BLOCK.replace("upper: 200 mm", "upper: 200 mm, effort: 3 N");
+    let beyond = "inputs: { slide: { constant: 7 N, limit: [5 N, 9 N] } }\neffort_limits: true\n";
+    let beyond = text(&["inertia"], beyond);
+    let shown = told(&try_scene(&beyond, &limited).expect_err("limits"), &beyond);
+    assert!(
+        shown.contains("within the limits 5 … 9 and within the effort 3"),
+        "{shown}"
+    );
     let push = text(
         &["push: { type: wrench, at: hook, components: [fx] }"],
         "inputs: { push_fx: { constant: 1, limit: 2 } }\n",

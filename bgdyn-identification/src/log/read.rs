@@ -222,7 +222,7 @@ impl Table {
         };
         if time <= before {
             let word = if time == before {
-                "stands"
+                "does not advance"
             } else {
                 "runs back"
             };

@@ -35,7 +35,7 @@ pub fn unsound(log: &Log, quality: &Quality, joints: &[JointPart]) -> Vec<LogFau
     for (j, joint) in joints.iter().enumerate() {
         let [low, high] = quality.joints[j].range;
         if high - low < 1e-9 {
-            let message = format!("joint `{}` stands at {} throughout", joint.name, short(low));
+            let message = format!("joint `{}` stays at {}", joint.name, short(low));
             let help = "move it, or make it `fixed` in the spec at this position";
             faults.push(LogFault::whole("constant-channel", message).with_help(help));
         }

@@ -4,8 +4,9 @@
 //! [`SemiImplicit`] with one evaluation of the accelerations, [`Rk4`] with four. [`Step::linear`] returns the derivatives
 //! of exactly that map, rounding errors apart: not those of the differential equation.
 //!
-//! Small changes of positions are **along the tangent**, as in [`crate::Derivatives`]: δq stands for
-//! `integrate(q, δq)`, and δq⁺ for `integrate(q⁺, δq⁺)`; it has as many components as v. Where q̇ = v, these are plain
+//! Small changes of positions are **along the tangent**, as in [`crate::Derivatives`]: they are displacements
+//! of `integrate`. δq leads from q to `integrate(q, δq)`, and δq⁺ from q⁺ to `integrate(q⁺, δq⁺)`; both have as many
+//! components as v. Where q̇ = v, these are plain
 //! partial derivatives. At planar, spherical and floating joints δq is in the link axes of q, and δq⁺ in those of q⁺.
 //!
 //! | | model has | blocks |

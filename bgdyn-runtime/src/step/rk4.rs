@@ -27,7 +27,7 @@ pub struct Rk4Blocks<T: Scalar, const NV: usize> {
     pub v: [SMatrix<T, NV, NV>; 3],
 }
 
-/// Shares of a step after which stages 2, 3 and 4 stand.
+/// Shares of a step at which the rates of stages 2, 3 and 4 are evaluated.
 const SHARES: [f64; 3] = [0.5, 0.5, 1.0];
 /// Weights of the rates, in sixths.
 const WEIGHTS: [f64; 4] = [1.0, 2.0, 2.0, 1.0];

@@ -21,6 +21,21 @@ pub struct State<T> {
     pub tau: Vec<T>,
 }
 
+impl<T: Scalar> State<T> {
+    /// Returns an argument of a method by its name. Those of regressors have the numbers of the efforts, from the start
+    /// again where they are longer.
+    fn argument<const N: usize>(&self, name: &str) -> SVector<T, N> {
+        let numbers = match name {
+            "q" => &self.q,
+            "v" => &self.v,
+            "a" | "a_r" => &self.a,
+            "tau" | "v_r" | "s" | "pi" => &self.tau,
+            other => panic!("no method has the argument `{other}`"),
+        };
+        SVector::from_iterator(numbers.iter().copied().cycle().take(N))
+    }
+}
+
 /// A result: matrices row by row, or the error of a singular mass matrix as text.
 pub type Outcome<T> = Result<Vec<T>, String>;
 
@@ -68,7 +83,7 @@ macro_rules! compiled {
 
             fn run(&self, method: usize, state: &State<T>) -> Outcome<T> {
                 match method {
-                    $($number => flat::$flat(self.$method($(&vector(&state.$argument)),*)),)*
+                    $($number => flat::$flat(self.$method($(&state.argument(stringify!($argument))),*)),)*
                     _ => panic!("no method has the number {method}"),
                 }
             }

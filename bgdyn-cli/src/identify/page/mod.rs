@@ -5,30 +5,21 @@ use bgdyn_identification::{Identification, deviations::UNSEEN};
 use serde_json::{Value, json};
 
 use super::json::number;
+use crate::template::{embedded, filled};
 
 /// Largest number of rows of a plot: for more, rows are left out.
 const ROWS: usize = 1500;
 
 /// Returns the page.
 pub(crate) fn page(name: &str, model: &Model<'_>, found: &Identification, summary: &str) -> String {
-    // `<` could end the data in a page.
-    let data = data(name, model, found, summary)
-        .to_string()
-        .replace('<', "\\u003c");
+    let data = embedded(&data(name, model, found, summary).to_string());
     let parts = [
         ("@NAME@", name),
         ("@STYLE@", include_str!("style.css")),
         ("@DATA@", &data),
         ("@SCRIPT@", include_str!("report.js")),
     ];
-    let (mut page, mut rest) = (String::new(), include_str!("page.html"));
-    for (mark, text) in parts {
-        let (before, after) = rest.split_once(mark).unwrap_or((rest, ""));
-        page += before;
-        page += text;
-        rest = after;
-    }
-    page + rest
+    filled(include_str!("page.html"), &parts)
 }
 
 fn data(name: &str, model: &Model<'_>, found: &Identification, summary: &str) -> Value {

@@ -16,6 +16,7 @@ use self::poses::{TURN, poses, turns};
 use super::difference::range;
 use super::report::{changes, short};
 use super::run_table::{Column, Record, Row};
+use crate::template::{embedded, filled};
 
 /// Largest number of poses in a page: for more, rows are omitted.
 const POSES: usize = 36_000;
@@ -94,23 +95,14 @@ struct Energy {
 /// Returns the page of a run.
 pub fn page(system: &SceneEquations, columns: &[Column], run: &Record, words: &Words) -> String {
     let data = serde_json::to_string(&data(system, columns, run, words));
-    // `<` could end the data in a page.
-    let data = data.unwrap_or_default().replace('<', "\\u003c");
-    let mut page = String::new();
-    let mut rest = include_str!("page.html");
+    let data = embedded(&data.unwrap_or_default());
     let parts = [
         ("@NAME@", words.name.as_str()),
         ("@STYLE@", include_str!("style.css")),
         ("@DATA@", &data),
         ("@SCRIPT@", &PARTS.concat()),
     ];
-    for (mark, text) in parts {
-        let (before, after) = rest.split_once(mark).unwrap_or((rest, ""));
-        page += before;
-        page += text;
-        rest = after;
-    }
-    page + rest
+    filled(include_str!("page.html"), &parts)
 }
 
 fn data<'a>(

@@ -260,6 +260,18 @@ pub(crate) fn not_a_limit(location: &Location, least: f64, most: f64) -> Fault {
         .with_help("write a positive number, `limit: 20`, or both limits, `limit: [-5, 20]`")
 }
 
+pub(crate) fn limit_beyond_effort(
+    location: &Location,
+    [low, high]: [f64; 2],
+    effort: f64,
+) -> Fault {
+    let message = format!(
+        "no value is within the limits {low} … {high} and within the effort {effort} of the joint in the mechanism's file"
+    );
+    Fault::new(location, "limit", message)
+        .with_help("write limits that reach into that range, or leave `effort_limits` out")
+}
+
 pub(crate) fn limit_without_effort(location: &Location, name: &str) -> Fault {
     let message = format!("`{name}` is not what a drive gives: it has no `limit`");
     Fault::new(location, "limit", message)

@@ -174,7 +174,7 @@ fn sizes(raw: &Raw, channels: &[Channel<'_>], numbers: &mut [f64], faults: &mut 
         true
     };
     if !raw.is_mapping() {
-        // One mistake of a number for all is told once.
+        // A wrong number for all channels is reported once.
         let _ = channels.iter().all(|&channel| read(raw, channel, faults));
         return;
     }

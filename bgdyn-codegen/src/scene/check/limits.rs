@@ -57,13 +57,24 @@ pub(super) fn limits(
             continue;
         }
         if let Some([low, high]) = read(entry, part.dimension, faults) {
-            limits[i] = Some(match limits[i] {
+            let both = match limits[i] {
                 Some([least, most]) => [
                     if low < least { least } else { low },
                     if most < high { most } else { high },
                 ],
                 None => [low, high],
-            });
+            };
+            if both[1] <= both[0] {
+                let effort = limits[i].map_or(0.0, |[_, most]| most.to_f64());
+                let written = [low.to_f64(), high.to_f64()];
+                faults.push(wording::limit_beyond_effort(
+                    &entry.location,
+                    written,
+                    effort,
+                ));
+                continue;
+            }
+            limits[i] = Some(both);
         }
     }
     limits

@@ -75,12 +75,15 @@ pub(crate) fn draw<T: Tested>(rng: &mut Rng, motions: &[Motion]) -> State<T> {
 
 /// Converts a state to the evaluator's inputs.
 pub(crate) fn inputs<T: Scalar>(state: State<T>) -> Inputs<T> {
+    // Parameters of bodies are the longest argument: see `compiled::State::argument`.
+    let longest = 10 * state.tau.len();
+    let efforts = state.tau.iter().copied().cycle().take(longest).collect();
     Inputs {
         q: state.q,
         v: state.v,
         a: state.a,
-        u: state.tau,
-        x: vec![],
+        u: efforts,
+        x: state.tau,
         modes: vec![],
         parameters: vec![],
         t: None,

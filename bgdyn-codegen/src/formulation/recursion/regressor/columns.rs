@@ -73,7 +73,7 @@ impl<'a, 'g> Columns<'a, 'g> {
             GivenMotion::TwoVelocities => {
                 let rates = [&x.v[..], &x.reference_v[..]];
                 let [first, second] = rates.map(|rates| self.velocities(rates));
-                let moving = two_velocities::motions(b, frames, [&first, &second], rates);
+                let moving = two_velocities::motions(b, frames, [&first, &second], rates, &x.a);
                 let moving = moving.into_iter();
                 moving.map(|body| (body.angular, body.a)).collect()
             }
@@ -83,7 +83,7 @@ impl<'a, 'g> Columns<'a, 'g> {
     /// Returns the velocities of the bodies for these rates, and that of a base that is given.
     fn velocities(&self, rates: &[Expr<'g>]) -> Vec<BodyTwist<'g>> {
         let base = |frame: &BodyFrame<'g>| match (frame.given, &frame.relative) {
-            (true, Some([velocity, _])) => Some(*velocity),
+            (true, Some([velocity, _])) => Some(velocity.into()),
             _ => None,
         };
         twists(self.b, &self.frames, rates, base)

@@ -22,6 +22,15 @@ pub(super) struct BodyTwist<'g> {
     pub linear: Vec3<Expr<'g>>,
 }
 
+impl<'g> From<&Column<Expr<'g>>> for BodyTwist<'g> {
+    fn from(column: &Column<Expr<'g>>) -> Self {
+        BodyTwist {
+            angular: column.angular,
+            linear: column.linear,
+        }
+    }
+}
+
 impl<'g> BodyTwist<'g> {
     fn zero(b: &'g Builder) -> Self {
         BodyTwist {
@@ -127,12 +136,25 @@ fn add<'g>(b: &'g Builder, found: &mut Vec<CoordinateDirection<'g>>, own: Coordi
     };
 }
 
+/// Returns the twist of a body relative to its parent, for these rates of the coordinates.
+pub(super) fn of_joint<'g>(
+    b: &'g Builder,
+    frame: &BodyFrame<'g>,
+    rates: &[Expr<'g>],
+) -> BodyTwist<'g> {
+    let columns = frame.columns.iter();
+    let of = |column: &JointColumn| {
+        BodyTwist::of_column(b, column, rates[column.coordinate] * column.effort)
+    };
+    columns.map(of).fold(BodyTwist::zero(b), BodyTwist::plus)
+}
+
 /// Returns the twist of each body for these rates of the coordinates, and the velocity `given` of a body.
 pub(super) fn twists<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     rates: &[Expr<'g>],
-    given: impl Fn(&BodyFrame<'g>) -> Option<Column<Expr<'g>>>,
+    given: impl Fn(&BodyFrame<'g>) -> Option<BodyTwist<'g>>,
 ) -> Vec<BodyTwist<'g>> {
     let mut all: Vec<BodyTwist<'g>> = Vec::new();
     for frame in &frames.bodies {
@@ -140,15 +162,8 @@ pub(super) fn twists<'g>(
         let carried = frame
             .parent
             .map_or_else(|| BodyTwist::zero(b), |p| all[p].outwards(b, frame));
-        let given = given(frame).map(|velocity| BodyTwist {
-            angular: velocity.angular,
-            linear: velocity.linear,
-        });
-        let carried = given.into_iter().fold(carried, BodyTwist::plus);
-        let own = frame.columns.iter().map(|column| {
-            BodyTwist::of_column(b, column, rates[column.coordinate] * column.effort)
-        });
-        all.push(own.fold(carried, BodyTwist::plus));
+        let own = given(frame).unwrap_or_else(|| of_joint(b, frame, rates));
+        all.push(carried.plus(own));
     }
     all
 }

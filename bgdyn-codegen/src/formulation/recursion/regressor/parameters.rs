@@ -1,6 +1,6 @@
 //! The parameters of the bodies, the base parameters of any parameters, and their names.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, Digits};
 
 use super::super::base_parameters::point;
 use super::super::geometry::Geometry;
@@ -75,19 +75,9 @@ fn formula(row: &CoefficientRow, bodies: &[&str]) -> String {
         };
         let size = factor.to_f64().abs();
         if size != 1.0 {
-            text += &format!("{} ", digits(size));
+            text += &format!("{} ", Digits::new(size, 6));
         }
         text += &format!("{body}.{name}");
     }
     text
-}
-
-/// Returns a positive number with six significant digits, without zeros at the end.
-fn digits(x: f64) -> String {
-    let places = 5 - x.log10().floor() as i32;
-    let text = format!("{x:.*}", places.clamp(0, 17) as usize);
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').into(),
-        false => text,
-    }
 }

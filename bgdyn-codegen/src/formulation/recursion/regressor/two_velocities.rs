@@ -6,14 +6,12 @@
 use bgdyn_runtime::Dd;
 
 use super::super::frames::{BodyFrame, Frames};
-use super::super::joint_columns::ColumnDirection;
 use super::super::motion::zero;
-use super::directions::BodyTwist;
+use super::directions::{BodyTwist, of_joint};
 use super::wrenches::Angular;
 use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::Motion;
-use crate::mechanism::joint::Column;
 
 /// Motion of a body with two velocities, in its axes.
 pub(super) struct Bilinear<'g> {
@@ -30,6 +28,7 @@ pub(super) fn motions<'g>(
     frames: &Frames<'g>,
     [first, second]: [&[BodyTwist<'g>]; 2],
     rates: [&[Expr<'g>]; 2],
+    accelerations: &[Expr<'g>],
 ) -> Vec<Bilinear<'g>> {
     let mut moving: Vec<Bilinear<'g>> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
@@ -63,9 +62,19 @@ pub(super) fn motions<'g>(
             omegas,
         };
         let after = [first[j].angular, second[j].angular];
-        moving.push(outwards(b, frame, &before, after, rates));
+        let joint = JointMotion {
+            velocities: rates.map(|rates| joint_velocity(b, frame, rates)),
+            change: joint_change(b, frame, accelerations),
+        };
+        moving.push(outwards(b, frame, &before, after, &joint));
     }
     moving
+}
+
+/// Motion of a body relative to its parent, in its axes: two velocities, and the acceleration.
+struct JointMotion<'g> {
+    velocities: [BodyTwist<'g>; 2],
+    change: BodyTwist<'g>,
 }
 
 /// Motion of a parent, in its axes.
@@ -85,21 +94,20 @@ fn outwards<'g>(
     frame: &BodyFrame<'g>,
     before: &Before<'g>,
     omegas: [Vec3<Expr<'g>>; 2],
-    rates: [&[Expr<'g>]; 2],
+    joint: &JointMotion<'g>,
 ) -> Bilinear<'g> {
     let back = frame.twist.transpose().map(|x| b.constant(x));
     let turned = |v: Vec3<Expr<'g>>| frame.turn.apply_back(back * v);
-    let joints = rates.map(|rates| joint_velocity(b, frame, rates));
+    let JointMotion { velocities, change } = joint;
     let carried = before.omegas.map(turned);
     // The joint's axis in the parent's axes.
     let u_along_axis = before.u * frame.twist.map(|x| b.constant(x)).column(2);
-    let change = joint_change(b, frame);
     let coupled = half_sum(
-        carried[0].cross(joints[1].angular),
-        carried[1].cross(joints[0].angular),
+        carried[0].cross(velocities[1].angular),
+        carried[1].cross(velocities[0].angular),
     );
     let omega_dot = turned(before.omega_dot) + coupled + change.angular;
-    let across = |k: usize| (carried[k] + omegas[k]).cross(joints[1 - k].linear);
+    let across = |k: usize| (carried[k] + omegas[k]).cross(velocities[1 - k].linear);
     let a = turned(before.a + before.u * frame.position_in_parent)
         + half_sum(across(0), across(1))
         + change.linear;
@@ -190,49 +198,21 @@ fn half_sum<'g>(x: Vec3<Expr<'g>>, y: Vec3<Expr<'g>>) -> Vec3<Expr<'g>> {
 }
 
 /// Returns the velocity of a body relative to its parent, in its axes.
-fn joint_velocity<'g>(
-    b: &'g Builder,
-    frame: &BodyFrame<'g>,
-    rates: &[Expr<'g>],
-) -> Column<Expr<'g>> {
-    let mut sum = Column {
-        angular: zero(b),
-        linear: zero(b),
-    };
-    if let (true, Some([velocity, _])) = (frame.given, &frame.relative) {
-        return *velocity;
+fn joint_velocity<'g>(b: &'g Builder, frame: &BodyFrame<'g>, rates: &[Expr<'g>]) -> BodyTwist<'g> {
+    match (frame.given, &frame.relative) {
+        (true, Some([velocity, _])) => velocity.into(),
+        _ => of_joint(b, frame, rates),
     }
-    for column in &frame.columns {
-        let rate = rates[column.coordinate] * column.effort;
-        let (angular, linear) = (&mut sum.angular.0, &mut sum.linear.0);
-        match column.direction {
-            ColumnDirection::About(k) => angular[k] = angular[k] + rate,
-            ColumnDirection::Along(k) => linear[k] = linear[k] + rate,
-            ColumnDirection::Screw(pitch) => {
-                angular[2] = angular[2] + rate;
-                linear[2] = linear[2] + rate * pitch;
-            }
-        }
-    }
-    sum
 }
 
 /// Returns the acceleration of a body relative to its parent that its joint's accelerations give, in its axes.
-fn joint_change<'g>(b: &'g Builder, frame: &BodyFrame<'g>) -> Column<Expr<'g>> {
-    if let Some([_, change]) = &frame.relative {
-        return *change;
+fn joint_change<'g>(
+    b: &'g Builder,
+    frame: &BodyFrame<'g>,
+    accelerations: &[Expr<'g>],
+) -> BodyTwist<'g> {
+    match &frame.relative {
+        Some([_, change]) => change.into(),
+        None => of_joint(b, frame, accelerations),
     }
-    let mut change = Column {
-        angular: zero(b),
-        linear: zero(b),
-    };
-    match frame.columns[0].direction {
-        ColumnDirection::About(_) => change.angular.0[2] = frame.acceleration,
-        ColumnDirection::Along(_) => change.linear.0[2] = frame.acceleration,
-        ColumnDirection::Screw(pitch) => {
-            change.angular.0[2] = frame.acceleration;
-            change.linear.0[2] = frame.acceleration * pitch;
-        }
-    }
-    change
 }

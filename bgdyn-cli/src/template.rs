@@ -1,0 +1,18 @@
+//! Fills the templates of self-contained pages.
+
+/// Returns JSON as it can be written into a page: `<` could end its element.
+pub(crate) fn embedded(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+/// Returns the template with a text in place of each mark, in the order of the template. Marks in these texts stay.
+pub(crate) fn filled(template: &str, parts: &[(&str, &str)]) -> String {
+    let (mut page, mut rest) = (String::new(), template);
+    for (mark, text) in parts {
+        let (before, after) = rest.split_once(mark).unwrap_or((rest, ""));
+        page += before;
+        page += text;
+        rest = after;
+    }
+    page + rest
+}
