@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use bgdyn_runtime::Digits;
+
 /// A number that is replaced.
 pub(super) struct NewNumber {
     /// The number.
