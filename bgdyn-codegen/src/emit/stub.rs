@@ -18,7 +18,7 @@ use crate::bond_graph::{JointSegment, Site};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
-use crate::method::{Argument, Method};
+use crate::method::{Argument, Method, Regressor};
 use crate::name::is_identifier;
 
 /// Returns the module with bodies that never run.
@@ -38,6 +38,7 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     let prescribed = interface.prescribed.len();
     let mut possible = Method::possible(&sites);
     possible.extend((prescribed > 0).then_some(Method::DriveEfforts(prescribed)));
+    possible.extend(Regressor::ALL.map(Method::Regressor));
     let methods = possible.iter();
     let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();
@@ -110,6 +111,10 @@ fn constants(interface: &Interface) -> TokenStream {
         pub const JOINT_LABELS: [&str; NV] = [#(#joints),*];
         /// Names of the links, parents before children.
         pub const LINK_NAMES: [&str; #count] = [#(#links),*];
+        /// Names of the bodies of regressors.
+        pub const BODY_NAMES: [&str; NV] = JOINT_NAMES;
+        /// The base parameters.
+        pub const BASE_PARAMETERS: [&str; 10 * NV] = [""; 10 * NV];
         /// The kind of each velocity: angular or linear.
         pub const JOINT_MOTIONS: [__rt::Motion; NV] = [__rt::Motion::Rotation; NV];
         /// Limits of the moving joints; infinite where the spec states none.
@@ -126,7 +131,9 @@ fn method(method: Method, sites: &[Site], sized: bool) -> TokenStream {
     let names = arguments.iter().map(|a| ident(a.name()));
     let result = return_type(method.shape());
     // Generic parameters with these names hide the module's constants.
-    let (sizes, types): (_, Vec<_>) = if sized {
+    // Nothing determines the sizes of a method of the mechanism alone.
+    let alone = [&[][..], &[Argument::BodyParameters]].contains(&arguments);
+    let (sizes, types): (_, Vec<_>) = if sized || alone {
         (None, arguments.iter().map(|a| argument_type(*a)).collect())
     } else if arguments == [Argument::Q] {
         // Only the positions determine the number of velocities.

@@ -32,6 +32,8 @@ fn main() -> Result<(), Singular> {
     println!("{:?}", arm.joint_names());
     let hanging = broken_arm::BrokenArm { drop: -0.1, ..arm };
     println!("{}", hanging.drop);
+    let base = arm.base_parameters(&arm.parameters());
+    println!("{}", (arm.base_regressor(&q, &v, &tau) * base).norm() + arm.kinetic_energy_regressor(&q, &v)[9]);
     println!("{}", place::<broken_arm::frames::Forearm, _, 2>(&arm, &q));
     Ok(())
 }
