@@ -210,10 +210,10 @@ impl Method {
     pub fn regressors_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
         match (&graph.closed, &graph.released) {
             (Some(_), _) => Err(
-                "a mechanism with loops, wheels or knife edges has no regressors; generate those of its open tree, and combine their rows by the `velocity_map`",
+                "a mechanism with loops, wheels or knife edges has no regressors; write its open tree as a file of its own, generate them there, and combine their rows by the `velocity_map`",
             ),
             (_, Some(_)) => Err(
-                "a mechanism with prescribed joints has no regressors; generate those of the mechanism in which these joints are free",
+                "a mechanism with prescribed joints has no regressors; write these joints as free ones in a file of its own, and generate them there",
             ),
             _ => Ok(Regressor::ALL.map(Method::Regressor).to_vec()),
         }
