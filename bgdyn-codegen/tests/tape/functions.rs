@@ -26,7 +26,8 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
     ];
     let methods = Method::possible_of(&graph).into_iter().filter(|method| {
         let first = method.site().is_none_or(|site| site.0 < SITES);
-        first && (mechanism.nv() <= LARGE || !slow.contains(method))
+        let is_slow = slow.contains(method) || matches!(method, Method::Regressor(_));
+        first && (mechanism.nv() <= LARGE || !is_slow)
     });
     methods
         .filter_map(|method| prefer(&choice, method, Preference::default()))
