@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::sine::{self, SineLanes};
 use crate::singular::{failed, note_refused, succeeded};
-use crate::sqrt::sqrt_f32;
+use crate::sqrt::{sqrt_f32, sqrt_f64};
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
@@ -158,5 +158,5 @@ macro_rules! float_scalar {
 /// The bound of pivots in `f64`: `Float::PIVOT_FLOOR`.
 pub const F64_PIVOT_FLOOR: f64 = <f64 as Float>::PIVOT_FLOOR;
 
-float_scalar!(f64, libm::sqrt, libm::exp, libm::log, libm::tanh);
+float_scalar!(f64, sqrt_f64, libm::exp, libm::log, libm::tanh);
 float_scalar!(f32, sqrt_f32, libm::expf, libm::logf, libm::tanhf);

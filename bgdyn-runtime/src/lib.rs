@@ -24,9 +24,12 @@
 //!   a scene's `State` and `Input`), for [`Limits`] and [`Dd`]; re-exported as `serde`. Stays `no_std`.
 //! - `alloc`: [`StateVector`] for nalgebra's `DVector`, whose size is known at run time. Needs a heap.
 #![no_std]
-// The exception is one instruction on some Arm processors: see `sqrt.rs`.
+// The exception is one instruction on x86-64 and some Arm processors: see `sqrt.rs`.
 #![cfg_attr(
-    not(all(target_arch = "arm", target_abi = "eabihf")),
+    not(any(
+        target_arch = "x86_64",
+        all(target_arch = "arm", target_abi = "eabihf")
+    )),
     forbid(unsafe_code)
 )]
 

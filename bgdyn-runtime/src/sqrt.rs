@@ -1,11 +1,46 @@
-//! Square roots of `f32` for targets with and without `std`.
+//! Square roots for targets with and without `std`.
 //!
-//! This file has the only `unsafe` code of the crate, and only for Arm targets with the hard-float ABI:
-//! they have an instruction for the root that no safe function of `core` or `libm` uses; `libm` computes
-//! the root there with integers, in some 60 instructions.
+//! This file has the only `unsafe` code of the crate: one instruction for which `core` and `libm` have no safe function.
+//!
+//! - On Arm targets with the hard-float ABI `libm` computes roots of `f32` with integers, in some 60 instructions.
+//! - On x86-64 `libm` has the instruction in the encoding of SSE. Between instructions of AVX-512 this one root cost some
+//!   hundred cycles on an Intel Xeon; the function of `core` is compiled to the encoding of the code around it.
 
 /// Returns √x, correctly rounded; NaN for a negative x.
-#[cfg(not(all(target_arch = "arm", target_abi = "eabihf")))]
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+#[allow(unsafe_code)]
+#[inline(always)]
+pub(crate) fn sqrt_f64(x: f64) -> f64 {
+    use core::arch::x86_64::{_mm_cvtsd_f64, _mm_set_sd, _mm_sqrt_sd};
+    // SAFETY: the target has SSE2, the only condition of these functions: they read and write no memory.
+    unsafe {
+        let wide = _mm_set_sd(x);
+        _mm_cvtsd_f64(_mm_sqrt_sd(wide, wide))
+    }
+}
+
+/// Returns √x, correctly rounded; NaN for a negative x.
+#[cfg(not(all(target_arch = "x86_64", target_feature = "sse2")))]
+#[inline(always)]
+pub(crate) fn sqrt_f64(x: f64) -> f64 {
+    libm::sqrt(x)
+}
+
+/// Returns √x, correctly rounded; NaN for a negative x.
+#[cfg(all(target_arch = "x86_64", target_feature = "sse"))]
+#[allow(unsafe_code)]
+#[inline(always)]
+pub(crate) fn sqrt_f32(x: f32) -> f32 {
+    use core::arch::x86_64::{_mm_cvtss_f32, _mm_set_ss, _mm_sqrt_ss};
+    // SAFETY: the target has SSE, the only condition of these functions: they read and write no memory.
+    unsafe { _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x))) }
+}
+
+/// Returns √x, correctly rounded; NaN for a negative x.
+#[cfg(not(any(
+    all(target_arch = "x86_64", target_feature = "sse"),
+    all(target_arch = "arm", target_abi = "eabihf")
+)))]
 #[inline(always)]
 pub(crate) fn sqrt_f32(x: f32) -> f32 {
     libm::sqrtf(x)

@@ -103,7 +103,7 @@ impl Dd {
 
     /// Returns the square root; NaN for negative numbers.
     pub fn sqrt(self) -> Self {
-        let hi = libm::sqrt(self.hi);
+        let hi = crate::sqrt::sqrt_f64(self.hi);
         if !hi.is_finite() || hi == 0.0 {
             return Self::from_f64(hi);
         }

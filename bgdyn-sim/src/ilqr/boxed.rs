@@ -19,33 +19,34 @@ pub(super) struct Factor<T, const N: usize> {
 
 impl<T: Real, const N: usize> Factor<T, N> {
     /// Factors the rows and columns of the free components; `None` if a pivot is not positive.
+    ///
+    /// Row by row of Lᵀ: the multiples of a row are taken from all rows below it, over their whole length, because loops
+    /// of constant length become vector instructions. Entries left of the diagonal are not read.
+    #[inline]
     pub(super) fn new(matrix: &[[T; N]; N], free: &[bool; N]) -> Option<Self> {
-        let zero = T::from_f64(0.0);
-        let one = T::from_f64(1.0);
-        let (mut rows, mut reciprocals) = ([[zero; N]; N], [one; N]);
+        let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+        let mut upper = *matrix;
         for i in 0..N {
             if !free[i] {
-                rows[i][i] = one;
-                continue;
+                upper[i] = core::array::from_fn(|j| if i == j { one } else { zero });
+                upper.iter_mut().take(i).for_each(|row| row[i] = zero);
             }
-            for j in 0..i {
-                if free[j] {
-                    let rest = (0..j).fold(matrix[i][j], |rest, k| {
-                        (-rows[i][k]).mul_add(rows[j][k], rest)
-                    });
-                    rows[i][j] = rest * reciprocals[j];
-                }
-            }
-            let pivot = (0..i).fold(matrix[i][i], |rest, k| {
-                (-rows[i][k]).mul_add(rows[i][k], rest)
-            });
-            if !(pivot > zero && pivot.is_finite()) {
-                return None;
-            }
-            let root = pivot.sqrt();
-            (rows[i][i], reciprocals[i]) = (root, one / root);
         }
-        Some(Factor { rows, reciprocals })
+        let (mut reciprocals, mut sound) = ([one; N], true);
+        for k in 0..N {
+            let pivot = upper[k][k];
+            sound &= pivot > zero && pivot.is_finite();
+            reciprocals[k] = one / pivot.sqrt();
+            let row = upper[k].map(|x| x * reciprocals[k]);
+            upper[k] = row;
+            for i in k + 1..N {
+                let factor = -row[i];
+                upper[i] = core::array::from_fn(|j| factor.mul_add(row[j], upper[i][j]));
+            }
+        }
+        let entry = |i: usize, j: usize| if j <= i { upper[j][i] } else { zero };
+        let rows = core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j)));
+        sound.then_some(Factor { rows, reciprocals })
     }
 
     /// Returns the solution of L Lᵀ x = b.
