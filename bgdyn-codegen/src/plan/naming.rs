@@ -98,9 +98,10 @@ impl<'a> Naming<'a> {
         names.iter().map(ToString::to_string).collect()
     }
 
-    /// Returns the names of the parameters of the bodies, in order.
+    /// Returns the names of the parameters of the bodies in snake_case, in order.
     fn body_parameters(&self) -> Vec<String> {
-        let of = |body: &&str| PARAMETER_NAMES.map(|name| format!("{body}_{name}"));
+        let name = |name: &str| name.to_ascii_lowercase();
+        let of = |body: &&str| PARAMETER_NAMES.map(|of| format!("{body}_{}", name(of)));
         self.bodies.iter().flat_map(of).collect()
     }
 

@@ -4,7 +4,7 @@
 
 use bgdyn::nalgebra::Vector2;
 
-bgdyn::bgdyn!("arm.yaml");
+bgdyn::bgdyn!("arm.yaml", identification = true);
 bgdyn::bgdyn!("robots/lift.yaml");
 
 fn main() {
