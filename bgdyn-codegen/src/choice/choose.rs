@@ -231,7 +231,7 @@ impl<'a> Choice<'a> {
 
     /// Creates a formulation's function, after the functions that it depends on.
     fn make(&self, formulation: &dyn Formulation, method: Method) -> Option<Function> {
-        for &other in formulation.reads(method) {
+        for other in formulation.reads(method) {
             self.choose_once(other);
         }
         for other in formulation.reads_of_tree(method) {
@@ -261,7 +261,8 @@ impl<'a> Choice<'a> {
 
 /// Returns whether a method is a derivative of others.
 fn differentiates(method: Method) -> bool {
-    method == Method::CoriolisMatrix || method.differentiates_dynamics()
+    matches!(method, Method::CoriolisMatrix | Method::Directional(_))
+        || method.differentiates_dynamics()
 }
 
 /// Returns a function whose accuracy is not checked.

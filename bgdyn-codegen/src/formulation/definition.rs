@@ -15,7 +15,7 @@ pub trait Formulation: Sync {
 
     /// Returns whether it supports the method, or the method that this one is derived from.
     fn knows(&self, method: Method) -> bool {
-        !matches!(method, Method::Regressor(_))
+        !method.is_derived()
     }
 
     /// Returns the first link whose joint it does not serve. By default it serves rotations and translations
@@ -39,8 +39,8 @@ pub trait Formulation: Sync {
 
     /// Returns the other methods whose functions it uses: [`Prepared::function`] returns them when
     /// [`Formulation::function`] is called.
-    fn reads(&self, _: Method) -> &'static [Method] {
-        &[]
+    fn reads(&self, _: Method) -> Vec<Method> {
+        Vec::new()
     }
 
     /// Returns the methods of the open tree whose functions it uses, for mechanisms with loops:

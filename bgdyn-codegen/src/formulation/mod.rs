@@ -18,6 +18,7 @@ mod literal;
 mod loop_methods;
 mod loop_rows;
 mod loops;
+mod operational;
 mod placed_sites;
 mod placement;
 mod prepared;
@@ -60,7 +61,7 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
 /// make offers for any selected formulation, because those functions belong to it. Regressors have one formulation.
-pub(crate) static DERIVED: [&dyn Formulation; 8] = [
+pub(crate) static DERIVED: [&dyn Formulation; 11] = [
     &loops::Elimination,
     &base_twist::BaseTwist(0),
     &base_twist::BaseTwist(1),
@@ -68,6 +69,9 @@ pub(crate) static DERIVED: [&dyn Formulation; 8] = [
     &closed_loops::ClosedLoops,
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
+    &derivatives::AlongDirections,
+    &operational::Driven,
+    &operational::Factored,
     &recursion::ParameterColumns,
 ];
 

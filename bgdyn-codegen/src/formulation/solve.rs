@@ -6,7 +6,7 @@ use crate::expr::{Builder, Expr};
 
 /// The factors of M = Lᵀ D L, from the last coordinate to the first, which preserves the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
-struct PivotFactor<'g> {
+pub(super) struct PivotFactor<'g> {
     b: &'g Builder,
     /// L below its unit diagonal.
     l: Vec<Vec<Expr<'g>>>,
@@ -16,7 +16,7 @@ struct PivotFactor<'g> {
 
 impl<'g> PivotFactor<'g> {
     /// Factors the lower triangle of M, whose rows belong to these coordinates.
-    fn of(b: &'g Builder, mut mass: Vec<Vec<Expr<'g>>>, coordinates: &[usize]) -> Self {
+    pub(super) fn of(b: &'g Builder, mut mass: Vec<Vec<Expr<'g>>>, coordinates: &[usize]) -> Self {
         let n = mass.len();
         let original: Vec<Expr<'g>> = (0..n).map(|k| mass[k][k]).collect();
         let mut inverse = vec![b.zero(); n];
@@ -57,15 +57,30 @@ impl<'g> PivotFactor<'g> {
     }
 
     /// Solves M x = f: Lᵀ y = f, then L x = D⁻¹ y.
-    fn solve(&self, mut x: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
-        let n = x.len();
+    fn solve(&self, f: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
         self.b.section(|| "Lᵀ y = f, L x = D⁻¹ y".into());
-        for k in (0..n).rev() {
+        self.outwards(self.inwards(f))
+    }
+
+    /// Solves Lᵀ y = f, the half of M x = f from the last coordinate to the first.
+    pub(super) fn inwards(&self, mut x: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        for k in (0..x.len()).rev() {
             for i in 0..k {
                 x[i] = x[i] - self.l[k][i] * x[k];
             }
         }
-        for k in 0..n {
+        x
+    }
+
+    /// Returns D⁻¹ y.
+    pub(super) fn scaled(&self, y: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let pairs = y.iter().zip(&self.inverse);
+        pairs.map(|(&y, &inverse)| y * inverse).collect()
+    }
+
+    /// Solves L x = D⁻¹ y, the other half.
+    pub(super) fn outwards(&self, mut x: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+        for k in 0..x.len() {
             x[k] = x[k] * self.inverse[k];
             for i in 0..k {
                 x[k] = x[k] - self.l[k][i] * x[i];
@@ -73,6 +88,20 @@ impl<'g> PivotFactor<'g> {
         }
         x
     }
+}
+
+/// Returns the lower triangle of M⁻¹, row by row, from that of M; the pivots of the rows have these indices.
+pub(super) fn inverse<'g>(
+    b: &'g Builder,
+    mass: Vec<Vec<Expr<'g>>>,
+    coordinates: &[usize],
+) -> Vec<Expr<'g>> {
+    let n = mass.len();
+    let factor = PivotFactor::of(b, mass, coordinates);
+    let unit = |i: usize, j: usize| if i == j { b.number(1.0) } else { b.zero() };
+    let column = |j: usize| factor.solve((0..n).map(|i| unit(i, j)).collect());
+    // Of two equal entries, the one in the earlier row needs fewer operations.
+    (0..n).flat_map(|j| column(j).into_iter().take(j + 1)).collect()
 }
 
 /// Solves M x = f for one right-hand side, where the velocities `first` are eliminated before all others.

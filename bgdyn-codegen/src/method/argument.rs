@@ -25,6 +25,16 @@ pub enum Argument {
     Direction,
     /// Parameters of the bodies, π: kg, kg·m, kg·m².
     BodyParameters,
+    /// Direction of the positions, dq: a number for each velocity, rad, m.
+    AlongQ,
+    /// Direction of the velocities, dv: rad/s, m/s.
+    AlongV,
+    /// Direction of the accelerations, da: rad/s², m/s².
+    AlongA,
+    /// Direction of the efforts, dtau: N·m, N.
+    AlongTau,
+    /// Factors l of the results of which an adjoint is the derivative.
+    Cotangent,
     /// State of a scene.
     State,
     /// Inputs of a scene.
@@ -52,6 +62,11 @@ impl Argument {
             Argument::ReferenceA => "a_r",
             Argument::Direction => "s",
             Argument::BodyParameters => "pi",
+            Argument::AlongQ => "dq",
+            Argument::AlongV => "dv",
+            Argument::AlongA => "da",
+            Argument::AlongTau => "dtau",
+            Argument::Cotangent => "l",
             Argument::State => "state",
             Argument::Input => "input",
             Argument::Accelerations => "acceleration",

@@ -6,7 +6,9 @@ mod actuated;
 mod argument;
 mod bundled;
 mod derivatives;
+mod directional;
 mod loads;
+mod operational;
 mod regressor;
 mod scene_function;
 mod shape;
@@ -15,9 +17,11 @@ mod words;
 use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
 pub use argument::Argument;
+pub use directional::Directional;
+pub use operational::Operational;
 pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
-pub use shape::{ParameterSet, Shape};
+pub use shape::{Entries, ParameterSet, Shape};
 
 /// A method of a generated model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -92,6 +96,10 @@ pub enum Method {
     ActuatedJointReactions(usize),
     /// A method that is linear in the parameters of the bodies, or one of their vectors.
     Regressor(Regressor),
+    /// A method of operational space.
+    Operational(Operational),
+    /// A derivative along a direction, or an adjoint.
+    Directional(Directional),
     /// A function of a scene.
     Scene(SceneFunction),
     /// Several methods in one call.
@@ -110,6 +118,8 @@ pub fn names() -> Vec<String> {
         .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
         .chain(Regressor::ALL.map(Method::Regressor))
+        .chain([Method::Operational(Operational::InverseMassMatrix)])
+        .chain(Directional::ALL.map(Method::Directional))
         .map(|method| method.name(&[]))
         .chain(Method::reduced_names())
         .collect()
@@ -177,6 +187,8 @@ impl Method {
             .partition(|method| method.site().is_none());
         let regressors = Method::regressors_of(graph).unwrap_or_default();
         let own = own.into_iter().chain(drives).chain(regressors);
+        let own = own.chain(Method::operational_of(graph));
+        let own = own.chain(Method::directional_of(graph).unwrap_or_default());
         let mut all: Vec<Method> = own.chain(of_sites).collect();
         let [inverse, forward] = Method::derivatives_of(graph);
         for method in &mut all {
@@ -246,7 +258,10 @@ impl Method {
         let found = possible.iter().find(|m| own_name(m) == name);
         found.copied().ok_or_else(|| {
             if let Some(message) =
-                without_multipliers(graph, name).or_else(|| without_regressor(graph, name))
+                without_multipliers(graph, name)
+                .or_else(|| without_regressor(graph, name))
+                .or_else(|| operational::without_task(graph, name))
+                .or_else(|| directional::without_direction(graph, name))
             {
                 return message;
             }
@@ -255,10 +270,11 @@ impl Method {
             }
             let known: Vec<String> = possible.iter().map(own_name).collect();
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            let own = &known[..possible.iter().filter(|m| m.site().is_none()).count()];
+            let own = possible.iter().zip(&known).filter(|(m, _)| !m.of_a_site());
+            let own: Vec<&str> = own.map(|(_, name)| *name).collect();
             let places: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
             let all = format!(
-                "{}; and pose_X, velocity_X, jacobian_world_X, jacobian_dot_v_world_X for X = {}",
+                "{}; and pose_X, velocity_X, jacobian_world_X, jacobian_dot_v_world_X, operational_inverse_X, operational_inertia_X, consistent_inverse_X, operational_bias_X for X = {}",
                 own.join(", "),
                 places.join(", ")
             );
@@ -271,7 +287,15 @@ impl Method {
         Method::OF_TRAIT.contains(&self)
     }
 
-    /// Returns the site of the method.
+    /// Returns whether it is a method of a site.
+    fn of_a_site(self) -> bool {
+        match self {
+            Method::Operational(of) => of.site().is_some(),
+            other => other.site().is_some(),
+        }
+    }
+
+    /// Returns the site whose motion the method computes.
     pub fn site(self) -> Option<SiteId> {
         match self {
             Method::Pose(site)
@@ -280,6 +304,15 @@ impl Method {
             | Method::JacobianDotV(site) => Some(site),
             _ => None,
         }
+    }
+
+    /// Returns whether its formulations do not compute it from the bond graph, but from functions of other methods or from
+    /// parts of them.
+    pub fn is_derived(self) -> bool {
+        matches!(
+            self,
+            Method::Regressor(_) | Method::Operational(_) | Method::Directional(_)
+        )
     }
 
     /// Returns its name.
@@ -316,6 +349,11 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
             Method::JointReactions | Method::ActuatedJointReactions(_) => "joint_reactions".into(),
             Method::Regressor(regressor) => regressor.name().into(),
+            Method::Operational(of) => match of.site() {
+                Some(s) => site(of.prefix(), s),
+                None => of.prefix().into(),
+            },
+            Method::Directional(of) => of.name().into(),
             Method::Scene(role) => role.name().into(),
             Method::Bundle { .. } => "bundle".into(),
         }
@@ -347,6 +385,8 @@ impl Method {
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
             Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
             Method::Regressor(regressor) => regressor.arguments(),
+            Method::Operational(of) => of.arguments(),
+            Method::Directional(of) => of.arguments(),
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,
@@ -403,6 +443,8 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => Shape::CheckedWrenches,
             Method::JointReactions | Method::ActuatedJointReactions(_) => Shape::LinkWrenches,
             Method::Regressor(regressor) => regressor.shape(),
+            Method::Operational(of) => of.shape(),
+            Method::Directional(of) => of.shape(),
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse

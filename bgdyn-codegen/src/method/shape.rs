@@ -47,6 +47,11 @@ pub enum Shape {
     CheckedWrenches,
     /// A force and a moment for each link that is not hidden.
     LinkWrenches,
+    /// Three times NV numbers.
+    VectorTriple,
+    /// NV numbers that are finite exactly if the result is, and the entries of the result, or an error with a joint; only
+    /// the entries are returned.
+    Checked(Entries),
     /// As many numbers as the mechanism has prescribed joints.
     Drives(usize),
     /// A matrix with a row for each velocity and a column for each parameter, row by row.
@@ -73,6 +78,8 @@ impl Shape {
             Shape::Square => nv * nv,
             Shape::SquarePair => 2 * nv * nv,
             Shape::CheckedSquares => nv + 3 * nv * nv,
+            Shape::VectorTriple => 3 * nv,
+            Shape::Checked(entries) => nv + entries.len(nv),
             Shape::Pose => 12,
             Shape::Spatial => 6,
             Shape::Jacobian => 6 * nv,
@@ -98,9 +105,61 @@ impl Shape {
                 | Shape::CheckedTree
                 | Shape::CheckedTreeAndRows
                 | Shape::CheckedWrenches
+                | Shape::Checked(_)
                 | Shape::CheckedParts
                 | Shape::CheckedBundle
         )
+    }
+}
+
+/// The entries of a [`Shape::Checked`] result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Entries {
+    /// A symmetric NV × NV matrix; the expressions are its lower triangle, row by row.
+    Joints,
+    /// A symmetric 6 × 6 matrix, likewise.
+    Task,
+    /// An NV × 6 matrix, row by row.
+    TaskColumns,
+    /// Six numbers, angular part first.
+    TaskVector,
+    /// Three times NV numbers.
+    VectorTriple,
+}
+
+impl Entries {
+    /// Returns the number of expressions.
+    pub fn len(self, nv: usize) -> usize {
+        match self {
+            Entries::Joints => nv * (nv + 1) / 2,
+            Entries::Task => 21,
+            Entries::TaskColumns => 6 * nv,
+            Entries::TaskVector => 6,
+            Entries::VectorTriple => 3 * nv,
+        }
+    }
+
+    /// Returns the size of the symmetric matrix whose lower triangle the expressions are.
+    pub fn symmetric(self, nv: usize) -> Option<usize> {
+        match self {
+            Entries::Joints => Some(nv),
+            Entries::Task => Some(6),
+            _ => None,
+        }
+    }
+
+    /// Returns the result from the expressions: a symmetric matrix whole, row by row.
+    pub fn spread<T: Clone>(self, values: &[T], nv: usize) -> Vec<T> {
+        match self.symmetric(nv) {
+            None => values.to_vec(),
+            Some(n) => {
+                let entry = |k: usize| {
+                    let (i, j) = (k / n, k % n);
+                    values[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)].clone()
+                };
+                (0..n * n).map(entry).collect()
+            }
+        }
     }
 }
 

@@ -109,6 +109,8 @@ impl Method {
                     .into()
             }
             Method::Regressor(regressor) => regressor.summary().into(),
+            Method::Operational(of) => of.summary(sites),
+            Method::Directional(of) => of.summary().into(),
             Method::Scene(role) => role.summary().into(),
             Method::Bundle { .. } => "The results of several methods, which share their computations.".into(),
         }
@@ -153,6 +155,8 @@ impl Method {
             | Method::JointReactions
             | Method::ActuatedJointReactions(_) => "N, N·m",
             Method::Regressor(regressor) => regressor.units(),
+            Method::Operational(of) => of.units(),
+            Method::Directional(of) => of.units(),
             Method::Scene(_) | Method::Bundle { .. } => "as its parts say",
         }
     }

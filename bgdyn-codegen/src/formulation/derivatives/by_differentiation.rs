@@ -49,11 +49,11 @@ impl Formulation for Differentiated {
         }
     }
 
-    fn reads(&self, method: Method) -> &'static [Method] {
+    fn reads(&self, method: Method) -> Vec<Method> {
         match method {
-            Method::CoriolisMatrix => &[Method::Bias],
-            method if method.differentiates_inverse() => &[Method::InverseDynamics],
-            _ => &[],
+            Method::CoriolisMatrix => vec![Method::Bias],
+            method if method.differentiates_inverse() => vec![Method::InverseDynamics],
+            _ => Vec::new(),
         }
     }
 
@@ -108,15 +108,15 @@ impl Formulation for ForwardDynamicsDerivatives {
         Offer::Candidate
     }
 
-    fn reads(&self, method: Method) -> &'static [Method] {
+    fn reads(&self, method: Method) -> Vec<Method> {
         match method {
             Method::ForwardDynamicsDerivatives => {
-                &[Method::InverseDynamicsDerivatives, Method::ForwardDynamics]
+                vec![Method::InverseDynamicsDerivatives, Method::ForwardDynamics]
             }
             Method::ForwardDerivativesByTree => {
-                &[Method::InverseDerivativesByTree, Method::ForwardDynamics]
+                vec![Method::InverseDerivativesByTree, Method::ForwardDynamics]
             }
-            _ => &[],
+            _ => Vec::new(),
         }
     }
 

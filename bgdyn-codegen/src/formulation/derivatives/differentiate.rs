@@ -19,7 +19,7 @@ pub(super) fn reopen(function: &Function) -> (Builder, Vec<Signed>) {
 }
 
 /// Returns ∂x/∂leaf_j: a column per coordinate j.
-pub(super) fn derivatives(
+pub(in crate::formulation) fn derivatives(
     b: &Builder,
     x: &[Signed],
     n: usize,
@@ -33,6 +33,20 @@ pub(super) fn derivatives(
             .collect()
     };
     (0..n).map(column).collect()
+}
+
+/// Returns the derivatives of accelerations along efforts: they are linear in these.
+pub(in crate::formulation) fn along_efforts(
+    b: &Builder,
+    accelerations: &[Signed],
+    drive: &[Signed],
+) -> Vec<Signed> {
+    let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
+        Leaf::Input(j) => Some(drive[j]),
+        _ => None,
+    });
+    let all = accelerations.iter();
+    b.with_graph(|g| all.map(|&e| tangent.of(g, e)).collect())
 }
 
 /// Returns the derivatives along the tangent: column j is d/dε x(q + ε q̇) with q̇ = N(q) e_j. Where conditions on
@@ -54,7 +68,7 @@ pub(super) fn position_derivatives(
 
 /// Returns the rates of all positions for a unit of each velocity: of the independent ones, or of those of the open
 /// tree where positions close along it.
-fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signed>> {
+pub(super) fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signed>> {
     let n = graph.coordinates.len();
     let Some(closed) = &graph.closed else {
         return (0..n).map(|j| unit_tangents(b, graph, j)).collect();

@@ -8,10 +8,10 @@ use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{derivatives, finish, reopen};
+use super::differentiate::{along_efforts, derivatives, finish, reopen};
 use crate::bond_graph::Multibody;
 use crate::column_loop::{self, ColumnLoop, LoopedResult, ResultSource};
-use crate::expr::{Builder, Graph, Leaf, Signed, Tangent, copy_into};
+use crate::expr::{Builder, Graph, Leaf, Signed, copy_into};
 use crate::function::Function;
 use crate::method::Method;
 
@@ -170,13 +170,7 @@ impl ForwardDerivatives {
 
     /// Returns the accelerations due to given efforts.
     fn along(&self, drive: &[Signed]) -> Vec<Signed> {
-        let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
-            Leaf::Input(j) => Some(drive[j]),
-            _ => None,
-        });
-        let all = self.accelerations.iter();
-        self.builder
-            .with_graph(|g| all.map(|&e| tangent.of(g, e)).collect())
+        along_efforts(&self.builder, &self.accelerations, drive)
     }
 
     fn is_zero(&self, e: Signed) -> bool {

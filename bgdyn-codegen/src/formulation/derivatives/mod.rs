@@ -4,12 +4,16 @@
 //! |---|---|
 //! | `differentiate.rs` | derivatives of a function's results by the coordinates' leaves |
 //! | `forward_dynamics.rs` | derivatives of forward dynamics from those of inverse dynamics |
-//! | `by_differentiation.rs` | the formulations |
+//! | `directional.rs` | derivatives along one direction, and adjoints |
+//! | `by_differentiation.rs` | the formulations of matrices |
 //!
 //! Composite-body derivatives of inverse dynamics are in `recursion/derivatives/`.
 
 mod by_differentiation;
 mod differentiate;
+mod directional;
 mod forward_dynamics;
 
 pub(super) use by_differentiation::{Differentiated, ForwardDynamicsDerivatives};
+pub(super) use differentiate::{along_efforts, derivatives};
+pub(super) use directional::AlongDirections;

@@ -1,0 +1,108 @@
+//! Operational space from the factors M = Lᵀ D L.
+//!
+//! Y = J L⁻¹ costs half of M⁻¹ Jᵀ, and Λ⁻¹ = Y D⁻¹ Yᵀ. It has the digits of forward dynamics by the same factors, and is
+//! offered where that keeps enough.
+
+use super::task::{ROWS, Task, copied, dot, results};
+use crate::bond_graph::{LinkFrame, Multibody};
+use crate::expr::{Builder, Expr};
+use crate::formulation::recursion::Articulated;
+use crate::formulation::solve::PivotFactor;
+use crate::formulation::{Formulation, Offer, Prepared};
+use crate::function::{Function, in_triangle};
+use crate::method::{Method, Operational};
+use crate::passes::cheapest;
+
+/// Operational space from the factors of the mass matrix.
+pub(in crate::formulation) struct Factored;
+
+impl Formulation for Factored {
+    fn name(&self) -> &'static str {
+        "factored"
+    }
+
+    fn summary(&self) -> &'static str {
+        "operational space: M = Lᵀ D L, Y = J L⁻¹, Λ⁻¹ = Y D⁻¹ Yᵀ"
+    }
+
+    fn knows(&self, method: Method) -> bool {
+        matches!(method, Method::Operational(of) if of.site().is_some())
+    }
+
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
+    }
+
+    fn serves_loops(&self) -> bool {
+        true
+    }
+
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Candidate
+    }
+
+    fn reads(&self, method: Method) -> Vec<Method> {
+        let Method::Operational(of) = method else {
+            return Vec::new();
+        };
+        let mut all = vec![Method::ForwardDynamics, Method::MassMatrix];
+        all.extend(of.site().map(Method::Jacobian));
+        if let Operational::Bias(site) = of {
+            all.extend([Method::Bias, Method::JacobianDotV(site)]);
+        }
+        all
+    }
+
+    /// `None` where forward dynamics by these factors does not meet the error bounds, and with loops, whose pivots only
+    /// forward dynamics checks.
+    fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
+        let Method::Operational(of) = method else {
+            return None;
+        };
+        let forward = prepared.candidates(Method::ForwardDynamics);
+        let by_factors = |f: &Function| !f.formulation.starts_with(Articulated::PREFIX);
+        let mut accepted = forward.accepted.iter();
+        if prepared.graph.closed.is_some() || !accepted.any(|c| by_factors(&c.plain)) {
+            return None;
+        }
+        let mass = prepared.candidates(Method::MassMatrix);
+        let mass = mass.accepted.iter();
+        cheapest(mass.filter_map(|mass| from(prepared, of, &mass.plain)))
+    }
+}
+
+/// Returns the function from one of the mass matrix.
+fn from(prepared: &Prepared<'_>, of: Operational, mass: &Function) -> Option<Function> {
+    let graph = prepared.graph;
+    let n = graph.coordinates.len();
+    let site = of.site()?;
+    let read = |method| prepared.function(method);
+    let (jacobian, bias) = (read(Method::Jacobian(site))?, read(Method::Bias));
+    let b = Builder::new();
+    let outputs = {
+        let triangle = copied(&b, mass);
+        let row = |i: usize| (0..=i).map(|j| triangle[in_triangle(i, j)]).collect();
+        let coordinates: Vec<usize> = (0..n).collect();
+        let factor = PivotFactor::of(&b, (0..n).map(row).collect(), &coordinates);
+        let jacobian = copied(&b, &jacobian);
+        let rows: Vec<Vec<Expr<'_>>> = jacobian.chunks(n).map(|row| factor.inwards(row.to_vec())).collect();
+        let scaled: Vec<Vec<Expr<'_>>> = rows.iter().map(|row| factor.scaled(row)).collect();
+        let triangle = (0..ROWS).flat_map(|i| (0..=i).map(move |j| (i, j)));
+        let task = Task {
+            inverse: triangle.map(|(i, j)| dot(&b, &rows[i], &scaled[j])).collect(),
+            columns: &|| Some(rows.iter().map(|row| factor.outwards(row.clone())).collect()),
+            // −Y D⁻¹ L⁻ᵀ h + J̇ v
+            acceleration: &|| {
+                let forces = factor.inwards(copied(&b, bias.as_deref()?));
+                let own = copied(&b, &*read(Method::JacobianDotV(site))?);
+                let rows = scaled.iter().zip(own);
+                Some(rows.map(|(row, own)| own - dot(&b, row, &forces)).collect())
+            },
+        };
+        let outputs = results(&b, graph, of, &task)?;
+        outputs.into_iter().map(Expr::signed).collect()
+    };
+    let name = format!("{}; factored", mass.formulation);
+    let method = Method::Operational(of);
+    Some(Function::flat(graph, method, name, b.into_graph(), outputs))
+}

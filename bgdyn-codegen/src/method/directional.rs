@@ -1,0 +1,111 @@
+//! Derivatives of the dynamics along one direction, and their adjoints.
+
+use super::{Argument, Entries, Method, Shape};
+use crate::bond_graph::BondGraph;
+
+/// A derivative along a direction, or an adjoint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Directional {
+    /// ∂τ/∂q dq + ∂τ/∂v dv + M da.
+    InverseAlong,
+    /// ∂q̈/∂q dq + ∂q̈/∂v dv + M⁻¹ dτ.
+    ForwardAlong,
+    /// (∂τ/∂q)ᵀ l, (∂τ/∂v)ᵀ l, M l.
+    InverseAdjoint,
+    /// (∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l.
+    ForwardAdjoint,
+}
+
+impl Directional {
+    /// All of them.
+    pub const ALL: [Directional; 4] = [
+        Directional::InverseAlong,
+        Directional::ForwardAlong,
+        Directional::InverseAdjoint,
+        Directional::ForwardAdjoint,
+    ];
+
+    /// Returns its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Directional::InverseAlong => "inverse_dynamics_along",
+            Directional::ForwardAlong => "forward_dynamics_along",
+            Directional::InverseAdjoint => "inverse_dynamics_adjoint",
+            Directional::ForwardAdjoint => "forward_dynamics_adjoint",
+        }
+    }
+
+    /// Returns whether it is one of forward dynamics.
+    pub fn is_forward(self) -> bool {
+        matches!(self, Directional::ForwardAlong | Directional::ForwardAdjoint)
+    }
+
+    pub(super) fn arguments(self) -> &'static [Argument] {
+        use Argument::{A, AlongA, AlongQ, AlongTau, AlongV, Cotangent, Q, Tau, V};
+        match self {
+            Directional::InverseAlong => &[Q, V, A, AlongQ, AlongV, AlongA],
+            Directional::ForwardAlong => &[Q, V, Tau, AlongQ, AlongV, AlongTau],
+            Directional::InverseAdjoint => &[Q, V, A, Cotangent],
+            Directional::ForwardAdjoint => &[Q, V, Tau, Cotangent],
+        }
+    }
+
+    pub(super) fn shape(self) -> Shape {
+        match self {
+            Directional::InverseAlong => Shape::Vector,
+            Directional::ForwardAlong => Shape::CheckedVector,
+            Directional::InverseAdjoint => Shape::VectorTriple,
+            Directional::ForwardAdjoint => Shape::Checked(Entries::VectorTriple),
+        }
+    }
+
+    pub(super) fn summary(self) -> &'static str {
+        match self {
+            Directional::InverseAlong => {
+                "Derivative of the joint efforts along a direction: ∂τ/∂q dq + ∂τ/∂v dv + M da."
+            }
+            Directional::ForwardAlong => {
+                "Derivative of the accelerations along a direction: ∂q̈/∂q dq + ∂q̈/∂v dv + M⁻¹ dtau."
+            }
+            Directional::InverseAdjoint => {
+                "Derivatives of the number l·τ: (∂τ/∂q)ᵀ l, (∂τ/∂v)ᵀ l, M l."
+            }
+            Directional::ForwardAdjoint => {
+                "Derivatives of the number l·q̈: (∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l."
+            }
+        }
+    }
+
+    pub(super) fn units(self) -> &'static str {
+        match self {
+            Directional::InverseAlong => "N·m for a rotation, N for a translation",
+            Directional::ForwardAlong => "rad/s² for a rotation, m/s² for a translation",
+            Directional::InverseAdjoint | Directional::ForwardAdjoint => {
+                "that of l·τ or l·q̈, per rad or m, per rad/s or m/s, per unit of the third argument"
+            }
+        }
+    }
+}
+
+impl Method {
+    /// Returns the derivatives along directions that a mechanism can have.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn directional_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
+        let mut closed = graph.closed.iter();
+        match closed.any(|closed| closed.closure.nonholonomic()) {
+            true => Err(
+                "where conditions on velocities alone leave more ways to move than velocities, there is no derivative along one direction; use `inverse_dynamics_derivatives` and `forward_dynamics_derivatives`",
+            ),
+            false => Ok(Directional::ALL.map(Method::Directional).to_vec()),
+        }
+    }
+}
+
+/// Returns why a mechanism does not have this method, if it is a derivative along a direction.
+pub(super) fn without_direction(graph: &BondGraph, name: &str) -> Option<String> {
+    let known = Directional::ALL.iter().any(|of| of.name() == name);
+    let why = Method::directional_of(graph).err().filter(|_| known)?;
+    Some(format!("`{name}`: {why}"))
+}
