@@ -61,10 +61,15 @@ impl Bundle {
 impl Model {
     /// Returns whether a method, or a part of a bundle, has columns or elements for parameters of the bodies.
     pub fn has_regressors(&self) -> bool {
+        let mut methods = self.all_methods();
+        methods.any(|method| matches!(method, Method::Regressor(_)))
+    }
+
+    /// Returns the methods of the functions, and those that are parts of bundles.
+    pub fn all_methods(&self) -> impl Iterator<Item = Method> {
         let parts = self.bundles.iter().flat_map(|bundle| &bundle.parts);
         let methods = self.functions.iter().map(|f| f.method);
-        let mut methods = methods.chain(parts.map(|part| part.method));
-        methods.any(|method| matches!(method, Method::Regressor(_)))
+        methods.chain(parts.map(|part| part.method))
     }
 
     /// Returns the names of the bodies whose parameters regressors have.

@@ -96,7 +96,7 @@ pub mod kernel {
     pub use crate::sine::{Coefficients, FUSES, SineLanes, sin_cos_in_range};
 }
 pub use sampled::SampledControl;
-pub use singular::{ACTUATORS, Cause, OUT_OF_REACH, Singular};
+pub use singular::{ACTUATORS, Cause, OUT_OF_REACH, Singular, TASKS};
 pub use state_vector::{ArrayOf, FixedVector, MatrixOf, StateVector};
 pub use stiction::{mode_by_slip, resolve_stiction, resolve_stiction_by};
 pub use system::{Balance, Canonical, Contact, HybridSystem, InputSlope, Slope};

@@ -46,6 +46,9 @@ pub enum Cause {
     /// efforts to those along the independent velocities is singular. The loops are regular, and forward dynamics
     /// answers; [`Singular::name`] is the independent joint whose equation follows from others.
     Actuators,
+    /// The joints cannot move the frame of an operational inertia in every direction here: the posture is singular, and
+    /// the inertia is infinite. [`Singular::name`] is a direction whose inverse inertia follows from those before it.
+    Posture,
     /// An argument of the function is NaN or infinite.
     Argument {
         /// The argument.
@@ -71,6 +74,9 @@ pub const OUT_OF_REACH: usize = 3 * ACTUATORS;
 /// The same for loops that were not assembled.
 pub(crate) const NOT_ASSEMBLED: usize = 4 * ACTUATORS;
 
+/// The same for the directions of an operational inertia.
+pub const TASKS: usize = 5 * ACTUATORS;
+
 /// A [`Cause`] without its index: four bytes, so that `Option` and `Result` can use its unused values.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
@@ -80,6 +86,7 @@ enum Kind {
     NotAssembled,
     Branch,
     Actuators,
+    Posture,
     NotFinite,
     Argument(Argument),
 }
@@ -92,7 +99,8 @@ impl Kind {
             1 => Kind::Actuators,
             2 => Kind::Branch,
             3 => Kind::OutOfReach,
-            _ => Kind::NotAssembled,
+            4 => Kind::NotAssembled,
+            _ => Kind::Posture,
         };
         (kind, pivot % ACTUATORS)
     }
@@ -105,6 +113,7 @@ impl Kind {
             Kind::NotAssembled => Cause::NotAssembled,
             Kind::Branch => Cause::Branch,
             Kind::Actuators => Cause::Actuators,
+            Kind::Posture => Cause::Posture,
             Kind::NotFinite => Cause::NotFinite,
             Kind::Argument(argument) => Cause::Argument { argument, index },
         }
@@ -146,7 +155,7 @@ impl Singular {
     }
 
     /// Returns the index of the joint that failed, in the order of `JOINT_NAMES`; of a loop, in the order of
-    /// `PIVOT_NAMES`; of the inverse dynamics of actuated joints, in the order of `ACTUATED_PIVOT_NAMES`; if an argument is the cause, the index of its component.
+    /// `PIVOT_NAMES`; of the inverse dynamics of actuated joints, in the order of `ACTUATED_PIVOT_NAMES`; of an operational inertia, in the order of `OPERATIONAL_PIVOT_NAMES`; if an argument is the cause, the index of its component.
     pub const fn joint(&self) -> usize {
         self.index as usize
     }
@@ -178,6 +187,7 @@ impl Singular {
             | Kind::NotAssembled
             | Kind::Branch
             | Kind::Actuators
+            | Kind::Posture
             | Kind::NotFinite,
         ) = (index, self.kind)
         {
@@ -198,6 +208,7 @@ impl fmt::Display for Singular {
                 write!(f, "loop or constraint `{name}` {cause}")
             }
             Cause::Actuators => write!(f, "no efforts of the actuated joints: `{name}` {cause}"),
+            Cause::Posture => write!(f, "no operational inertia: direction `{name}` {cause}"),
             Cause::Argument {
                 argument: Argument::Time,
                 ..
@@ -226,6 +237,7 @@ impl fmt::Display for Cause {
             Cause::NotAssembled => f.write_str("closes at no position that was found"),
             Cause::Branch => f.write_str("closes here on another branch only"),
             Cause::Actuators => f.write_str("does not follow the actuated joints here"),
+            Cause::Posture => f.write_str("cannot be accelerated here: the posture is singular"),
             Cause::Argument { argument, index } => write!(
                 f,
                 "component {index} of argument `{}` is NaN or infinite",

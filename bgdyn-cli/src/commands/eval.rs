@@ -10,7 +10,8 @@ use bgdyn_codegen::bond_graph::{BondGraph, Coordinate};
 use bgdyn_codegen::engine::{Callable, Status};
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Motion};
-use bgdyn_codegen::method::{Argument, Method, PARAMETER_NAMES, Shape};
+use bgdyn_codegen::method::{Argument, Entries, Method, PARAMETER_NAMES, Shape};
+use bgdyn_codegen::plan::operational_pivot_names;
 use bgdyn_runtime::Cause;
 use serde_json::{Value, json};
 
@@ -117,6 +118,11 @@ fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
             Argument::A | Argument::ReferenceA => inputs.a = values,
             Argument::ReferenceV => inputs.x = values,
             Argument::Direction | Argument::BodyParameters => inputs.u = values,
+            Argument::Cotangent => inputs.x = values,
+            // One after the other: dq, dv, and da or dtau.
+            Argument::AlongQ | Argument::AlongV | Argument::AlongA | Argument::AlongTau => {
+                inputs.x.extend(values);
+            }
             Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => inputs.u = values,
             _ => return Err(plain("only a scene's function has this argument".into())),
         }
@@ -131,6 +137,10 @@ fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
         let (cause, index) = Cause::of_pivot(joint, results);
         return Err(match cause {
             Cause::Pivot => singular(&rates[index]),
+            Cause::Posture => {
+                let direction = operational_pivot_names(closed, graph)[index];
+                plain(format!("the direction `{direction}` {cause}"))
+            }
             Cause::Actuators => not_actuated(&own[index - results - loops]),
             _ => singular_loop(mechanism.closure(), index - results, cause),
         });
@@ -254,6 +264,15 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::CheckedWrenches => wrenches(&values[nv..]),
         Shape::LinkWrenches => wrenches(values),
         Shape::Square | Shape::Jacobian | Shape::TreeMatrix => rows(values, nv),
+        Shape::VectorTriple => rows(values, nv),
+        Shape::Checked(entries) => {
+            let all = entries.spread(&values[nv..], nv);
+            match entries {
+                Entries::Joints | Entries::VectorTriple => rows(&all, nv),
+                Entries::Task | Entries::TaskColumns => rows(&all, 6),
+                Entries::TaskVector => json!(all),
+            }
+        }
         Shape::RowMatrix => rows(values, nt),
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),

@@ -11,7 +11,7 @@ use super::tokens::{argument_type, ident};
 use super::writer::{StoredResult, Writer};
 use crate::expr::Leaf;
 use crate::function::Function;
-use crate::method::{Argument, Method, Shape};
+use crate::method::{Argument, Entries, Method, Shape};
 use crate::plan::{
     BlockPlan, Destination, FunctionPlan, Listing, PlanLimits, Tail, block_name, is_part,
 };
@@ -195,12 +195,15 @@ pub(super) struct Sizes {
     pub(super) nv: usize,
     /// Those of the open tree, for a mechanism with loops.
     pub(super) of_tree: Option<usize>,
+    /// Whether the pivots are those of the joints and of the directions of a task.
+    pub(super) of_task: bool,
 }
 
 /// Returns the result of a method from its components.
 pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> TokenStream {
     let nv = sizes.nv;
     let pivots = match sizes.of_tree {
+        _ if sizes.of_task => quote! { &OPERATIONAL_PIVOT_NAMES },
         None => quote! { &JOINT_NAMES },
         Some(_) => quote! { &PIVOT_NAMES },
     };
@@ -241,6 +244,22 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 ::core::result::Result::Ok([#(#squares),*])
             }
         }
+        Shape::Checked(entries) => {
+            let (finite, values) = values.split_at(nv);
+            let found = checked(method, &vector(finite), &pivots);
+            let values = entries.spread(values, nv);
+            let result = match entries {
+                Entries::Joints => square(&values),
+                Entries::Task | Entries::TaskColumns => matrix(6, &values),
+                Entries::TaskVector => vector(&values),
+                Entries::VectorTriple => vectors(nv, &values),
+            };
+            quote! {
+                #found?;
+                ::core::result::Result::Ok(#result)
+            }
+        }
+        Shape::VectorTriple => vectors(nv, values),
         Shape::SlopesByTree => {
             let (by_q, by_v) = values.split_at(nv * sizes.of_tree.unwrap_or(nv));
             let by_q = matrix(sizes.of_tree.unwrap_or(nv), by_q);
@@ -299,6 +318,12 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
 
 pub(super) fn vector(values: &[TokenStream]) -> TokenStream {
     quote! { __rt::vector([#(#values),*]) }
+}
+
+/// Returns an array of vectors of this length.
+fn vectors(length: usize, values: &[TokenStream]) -> TokenStream {
+    let each = values.chunks(length.max(1)).map(vector);
+    quote! { [#(#each),*] }
 }
 
 /// Returns an array of forces and moments.

@@ -47,6 +47,7 @@ pub(super) fn bundle_function(bundle: &Bundle, model: &Model, plain: bool) -> To
     let sizes = Sizes {
         nv: model.mechanism.nv(),
         of_tree: closed.map(|closed| closed.tree.coordinates.len()),
+        of_task: bundle.parts.iter().any(|part| part.method.inverts_task()),
     };
     let checked = function.shape().checked();
     let field = |part: &BundlePart, values: &[TokenStream]| {

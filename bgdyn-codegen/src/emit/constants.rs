@@ -8,7 +8,9 @@ use super::tokens::{ident, number};
 use crate::expr::Operations;
 use crate::function::Function;
 use crate::mechanism::{CoordinateId, Limits};
+use crate::method::Method;
 use crate::model::Model;
+use crate::plan::operational_pivot_names;
 
 /// Returns the constants at the beginning of the module.
 pub(super) fn constants(model: &Model) -> TokenStream {
@@ -36,6 +38,7 @@ pub(super) fn constants(model: &Model) -> TokenStream {
     });
     let prescribed = prescribed_constants(&mechanism.prescribed_names());
     let regressors = regressor_constants(model);
+    let operational = operational_constants(model);
     let limits = (0..mechanism.nv()).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
         /// Number of positions.
@@ -56,7 +59,23 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         pub const JOINT_LIMITS: [__rt::Limits; NV] = [#(#limits),*];
         #prescribed
         #regressors
+        #operational
     }
+}
+
+/// Returns the names of the pivots of operational inertias, for a model with such.
+fn operational_constants(model: &Model) -> Option<TokenStream> {
+    let graph = &model.bond_graph;
+    let inverts = model.all_methods().any(Method::inverts_task);
+    let names = operational_pivot_names(graph.closed.as_deref(), graph);
+    let count = size(names.len());
+    inverts.then(|| {
+        quote! {
+            /// Names of the joints, of loops and contacts after them, and of the directions of a frame after these: the causes
+            /// of missing operational inertias.
+            pub const OPERATIONAL_PIVOT_NAMES: [&str; #count] = [#(#names),*];
+        }
+    })
 }
 
 /// Returns the names of the bodies and of the base parameters, for a model with regressors.

@@ -9,7 +9,7 @@ use quote::quote;
 
 use super::tokens::{argument_type, ident};
 use crate::layout::StateLayout;
-use crate::method::{Argument, Method, SceneFunction};
+use crate::method::{Argument, Directional, Method, Operational, SceneFunction};
 use crate::plan::Naming;
 
 /// Returns the methods that the checked functions call, one for each list of arguments.
@@ -62,6 +62,10 @@ fn name(method: Method) -> &'static str {
         Method::ProjectVelocity => "explain_velocities",
         Method::ActuatedInverse(_) => "explain_inverse",
         Method::ActuatedForward(_) | Method::ActuatedReactions(_) => "explain_actuated",
+        Method::Operational(Operational::Bias(_)) => "explain_motion",
+        Method::Operational(_) => "explain_position",
+        Method::Directional(Directional::ForwardAlong) => "explain_direction",
+        Method::Directional(_) => "explain_adjoint",
         _ => "explain",
     }
 }
@@ -123,6 +127,13 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
         // Arguments of methods that always have a result.
         Argument::ReferenceV | Argument::ReferenceA => quote! {},
         Argument::Direction | Argument::BodyParameters => quote! {},
+        Argument::AlongA => quote! {},
+        // A direction that is NaN or infinite is named as its argument.
+        Argument::AlongQ => look(quote! { Q }, joints, quote! { #name.as_slice() }),
+        Argument::AlongV => look(quote! { V }, joints, quote! { #name.as_slice() }),
+        Argument::AlongTau | Argument::Cotangent => {
+            look(quote! { Tau }, joints, quote! { #name.as_slice() })
+        }
         Argument::Canonical => look(quote! { Canonical }, states, quote! { #name.as_slice() }),
         Argument::Time => look(quote! { Time }, quote! { &["t"] }, quote! { &[t] }),
         Argument::Accelerations => {

@@ -191,6 +191,7 @@ fn method(function: &Function, model: &Model, output: &OutputOptions) -> TokenSt
     let sizes = body::Sizes {
         nv: model.mechanism.nv(),
         of_tree: closed.map(|closed| closed.tree.coordinates.len()),
+        of_task: function.method.inverts_task(),
     };
     let finish = |values: &[TokenStream]| body::result(function.method, sizes, values);
     let spelling = code::Spelling::of_model(model, output.plain);

@@ -14,11 +14,11 @@ use super::output_options::{OutputOptions, rebuild};
 use super::prescribed::prescribed_constants;
 use super::tokens::{argument_type, fields, ident, return_type, serde, struct_ident};
 use super::traits::Traits;
-use crate::bond_graph::{JointSegment, Site};
+use crate::bond_graph::{JointSegment, Site, SiteId};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
-use crate::method::{Argument, Method, Regressor};
+use crate::method::{Argument, Directional, Method, Operational, Regressor};
 use crate::name::is_identifier;
 
 /// Returns the module with bodies that never run.
@@ -39,6 +39,10 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     let mut possible = Method::possible(&sites);
     possible.extend((prescribed > 0).then_some(Method::DriveEfforts(prescribed)));
     possible.extend(Regressor::ALL.map(Method::Regressor));
+    possible.extend(Directional::ALL.map(Method::Directional));
+    possible.push(Method::Operational(Operational::InverseMassMatrix));
+    let of_sites = (0..sites.len()).flat_map(|site| Operational::of_site(SiteId(site)));
+    possible.extend(of_sites.map(Method::Operational));
     let methods = possible.iter();
     let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();

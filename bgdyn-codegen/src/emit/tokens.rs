@@ -5,7 +5,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use crate::mechanism::Parameter;
-use crate::method::{Argument, ParameterSet, Shape};
+use crate::method::{Argument, Entries, ParameterSet, Shape};
 
 /// Prefix of a doc attribute's text that becomes a comment, because tokens cannot contain comments.
 pub(super) const COMMENT: &str = "//";
@@ -96,6 +96,11 @@ pub(super) fn argument_type(argument: Argument) -> TokenStream {
         Argument::ReferenceV | Argument::ReferenceA | Argument::Direction => {
             quote! { &__na::SVector<T, NV> }
         }
+        Argument::AlongQ
+        | Argument::AlongV
+        | Argument::AlongA
+        | Argument::AlongTau
+        | Argument::Cotangent => quote! { &__na::SVector<T, NV> },
         Argument::BodyParameters => quote! { &__na::SVector<T, { 10 * BODY_NAMES.len() }> },
         Argument::State => quote! { &State<T> },
         Argument::Input => quote! { &Input<T> },
@@ -134,6 +139,14 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
             let square = quote! { __na::SMatrix<T, NV, NV> };
             quote! { (__na::SMatrix<T, NV, NT>, #square, #square) }
         }
+        Shape::Checked(entries) => match entries {
+            Entries::Joints => quote! { __na::SMatrix<T, NV, NV> },
+            Entries::Task => quote! { __na::SMatrix<T, 6, 6> },
+            Entries::TaskColumns => quote! { __na::SMatrix<T, NV, 6> },
+            Entries::TaskVector => quote! { __na::SVector<T, 6> },
+            Entries::VectorTriple => quote! { [__na::SVector<T, NV>; 3] },
+        },
+        Shape::VectorTriple => quote! { [__na::SVector<T, NV>; 3] },
         Shape::Pose => quote! { __rt::Pose<T> },
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Drives(_) => quote! { __na::SVector<T, NP> },

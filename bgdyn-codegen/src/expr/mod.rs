@@ -5,6 +5,7 @@
 //! accurately enough to prove that regrouped expressions are equal. Counting, evaluation, differentiation
 //! and emission are passes over the graph, each in its own file.
 
+mod adjoint;
 mod arrange;
 mod build;
 mod copy;
@@ -24,6 +25,7 @@ mod node;
 mod quotient;
 mod signs;
 
+pub use adjoint::adjoints;
 pub use arrange::reassociate;
 pub use bgdyn_runtime::Operations;
 pub use build::{Builder, Expr};

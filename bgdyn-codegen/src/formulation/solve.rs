@@ -101,7 +101,9 @@ pub(super) fn inverse<'g>(
     let unit = |i: usize, j: usize| if i == j { b.number(1.0) } else { b.zero() };
     let column = |j: usize| factor.solve((0..n).map(|i| unit(i, j)).collect());
     // Of two equal entries, the one in the earlier row needs fewer operations.
-    (0..n).flat_map(|j| column(j).into_iter().take(j + 1)).collect()
+    (0..n)
+        .flat_map(|j| column(j).into_iter().take(j + 1))
+        .collect()
 }
 
 /// Solves M x = f for one right-hand side, where the velocities `first` are eliminated before all others.

@@ -50,6 +50,19 @@ pub enum Argument {
 }
 
 impl Argument {
+    /// Returns whether only functions of scenes have it.
+    pub fn belongs_to_scene(self) -> bool {
+        matches!(
+            self,
+            Argument::State
+                | Argument::Input
+                | Argument::Accelerations
+                | Argument::Canonical
+                | Argument::Modes
+                | Argument::Time
+        )
+    }
+
     /// Returns its name in signatures.
     pub fn name(self) -> &'static str {
         match self {

@@ -38,6 +38,7 @@ impl Method {
                 | Shape::CheckedSquares
                 | Shape::CheckedSlopesByTree
                 | Shape::CheckedWrenches
+                | Shape::Checked(_)
         );
         arguments.clone().count() == arguments.filter(known).count()
             && (!shape.checked() || names_a_joint)

@@ -37,7 +37,10 @@ impl Directional {
 
     /// Returns whether it is one of forward dynamics.
     pub fn is_forward(self) -> bool {
-        matches!(self, Directional::ForwardAlong | Directional::ForwardAdjoint)
+        matches!(
+            self,
+            Directional::ForwardAlong | Directional::ForwardAdjoint
+        )
     }
 
     pub(super) fn arguments(self) -> &'static [Argument] {

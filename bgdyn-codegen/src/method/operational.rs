@@ -82,7 +82,8 @@ impl Operational {
         let task = "angular part first; world axes, at its origin";
         match self {
             Operational::InverseMassMatrix => {
-                "Inverse M⁻¹(q) of the mass matrix, exactly symmetric: accelerations by efforts.".into()
+                "Inverse M⁻¹(q) of the mass matrix, exactly symmetric: accelerations by efforts."
+                    .into()
             }
             Operational::InverseInertia(_) => format!(
                 "Λ⁻¹ = J M⁻¹ Jᵀ of `{of}`: its acceleration by a moment and a force on it, {task}. It exists in singular postures."
@@ -115,6 +116,11 @@ impl Operational {
 }
 
 impl Method {
+    /// Returns whether it has no result where a frame cannot move in some direction.
+    pub fn inverts_task(self) -> bool {
+        matches!(self, Method::Operational(of) if of.inverts_task())
+    }
+
     /// Returns the methods of operational space that a mechanism can have. A frame has an inertia only if the joints can
     /// move it in six directions.
     pub(super) fn operational_of(graph: &BondGraph) -> Vec<Method> {

@@ -34,6 +34,25 @@ pub fn pivot_names<'a>(closed: &'a ClosedTree, graph: &'a Multibody) -> Vec<&'a 
     joints.chain(loop_names(closed)).collect()
 }
 
+/// Returns the names of the velocities, of loops and contacts after them, and of the directions of a frame after these:
+/// the causes of missing operational inertias.
+pub fn operational_pivot_names<'a>(
+    closed: Option<&'a ClosedTree>,
+    graph: &'a Multibody,
+) -> Vec<&'a str> {
+    const DIRECTIONS: [&str; 6] = [
+        "angular x",
+        "angular y",
+        "angular z",
+        "linear x",
+        "linear y",
+        "linear z",
+    ];
+    let joints = graph.coordinates.iter().map(|c| c.name.as_str());
+    let loops = closed.into_iter().flat_map(loop_names);
+    joints.chain(loops).chain(DIRECTIONS).collect()
+}
+
 /// Returns the same for functions of the open tree.
 pub fn tree_pivot_names(closed: &ClosedTree) -> Vec<&str> {
     pivot_names(closed, &closed.tree)

@@ -1,7 +1,7 @@
 //! Counts how often values are read, and finds the operations that belong to the statement of their only reader.
 
 use crate::expr::{Graph, Node, NodeId, Signed};
-use crate::method::Shape;
+use crate::method::{Entries, Shape};
 
 /// Largest number of operations in one statement, for readability.
 const MAX_STATEMENT_OPERATIONS: usize = 6;
@@ -44,7 +44,7 @@ pub(super) fn inline(graph: &Graph, needed: &[bool], uses: &[u32]) -> Vec<bool> 
 /// Returns how often the result reads an output: entries off the diagonal of a symmetric matrix are written twice.
 pub(super) fn reads_per_output(shape: Shape) -> u32 {
     match shape {
-        Shape::Symmetric => 2,
+        Shape::Symmetric | Shape::Checked(Entries::Joints | Entries::Task) => 2,
         _ => 1,
     }
 }

@@ -28,7 +28,7 @@ pub use assembly::{AssemblyConditions, BranchConditions};
 pub use block::{BlockPlan, BlockStep};
 pub use closing::{
     actuated_pivot_names, closing_names, dependent_joint, independent_positions, loop_names,
-    pivot_names, tree_pivot_names,
+    operational_pivot_names, pivot_names, tree_pivot_names,
 };
 pub use columns::ColumnPlan;
 pub use destinations::{Destination, elements, matrix_destinations};

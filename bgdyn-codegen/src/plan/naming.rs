@@ -108,15 +108,20 @@ impl<'a> Naming<'a> {
     /// Returns the leaves of an argument's components with names of variables for them; empty for an
     /// argument with named parts.
     pub fn components(&self, argument: Argument) -> Vec<(Leaf, String)> {
-        let leaf: fn(usize) -> Leaf = match argument {
-            Argument::Q => Leaf::Position,
-            Argument::V | Argument::TreeV => Leaf::Velocity,
-            Argument::A => Leaf::Acceleration,
-            Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => Leaf::Input,
-            Argument::ReferenceV => Leaf::State,
-            Argument::ReferenceA => Leaf::Acceleration,
-            Argument::Direction | Argument::BodyParameters => Leaf::Input,
-            _ => return self.scene_components(argument),
+        if argument.belongs_to_scene() {
+            return self.scene_components(argument);
+        }
+        let n = self.joints.len();
+        let leaf = |j: usize| match argument {
+            Argument::Q => Leaf::Position(j),
+            Argument::V | Argument::TreeV => Leaf::Velocity(j),
+            Argument::A | Argument::ReferenceA => Leaf::Acceleration(j),
+            Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => Leaf::Input(j),
+            Argument::Direction | Argument::BodyParameters => Leaf::Input(j),
+            Argument::AlongV => Leaf::State(n + j),
+            Argument::AlongA | Argument::AlongTau => Leaf::State(2 * n + j),
+            // v_r, dq, l
+            _ => Leaf::State(j),
         };
         let names = self.component_names(argument).into_iter().enumerate();
         let named = |(j, name): (usize, String)| (leaf(j), format!("{}_{name}", argument.name()));

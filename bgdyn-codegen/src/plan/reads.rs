@@ -73,6 +73,8 @@ pub fn is_part(argument: Argument, leaf: Leaf) -> bool {
         Argument::TreeV | Argument::TreeTau | Argument::ActuatedTau => false,
         Argument::ReferenceV | Argument::ReferenceA => false,
         Argument::Direction | Argument::BodyParameters => false,
+        Argument::AlongQ | Argument::AlongV | Argument::AlongA | Argument::AlongTau => false,
+        Argument::Cotangent => false,
         Argument::Canonical | Argument::Modes => false,
     }
 }

@@ -7,8 +7,10 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::actuated;
 use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times};
+use super::directional;
 use super::literal_values::{LiteralValues, State};
 use super::open_tree::{self, TreeLaw};
+use super::operational;
 use super::regressor;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
@@ -95,7 +97,7 @@ impl Subject<'_> {
         if let Method::Regressor(of) = self.function.method {
             return self.check_regressor(of, state);
         }
-        let at = &of_method(graph, self.function.method, &state.at);
+        let at = &self.arguments(self.function.method, state);
         let (found, refused) = self.function.evaluate(at.clone());
         if refused.is_some() {
             return None;
@@ -106,6 +108,7 @@ impl Subject<'_> {
             Method::Velocity(_) => speed,
             Method::JacobianDotV(_) | Method::ConstraintBias => speed * speed,
             method if method.of_tree() => 0.0,
+            Method::Operational(_) => 0.0,
             _ => state.size,
         };
         let sides = |laws: Vec<TreeLaw>, allowed: f64| -> Vec<Sides> {
@@ -126,6 +129,15 @@ impl Subject<'_> {
                 let laws = actuated::laws(closed, method, form, (at, found));
                 sides(laws.unwrap_or_default(), SOLVED)
             }
+            (_, Method::Operational(of)) => {
+                let law = operational::law(&form, of, (at, &found));
+                sides(law.into_iter().collect(), SOLVED)
+            }
+            (_, Method::Directional(of)) => {
+                let law = directional::law(self.literal, of, (state, &found));
+                let allowed = if of.is_forward() { SOLVED } else { EXACT };
+                sides(law.into_iter().collect(), allowed)
+            }
             _ => self.laws(state, found),
         };
         let laws = laws.into_iter();
@@ -138,6 +150,14 @@ impl Subject<'_> {
             differs((self.name, self.function), &sides.law, pair, size, at)
         })
         .next()
+    }
+
+    /// Returns the arguments of a method at this state.
+    fn arguments(&self, method: Method, state: &State) -> Inputs<Dd> {
+        match method {
+            Method::Directional(_) => directional::extended(&state.at),
+            _ => of_method(self.literal.prepared.graph, method, &state.at),
+        }
     }
 
     /// Returns the first law that a regressor violates at this state.
@@ -158,9 +178,8 @@ impl Subject<'_> {
     /// Returns a difference if the function refuses every state and the literal sum refuses none of them.
     fn refuses_all(&self, states: &[State]) -> Option<Difference> {
         let refuses = |function: &Function| {
-            let graph = self.literal.prepared.graph;
             let refused = |state: &State| {
-                let at = of_method(graph, function.method, &state.at);
+                let at = self.arguments(function.method, state);
                 function.evaluate(at).1.is_some()
             };
             states.iter().all(refused)

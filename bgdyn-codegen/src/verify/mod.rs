@@ -8,10 +8,12 @@
 
 mod actuated;
 mod compare;
+mod directional;
 mod dual;
 mod literal_values;
 mod mechanism;
 mod open_tree;
+mod operational;
 mod regressor;
 mod scene;
 mod states;

@@ -8,7 +8,7 @@ use super::style::Style;
 use super::tables::{sizes, tables};
 use super::undetermined::{undetermined, undetermined_type};
 use crate::function::Function;
-use crate::method::{Method, ParameterSet, Shape};
+use crate::method::{Entries, Method, ParameterSet, Shape};
 use crate::model::Model;
 use crate::plan::{Naming, summary_of, unread};
 
@@ -103,6 +103,10 @@ fn result_order(shape: Shape) -> Option<&'static str> {
         Shape::CheckedSlopesByTree => {
             "Result: the NV x NT matrix by positions, along the velocities of the open tree; then those by v and by tau."
         }
+        Shape::VectorTriple | Shape::Checked(Entries::VectorTriple) => {
+            "Result: NV numbers by positions, NV by v, NV by the third argument."
+        }
+        Shape::Checked(Entries::TaskColumns) => "Result: NV x 6, row by row.",
         Shape::CheckedTreeAndRows => "Result: NT accelerations, then NC multipliers.",
         Shape::TreeMatrix => "Result: NT x NV.",
         Shape::RowMatrix => "Result: NC x NT.",
@@ -122,6 +126,7 @@ fn result_order(shape: Shape) -> Option<&'static str> {
 fn causes(function: &Function, context: &ModelContext<'_>) -> Vec<String> {
     let method = function.method;
     let names = match method {
+        _ if method.inverts_task() => "operational_pivot_names",
         _ if context.model.bond_graph.closed.is_none() => {
             return [
                 "Returns 0; the number, from 1, of the joint whose pivot vanishes where the mass matrix is singular;",

@@ -88,6 +88,11 @@ fn argument(argument: Argument, count: usize, style: &Style, is_read: bool) -> C
         Argument::TreeV | Argument::TreeTau => style.constant("NT"),
         Argument::ActuatedTau => style.constant("NA"),
         Argument::ReferenceV | Argument::ReferenceA | Argument::Direction => style.constant("NV"),
+        Argument::AlongQ
+        | Argument::AlongV
+        | Argument::AlongA
+        | Argument::AlongTau
+        | Argument::Cotangent => style.constant("NV"),
         Argument::BodyParameters => style.sized("10 * NB"),
         Argument::State => style.sized("N + NM"),
         Argument::Canonical => style.constant("N"),

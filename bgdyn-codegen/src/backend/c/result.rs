@@ -8,7 +8,7 @@ use super::style::Style;
 use super::words::field;
 use crate::function::Function;
 use crate::layout::StateLayout;
-use crate::method::{Method, ParameterSet, SceneFunction, Shape};
+use crate::method::{Entries, Method, ParameterSet, SceneFunction, Shape};
 use crate::model::Bundle;
 use crate::plan::{Destination, matrix_destinations};
 
@@ -73,6 +73,7 @@ impl FlatResult {
         };
         let only_checked = match shape {
             Shape::CheckedSquares | Shape::CheckedSlopesByTree | Shape::CheckedWrenches => nv,
+            Shape::Checked(_) => nv,
             _ => 0,
         };
         let in_order = |k: usize| k.checked_sub(only_checked).into_iter().collect();
@@ -81,7 +82,10 @@ impl FlatResult {
                 .iter()
                 .map(|p| p.iter().map(flat).collect())
                 .collect(),
-            None => (0..count).map(in_order).collect(),
+            None => match shape {
+                Shape::Checked(entries) => checked_destinations(entries, nv),
+                _ => (0..count).map(in_order).collect(),
+            },
         };
         let elements = destinations.iter().map(Vec::len).sum::<usize>();
         let checked = match shape {
@@ -188,11 +192,30 @@ impl FlatResult {
     }
 }
 
+/// Returns the destinations of outputs: none for those that are only checked, two for entries beside the diagonal of a
+/// symmetric matrix.
+fn checked_destinations(entries: Entries, nv: usize) -> Vec<Vec<usize>> {
+    let count = entries.len(nv);
+    let mut all = vec![Vec::new(); nv + count];
+    let numbers: Vec<usize> = (0..count).collect();
+    for (at, output) in entries.spread(&numbers, nv).into_iter().enumerate() {
+        all[nv + output].push(at);
+    }
+    all
+}
+
 /// Returns the number of a result's elements, by names of sizes; `None` if they do not tell it.
 fn size(shape: Shape) -> Option<&'static str> {
     Some(match shape {
         Shape::Vector | Shape::CheckedVector => "NV",
         Shape::Symmetric | Shape::Square => "NV * NV",
+        Shape::Checked(entries) => match entries {
+            Entries::Joints => "NV * NV",
+            Entries::TaskColumns => "NV * 6",
+            Entries::VectorTriple => "3 * NV",
+            Entries::Task | Entries::TaskVector => return None,
+        },
+        Shape::VectorTriple => "3 * NV",
         Shape::SquarePair => "2 * NV * NV",
         Shape::CheckedSquares => "3 * NV * NV",
         Shape::SlopesByTree => "NV * NT + NV * NV",

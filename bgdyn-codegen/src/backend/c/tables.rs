@@ -6,7 +6,10 @@ use super::undetermined::{undetermined, undetermined_table};
 use crate::function::Function;
 use crate::mechanism::{CoordinateId, Limits};
 use crate::method::{Method, Shape};
-use crate::plan::{actuated_pivot_names, closing_names, loop_names, pivot_names, tree_pivot_names};
+use crate::plan::{
+    actuated_pivot_names, closing_names, loop_names, operational_pivot_names, pivot_names,
+    tree_pivot_names,
+};
 
 /// Returns the sizes that signatures and tables use.
 pub(super) fn sizes(context: &ModelContext<'_>) -> Vec<Size> {
@@ -100,6 +103,16 @@ pub(super) fn tables(context: &ModelContext<'_>) -> Vec<Table> {
         let base: Vec<&str> = model.base_parameters.iter().map(String::as_str).collect();
         let about = "The base parameters as formulas of the parameters of the bodies.";
         tables.push(names(context, about, "base_parameter_names", "NBP", &base));
+    }
+    if model.all_methods().any(Method::inverts_task) {
+        let graph = &model.bond_graph;
+        let all = operational_pivot_names(graph.closed.as_deref(), graph);
+        let about = "Names of the joints, of loops and contacts after them, and of the directions of a frame after these: the causes of missing operational inertias.";
+        let size = match graph.closed {
+            Some(_) => "NV + NR + 6",
+            None => "NV + 6",
+        };
+        tables.push(names(context, about, "operational_pivot_names", size, &all));
     }
     tables.extend(limits(context));
     tables.retain(|table| !table.elements.is_empty());

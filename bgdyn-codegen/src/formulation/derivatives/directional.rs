@@ -87,7 +87,9 @@ fn of_inverse(graph: &BondGraph, of: Directional, from: &Function) -> Function {
             along(&b, &efforts, &rates, Some(2 * n))
         }
         _ => {
-            let l = (0..n).map(|j| b.leaf(Leaf::State(j)).signed()).collect::<Vec<_>>();
+            let l = (0..n)
+                .map(|j| b.leaf(Leaf::State(j)).signed())
+                .collect::<Vec<_>>();
             adjoint(&b, graph, (&efforts, &l)).concat()
         }
     };
@@ -103,7 +105,8 @@ fn of_forward(
     let n = graph.coordinates.len();
     let (b, accelerations) = reopen(forward);
     // The efforts of inverse dynamics at the accelerations; these are independent of the direction.
-    let efforts = b.with_graph(|g| copy_into(g, &inverse.graph, &inverse.blocks[0].outputs, |_, _| None));
+    let efforts =
+        b.with_graph(|g| copy_into(g, &inverse.graph, &inverse.blocks[0].outputs, |_, _| None));
     let at_accelerations = |results: &[Signed]| -> Vec<Signed> {
         let placed = |_: &mut Graph, leaf: Leaf| match leaf {
             Leaf::Acceleration(j) => Some(accelerations[j]),
@@ -171,7 +174,11 @@ fn adjoint(
     (results, factors): (&[Signed], &[Signed]),
 ) -> [Vec<Signed>; 3] {
     let n = graph.coordinates.len();
-    let pairs: Vec<(Signed, Signed)> = results.iter().copied().zip(factors.iter().copied()).collect();
+    let pairs: Vec<(Signed, Signed)> = results
+        .iter()
+        .copied()
+        .zip(factors.iter().copied())
+        .collect();
     let found = b.with_graph(|g| adjoints(g, &pairs));
     let zero = b.constant(Dd::ZERO).signed();
     let of = |leaf: Leaf| found.get(&leaf).copied().unwrap_or(zero);
@@ -183,7 +190,10 @@ fn adjoint(
         sum.signed()
     };
     [
-        position_tangents(b, graph).iter().map(by_velocity).collect(),
+        position_tangents(b, graph)
+            .iter()
+            .map(by_velocity)
+            .collect(),
         (0..n).map(|j| of(Leaf::Velocity(j))).collect(),
         (0..n).map(|j| of(Leaf::Acceleration(j))).collect(),
     ]

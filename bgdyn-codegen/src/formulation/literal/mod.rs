@@ -43,7 +43,7 @@ impl Formulation for Literal {
         ];
         match method {
             Method::Regressor(regressor) => known.contains(&regressor),
-            _ => true,
+            _ => !method.is_derived(),
         }
     }
 

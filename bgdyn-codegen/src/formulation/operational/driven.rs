@@ -118,7 +118,9 @@ impl<'g> OfForward<'_, 'g> {
         let b = self.b;
         let columns: Vec<Vec<Expr<'g>>> = (0..ROWS).map(|r| self.column(r)).collect();
         let triangle = (0..ROWS).flat_map(|i| (0..=i).map(move |j| (i, j)));
-        let inverse = triangle.map(|(i, j)| dot(b, self.row(i), &columns[j])).collect();
+        let inverse = triangle
+            .map(|(i, j)| dot(b, self.row(i), &columns[j]))
+            .collect();
         let task = Task {
             inverse,
             columns: &|| Some(columns.clone()),
@@ -153,6 +155,7 @@ impl<'g> OfForward<'_, 'g> {
         let free: Vec<Expr<'g>> = free.into_iter().map(|e| b.expr(e)).collect();
         let bias = copied(b, bias);
         let rows = bias.into_iter().enumerate();
-        rows.map(|(r, bias)| dot(b, self.row(r), &free) + bias).collect()
+        rows.map(|(r, bias)| dot(b, self.row(r), &free) + bias)
+            .collect()
     }
 }

@@ -85,12 +85,23 @@ fn from(prepared: &Prepared<'_>, of: Operational, mass: &Function) -> Option<Fun
         let coordinates: Vec<usize> = (0..n).collect();
         let factor = PivotFactor::of(&b, (0..n).map(row).collect(), &coordinates);
         let jacobian = copied(&b, &jacobian);
-        let rows: Vec<Vec<Expr<'_>>> = jacobian.chunks(n).map(|row| factor.inwards(row.to_vec())).collect();
+        let rows: Vec<Vec<Expr<'_>>> = jacobian
+            .chunks(n)
+            .map(|row| factor.inwards(row.to_vec()))
+            .collect();
         let scaled: Vec<Vec<Expr<'_>>> = rows.iter().map(|row| factor.scaled(row)).collect();
         let triangle = (0..ROWS).flat_map(|i| (0..=i).map(move |j| (i, j)));
         let task = Task {
-            inverse: triangle.map(|(i, j)| dot(&b, &rows[i], &scaled[j])).collect(),
-            columns: &|| Some(rows.iter().map(|row| factor.outwards(row.clone())).collect()),
+            inverse: triangle
+                .map(|(i, j)| dot(&b, &rows[i], &scaled[j]))
+                .collect(),
+            columns: &|| {
+                Some(
+                    rows.iter()
+                        .map(|row| factor.outwards(row.clone()))
+                        .collect(),
+                )
+            },
             // −Y D⁻¹ L⁻ᵀ h + J̇ v
             acceleration: &|| {
                 let forces = factor.inwards(copied(&b, bias.as_deref()?));

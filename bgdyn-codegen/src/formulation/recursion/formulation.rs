@@ -82,7 +82,7 @@ pub(super) fn makes(graph: &Multibody, method: Method) -> bool {
         Method::CoriolisMatrix,
     ];
     method != Method::JointReactions
-        && !matches!(method, Method::Regressor(_))
+        && !method.is_derived()
         && (graph.plain() || !partial.contains(&method))
 }
 

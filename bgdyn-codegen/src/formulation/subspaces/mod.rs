@@ -50,7 +50,8 @@ impl Formulation for Subspaces {
 
     fn knows(&self, method: Method) -> bool {
         !method.differentiates_dynamics()
-            && !matches!(method, Method::Scene(_) | Method::Regressor(_))
+            && !matches!(method, Method::Scene(_))
+            && !method.is_derived()
     }
 
     /// For rotations and translations alone the recursion with base parameters costs less; it does not know the loads

@@ -45,10 +45,15 @@ pub(in crate::formulation) enum Articulated {
     Base,
 }
 
+impl Articulated {
+    /// The names of both begin with it.
+    pub(in crate::formulation) const PREFIX: &'static str = "articulated";
+}
+
 impl Formulation for Articulated {
     fn name(&self) -> &'static str {
         match self {
-            Articulated::Own => "articulated",
+            Articulated::Own => Articulated::PREFIX,
             Articulated::Base => "articulated_base",
         }
     }

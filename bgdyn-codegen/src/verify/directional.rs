@@ -1,0 +1,78 @@
+//! Checks derivatives along directions against the literal efforts in dual numbers.
+
+use bgdyn_runtime::Dd;
+
+use super::compare::{dot, largest, minus};
+use super::literal_values::{LiteralValues, State};
+use crate::expr::Inputs;
+use crate::method::{Directional, Method};
+use crate::random::Random;
+
+/// A law, its two sides, and the size of their terms.
+pub(super) type DirectionalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
+
+/// Returns the state with any directions dq, dv and a third one; an adjoint reads the first as its factors.
+pub(super) fn extended(at: &Inputs<Dd>) -> Inputs<Dd> {
+    let mut random = Random(37);
+    let number = |_| Dd::from_f64(2.0 * random.signed());
+    let x = (0..3 * at.v.len()).map(number).collect();
+    Inputs { x, ..at.clone() }
+}
+
+/// Returns the law of a method; `found` is its result at the [`extended`] state.
+pub(super) fn law(
+    literal: &LiteralValues<'_>,
+    of: Directional,
+    (state, found): (&State, &[Dd]),
+) -> Option<DirectionalLaw> {
+    let (at, directions) = (&state.at, extended(&state.at).x);
+    let n = at.v.len();
+    let (first, others) = directions.split_at(n);
+    let (second, third) = others.split_at(n);
+    let rates = literal.prepared.graph.rates_along(&at.q, first);
+    let efforts_along = |a: (&[Dd], &[Dd])| literal.effort_rates(at, &rates, second, a);
+    let accelerations = |u: &[Dd]| {
+        let inputs = Inputs {
+            u: u.to_vec(),
+            ..at.clone()
+        };
+        Some(literal.form(Method::ForwardDynamics)?.evaluate(inputs).0)
+    };
+    // The efforts and accelerations move along random directions; factors l are other numbers.
+    let forward = || {
+        let solution = accelerations(&at.u)?;
+        let moved = efforts_along((&solution, &state.zero()));
+        let along = accelerations(&minus(third, &moved))?;
+        Some(minus(&along, &accelerations(&state.zero())?))
+    };
+    let size = largest(&state.efforts);
+    Some(match of {
+        Directional::InverseAlong => {
+            let text = "dτ = ∂P/∂q dq + ∂P/∂v dv + ∂P/∂a da";
+            (text, found.to_vec(), efforts_along((&at.a, third)), size)
+        }
+        Directional::ForwardAlong => {
+            let text = "dq̈ = M⁻¹ (dτ − ∂P/∂q dq − ∂P/∂v dv) at q̈";
+            (text, found.to_vec(), forward()?, 0.0)
+        }
+        // l is the same as dq here.
+        Directional::InverseAdjoint => {
+            let expected = dot(first, &efforts_along((&at.a, third)));
+            let text = "(∂P/∂q)ᵀ l · dq + (∂P/∂v)ᵀ l · dv + (M l) · da = l · dτ";
+            let size = size.max(largest(found));
+            (text, vec![dot(found, &directions)], vec![expected], size)
+        }
+        Directional::ForwardAdjoint => {
+            let along = forward()?;
+            let found = &found[n..];
+            let text = "(∂q̈/∂q)ᵀ l · dq + (∂q̈/∂v)ᵀ l · dv + (M⁻¹ l) · dτ = l · dq̈";
+            let size = largest(found).max(largest(&along));
+            (
+                text,
+                vec![dot(found, &directions)],
+                vec![dot(first, &along)],
+                size,
+            )
+        }
+    })
+}

@@ -1,0 +1,126 @@
+//! Checks operational space against the literal forward dynamics and Jacobian.
+
+use bgdyn_runtime::Dd;
+
+use super::compare::{largest, minus, plus, times};
+use crate::expr::Inputs;
+use crate::function::Function;
+use crate::method::{Method, Operational};
+use crate::random::Random;
+
+/// A law, its two sides, and the size of their terms.
+pub(super) type OperationalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
+
+/// The functions by equation (6), at a state.
+struct Literal<'a> {
+    forward: Function,
+    jacobian: Vec<Dd>,
+    jacobian_dot_v: Vec<Dd>,
+    at: &'a Inputs<Dd>,
+}
+
+impl Literal<'_> {
+    fn accelerations(&self, efforts: &[Dd]) -> Vec<Dd> {
+        let inputs = Inputs {
+            u: efforts.to_vec(),
+            ..self.at.clone()
+        };
+        self.forward.evaluate(inputs).0
+    }
+
+    /// Returns M⁻¹ f.
+    fn solved(&self, efforts: &[Dd]) -> Vec<Dd> {
+        let none = vec![Dd::ZERO; efforts.len()];
+        minus(&self.accelerations(efforts), &self.accelerations(&none))
+    }
+
+    /// Returns Jᵀ w.
+    fn efforts_of(&self, wrench: &[Dd]) -> Vec<Dd> {
+        let n = self.at.v.len();
+        let rows = self.jacobian.chunks(n.max(1)).zip(wrench);
+        rows.fold(vec![Dd::ZERO; n], |sum, (row, &w)| {
+            let own: Vec<Dd> = row.iter().map(|&x| x * w).collect();
+            plus(&sum, &own)
+        })
+    }
+
+    /// Returns Λ⁻¹ w.
+    fn inverse_inertia(&self, wrench: &[Dd]) -> Vec<Dd> {
+        times(&self.jacobian, &self.solved(&self.efforts_of(wrench)))
+    }
+}
+
+/// Returns the law of a method of operational space.
+pub(super) fn law(
+    form: &dyn Fn(Method) -> Option<Function>,
+    of: Operational,
+    (at, found): (&Inputs<Dd>, &[Dd]),
+) -> Option<OperationalLaw> {
+    let n = at.v.len();
+    let (_, entries) = found.split_at(n);
+    let value = |method| Some(form(method)?.evaluate(at.clone()).0);
+    let (jacobian, jacobian_dot_v) = match of.site() {
+        None => Default::default(),
+        Some(site) => (
+            value(Method::Jacobian(site))?,
+            value(Method::JacobianDotV(site))?,
+        ),
+    };
+    let literal = Literal {
+        forward: form(Method::ForwardDynamics)?,
+        jacobian,
+        jacobian_dot_v,
+        at,
+    };
+    let mut random = Random(31);
+    let mut any = |n: usize| -> Vec<Dd> {
+        let number = |_| Dd::from_f64(random.signed());
+        (0..n).map(number).collect()
+    };
+    let entries = match found.len() - n {
+        _ if of.site().is_none() => crate::method::Entries::Joints.spread(entries, n),
+        21 => crate::method::Entries::Task.spread(entries, n),
+        _ => entries.to_vec(),
+    };
+    Some(match of {
+        Operational::InverseMassMatrix => {
+            let f = any(n);
+            let text = "M⁻¹ f = q̈(f) − q̈(0)";
+            (text, times(&entries, &f), literal.solved(&f), 0.0)
+        }
+        Operational::InverseInertia(_) => {
+            let w = any(6);
+            let expected = literal.inverse_inertia(&w);
+            (
+                "Λ⁻¹ w = J (q̈(Jᵀ w) − q̈(0))",
+                times(&entries, &w),
+                expected,
+                0.0,
+            )
+        }
+        Operational::Inertia(_) => {
+            let w = any(6);
+            let moved = literal.inverse_inertia(&w);
+            (
+                "Λ J (q̈(Jᵀ w) − q̈(0)) = w",
+                times(&entries, &moved),
+                w,
+                largest(&entries) * largest(&moved),
+            )
+        }
+        Operational::ConsistentInverse(_) => {
+            let w = any(6);
+            let moved = times(&entries, &literal.inverse_inertia(&w));
+            let expected = literal.solved(&literal.efforts_of(&w));
+            ("J̄ Λ⁻¹ w = M⁻¹ Jᵀ w", moved, expected, 0.0)
+        }
+        Operational::Bias(_) => {
+            let free = literal.accelerations(&vec![Dd::ZERO; n]);
+            let expected = plus(&times(&literal.jacobian, &free), &literal.jacobian_dot_v);
+            let moved = literal.inverse_inertia(&entries);
+            let sum = plus(&moved, &expected);
+            let size = largest(&moved).max(largest(&literal.jacobian_dot_v));
+            ("Λ⁻¹ μ + J q̈(0) + J̇ v = 0", sum, vec![Dd::ZERO; 6], size)
+        }
+    })
+}
