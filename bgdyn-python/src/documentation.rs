@@ -1,7 +1,7 @@
 //! What `help` prints of methods: arguments and results with shapes, units and frames.
 
 use bgdyn_codegen::bond_graph::Site;
-use bgdyn_codegen::method::{Argument, Method, ParameterSet, Regressor, Shape};
+use bgdyn_codegen::method::{Argument, Centroidal, Method, ParameterSet, Regressor, Shape};
 
 use crate::spec::Spec;
 
@@ -53,6 +53,8 @@ pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
         .chain(of_loops)
         .chain([Method::DriveEfforts(0)])
         .chain(Regressor::ALL.map(Method::Regressor))
+        .chain(Centroidal::ALL.map(Method::Centroidal))
+        .chain([Method::MassMatrixRate])
         // The class has a property of this name.
         .filter(|method| *method != Method::Regressor(Regressor::Parameters));
     let one = |method: Method| {
@@ -161,6 +163,8 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::Symmetric | Shape::Square => one(&["nv", "nv"]),
         Shape::Spatial => one(&["6"]),
         Shape::Jacobian => one(&["6", "nv"]),
+        Shape::Point => one(&["3"]),
+        Shape::PointJacobian => one(&["3", "nv"]),
         Shape::TreeMatrix => one(&["nt", "nv"]),
         Shape::TreeVector | Shape::CheckedTree => one(&["nt"]),
         Shape::RowMatrix => one(&["nc", "nt"]),

@@ -82,6 +82,7 @@ impl Parts {
             Shape::Symmetric => (None, vec![Part::symmetric(nv)]),
             Shape::Square => (None, vec![Part::run(0, &[nv, nv])]),
             Shape::Jacobian => (None, vec![Part::run(0, &[6, nv])]),
+            Shape::PointJacobian => (None, vec![Part::run(0, &[3, nv])]),
             Shape::TreeMatrix => (None, vec![Part::run(0, &[nt, nv])]),
             Shape::RowMatrix => (None, vec![Part::run(0, &[nc, nt])]),
             Shape::SquarePair => (Some("InverseDerivatives"), vec![square(0, 0), square(1, 0)]),
@@ -117,6 +118,7 @@ impl Parts {
             | Shape::CheckedVector
             | Shape::CheckedActuated(_)
             | Shape::Spatial
+            | Shape::Point
             | Shape::TreeVector
             | Shape::RowVector
             | Shape::CheckedTree

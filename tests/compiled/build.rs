@@ -77,6 +77,7 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::Vector | Shape::Spatial | Shape::Drives(_) => "matrix",
             Shape::Symmetric | Shape::Square | Shape::Jacobian => "matrix",
             Shape::TreeVector | Shape::TreeMatrix => "matrix",
+            Shape::Point | Shape::PointJacobian => "matrix",
             Shape::ParameterColumns(_) | Shape::ParameterVector(_) => "matrix",
             Shape::RowVector | Shape::RowMatrix => "matrix",
             Shape::SquarePair => "matrices",

@@ -254,6 +254,8 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::CheckedWrenches => wrenches(&values[nv..]),
         Shape::LinkWrenches => wrenches(values),
         Shape::Square | Shape::Jacobian | Shape::TreeMatrix => rows(values, nv),
+        Shape::Point => json!(values),
+        Shape::PointJacobian => rows(values, nv),
         Shape::RowMatrix => rows(values, nt),
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),

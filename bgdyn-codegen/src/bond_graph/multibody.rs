@@ -174,6 +174,21 @@ impl Multibody {
             .collect()
     }
 
+    /// Returns the links that are not fixed to the world: those that joints move, with the links fixed to them, and those of
+    /// a base whose motion is given.
+    pub fn links_that_move(&self) -> Vec<LinkId> {
+        let mut moving: Vec<bool> = Vec::new();
+        for frame in &self.frames {
+            let carried = frame.parent.is_some_and(|parent| moving[parent.0]);
+            moving.push(carried || frame.motion != Motion::None);
+        }
+        let links = moving.into_iter().enumerate();
+        links
+            .filter(|(_, moves)| *moves)
+            .map(|(i, _)| LinkId(i))
+            .collect()
+    }
+
     /// Returns the first link whose joint is prescribed.
     pub fn first_prescribed(&self) -> Option<&LinkFrame> {
         let mut frames = self.frames.iter().skip(usize::from(self.base.is_some()));

@@ -18,7 +18,7 @@ use crate::bond_graph::{JointSegment, Site};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
-use crate::method::{Argument, Method, Regressor};
+use crate::method::{Argument, Centroidal, Method, Regressor};
 use crate::name::is_identifier;
 
 /// Returns the module with bodies that never run.
@@ -39,6 +39,8 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     let mut possible = Method::possible(&sites);
     possible.extend((prescribed > 0).then_some(Method::DriveEfforts(prescribed)));
     possible.extend(Regressor::ALL.map(Method::Regressor));
+    possible.extend(Centroidal::ALL.map(Method::Centroidal));
+    possible.push(Method::MassMatrixRate);
     let methods = possible.iter();
     let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();

@@ -5,6 +5,7 @@
 mod actuated;
 mod argument;
 mod bundled;
+mod centroidal;
 mod derivatives;
 mod loads;
 mod regressor;
@@ -15,6 +16,7 @@ mod words;
 use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
 use crate::fault::unknown_name;
 pub use argument::Argument;
+pub use centroidal::Centroidal;
 pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
 pub use shape::{ParameterSet, Shape};
@@ -92,6 +94,10 @@ pub enum Method {
     ActuatedJointReactions(usize),
     /// A method that is linear in the parameters of the bodies, or one of their vectors.
     Regressor(Regressor),
+    /// The centre of mass, or the momentum about it.
+    Centroidal(Centroidal),
+    /// Ṁ(q, v).
+    MassMatrixRate,
     /// A function of a scene.
     Scene(SceneFunction),
     /// Several methods in one call.
@@ -110,6 +116,8 @@ pub fn names() -> Vec<String> {
         .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
         .chain(Regressor::ALL.map(Method::Regressor))
+        .chain(Centroidal::ALL.map(Method::Centroidal))
+        .chain([Method::MassMatrixRate])
         .map(|method| method.name(&[]))
         .chain(Method::reduced_names())
         .collect()
@@ -177,6 +185,8 @@ impl Method {
             .partition(|method| method.site().is_none());
         let regressors = Method::regressors_of(graph).unwrap_or_default();
         let own = own.into_iter().chain(drives).chain(regressors);
+        let own = own.chain(Method::centroidal_of(graph).unwrap_or_default());
+        let own = own.chain(Method::mass_matrix_rate_of(graph).ok());
         let mut all: Vec<Method> = own.chain(of_sites).collect();
         let [inverse, forward] = Method::derivatives_of(graph);
         for method in &mut all {
@@ -250,6 +260,9 @@ impl Method {
             {
                 return message;
             }
+            if let Some(why) = centroidal::without(graph, name) {
+                return why;
+            }
             if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
                 return why;
             }
@@ -316,6 +329,8 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
             Method::JointReactions | Method::ActuatedJointReactions(_) => "joint_reactions".into(),
             Method::Regressor(regressor) => regressor.name().into(),
+            Method::Centroidal(of) => of.name().into(),
+            Method::MassMatrixRate => "mass_matrix_rate".into(),
             Method::Scene(role) => role.name().into(),
             Method::Bundle { .. } => "bundle".into(),
         }
@@ -347,6 +362,8 @@ impl Method {
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
             Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
             Method::Regressor(regressor) => regressor.arguments(),
+            Method::Centroidal(of) => of.arguments(),
+            Method::MassMatrixRate => &[Q, V],
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,
@@ -403,6 +420,8 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => Shape::CheckedWrenches,
             Method::JointReactions | Method::ActuatedJointReactions(_) => Shape::LinkWrenches,
             Method::Regressor(regressor) => regressor.shape(),
+            Method::Centroidal(of) => of.shape(),
+            Method::MassMatrixRate => Shape::Symmetric,
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse

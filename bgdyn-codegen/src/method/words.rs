@@ -109,6 +109,10 @@ impl Method {
                     .into()
             }
             Method::Regressor(regressor) => regressor.summary().into(),
+            Method::Centroidal(of) => of.summary().into(),
+            Method::MassMatrixRate => {
+                "Rate Ṁ(q, v) of the mass matrix along the velocities `v`, exactly symmetric.".into()
+            }
             Method::Scene(role) => role.summary().into(),
             Method::Bundle { .. } => "The results of several methods, which share their computations.".into(),
         }
@@ -153,6 +157,8 @@ impl Method {
             | Method::JointReactions
             | Method::ActuatedJointReactions(_) => "N, N·m",
             Method::Regressor(regressor) => regressor.units(),
+            Method::Centroidal(of) => of.units(),
+            Method::MassMatrixRate => "units of the mass matrix per second",
             Method::Scene(_) | Method::Bundle { .. } => "as its parts say",
         }
     }
