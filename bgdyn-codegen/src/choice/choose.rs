@@ -261,7 +261,8 @@ impl<'a> Choice<'a> {
 
 /// Returns whether a method is a derivative of others.
 fn differentiates(method: Method) -> bool {
-    method == Method::CoriolisMatrix || method.differentiates_dynamics()
+    matches!(method, Method::CoriolisMatrix | Method::MassMatrixRate)
+        || method.differentiates_dynamics()
 }
 
 /// Returns a function whose accuracy is not checked.
