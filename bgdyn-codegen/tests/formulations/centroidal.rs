@@ -1,6 +1,7 @@
 //! Tests centroidal methods and the rate of the mass matrix: equal to their definitions on random trees, coupled joints,
 //! joints of every type and loops; relations between them; counts of operations.
 
+use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Centroidal, Method};
 use bgdyn_codegen::options::Options;
@@ -33,19 +34,21 @@ fn passes(robot: &Robot, what: &str) {
     assert!(found.is_empty(), "{what}\n{}", explain(&found));
 }
 
-/// Mechanisms of a folder of specs.
-fn of_folder(folder: &str) -> Vec<(String, Robot)> {
-    let folder = format!("{}/../specs/{folder}", env!("CARGO_MANIFEST_DIR"));
+/// Returns the mechanisms of a folder, with their texts.
+fn of_folder(folder: &str) -> Vec<(String, String)> {
+    let folder = format!("{}/../{folder}", env!("CARGO_MANIFEST_DIR"));
     let entries = std::fs::read_dir(folder).expect("the folder of specs");
     let paths = entries.map(|entry| entry.expect("a file").path());
-    let specs = paths.filter(|path| path.extension().is_some_and(|end| end == "yaml"));
-    specs
+    let mut specs: Vec<(String, String)> = paths
+        .filter(|path| path.extension().is_some_and(|end| end == "yaml"))
         .map(|path| {
             let text = std::fs::read_to_string(&path).expect("a spec");
             let stem = path.file_stem().and_then(|stem| stem.to_str());
-            (path.display().to_string(), Robot::read(&text, stem))
+            (stem.expect("a name").to_owned(), text)
         })
-        .collect()
+        .collect();
+    specs.sort();
+    specs
 }
 
 #[test]
@@ -81,6 +84,97 @@ fn every_turned_sign_is_refused() {
             assert_eq!(found.len(), 1, "{} output {k}", function.name);
         }
     }
+}
+
+/// Robots on a base whose motion is given, and with joints of every type.
+#[test]
+fn joints_of_every_type_equal_the_definitions() {
+    let specs = of_folder("tests/golden/joints");
+    assert!(specs.len() > 5);
+    for (name, text) in specs {
+        passes(&Robot::read(&text, Some(&name)), &name);
+    }
+    for (name, text) in of_folder("specs") {
+        passes(&Robot::read(&text, Some(&name)), &name);
+        let on_given_base = text.replacen("format: 1\n", "format: 1\nbase: given\n", 1);
+        assert_ne!(text, on_given_base);
+        if !text.contains("base:") {
+            passes(
+                &Robot::read(&on_given_base, Some(&name)),
+                &format!("{name}, given base"),
+            );
+        }
+    }
+}
+
+/// Mimics, gears, prescribed joints and wheels.
+#[test]
+fn constrained_mechanisms_equal_the_definitions() {
+    let specs = of_folder("specs/constraints");
+    assert!(specs.len() > 8);
+    for (name, text) in specs {
+        passes(&Robot::read(&text, Some(&name)), &name);
+    }
+}
+
+/// The columns of the open tree, combined by the map of the loops.
+#[test]
+fn loops_equal_the_definitions() {
+    let specs = of_folder("specs/loops");
+    let quick = ["four_bar", "five_bar", "slider_crank", "rssr", "six_bar"];
+    for (name, text) in specs.iter().filter(|(name, _)| quick.contains(&&name[..])) {
+        passes(&Robot::read(text, Some(name)), name);
+    }
+}
+
+/// Base parameters do not change the total momentum: with each body's own inertia it is the same.
+#[test]
+fn own_inertia_has_the_same_momentum() {
+    for name in ["scara4", "puma560", "panda7", "dpend2"] {
+        let robot = golden::robot(name);
+        for of in ["recursion_own", "literal"] {
+            let options = Options {
+                formulation: by_name(of),
+                ..options(&robot)
+            };
+            let model = model(robot.mechanism.clone(), &options).expect("a model");
+            assert!(
+                model
+                    .functions
+                    .iter()
+                    .any(|f| f.formulation.starts_with(of))
+            );
+            let found = check_model(&model);
+            assert!(found.is_empty(), "{name}, {of}\n{}", explain(&found));
+        }
+    }
+}
+
+const MASSLESS: &str = "format: 1
+name: massless
+links:
+  - name: base
+    mass: 3
+  - name: arm
+    parent: base
+    joint: { name: turn, type: revolute, axis: y }
+    inertia: { xx: 1, yy: 1, zz: 1 }
+    nonphysical: allow
+";
+
+/// A link that is fixed to the world has a mass, but it does not move.
+#[test]
+fn without_a_mass_there_is_no_centre() {
+    let robot = Robot::read(MASSLESS, None);
+    let why = Method::named(robot.graph, "centroidal_map").expect_err("no mass");
+    assert!(
+        why.starts_with("`centroidal_map`: no link that a joint moves has a mass"),
+        "{why}"
+    );
+    assert!(Method::named(robot.graph, "mass_matrix_rate").is_ok());
+    let has_mass = MASSLESS.replace("    inertia: { xx", "    mass: 1\n    inertia: { xx");
+    let robot = Robot::read(&has_mass, None);
+    assert!(Method::named(robot.graph, "centroidal_map").is_ok());
 }
 
 /// Multiplications and additions by robot, before loops and blocks: centroidal map, momentum, its rate, Jacobian of the

@@ -3,6 +3,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod golden;
+mod golden_centroidal;
 mod golden_poses;
 mod golden_regressors;
 mod lagrange_oracle;

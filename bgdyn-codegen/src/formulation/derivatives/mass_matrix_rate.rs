@@ -52,7 +52,10 @@ impl Formulation for MassMatrixRate {
         let rates = masses.flat_map(|mass| [&mass.plain, &mass.generated]);
         let rates = rates.map(|mass| differentiated(prepared.graph, mass));
         let coriolis = prepared.candidates(Method::CoriolisMatrix);
-        let sums = coriolis.accepted.iter().filter(|_| is_symmetric_part(prepared.graph));
+        let sums = coriolis
+            .accepted
+            .iter()
+            .filter(|_| is_symmetric_part(prepared.graph));
         let sums = sums.map(|candidate| symmetric_part(prepared.graph, &candidate.plain));
         cheapest_after_factoring(rates.chain(sums))
     }

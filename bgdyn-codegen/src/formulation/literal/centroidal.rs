@@ -57,7 +57,9 @@ impl<'g> LiteralSum<'_, 'g> {
             }
         }
         let total = self.total_mass();
-        let columns = columns.into_iter().map(|column| column.map(|x| x / total).0);
+        let columns = columns
+            .into_iter()
+            .map(|column| column.map(|x| x / total).0);
         rows(&columns.collect::<Vec<_>>())
     }
 

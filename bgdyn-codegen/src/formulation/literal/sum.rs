@@ -180,7 +180,10 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     }
 
     /// Returns m_i r̈_i − R_i, K̇_i and ω̇_i of each link for the given velocities and accelerations.
-    pub(super) fn link_loads<'s>(&'s self, x: &'s Arguments<'g>) -> impl Iterator<Item = LinkLoad<'g>> + 's {
+    pub(super) fn link_loads<'s>(
+        &'s self,
+        x: &'s Arguments<'g>,
+    ) -> impl Iterator<Item = LinkLoad<'g>> + 's {
         let mut rate = Tangent::new(along(tangents(self.b, self.graph, &x.v)));
         let mut rate_of = move |m: &Vec3<Expr<'g>>| {
             m.map(|e| {

@@ -68,8 +68,9 @@ fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> BestPla
 fn search_plans(prepared: &Prepared<'_>, method: Method, momenta: MomentaPlan) -> BestPlan {
     let graph = prepared.graph;
     let geometry = prepared.geometry_of(method);
-    let mut best =
-        plan_search::search(geometry, momenta, |plan| cost(graph, geometry, method, plan));
+    let mut best = plan_search::search(geometry, momenta, |plan| {
+        cost(graph, geometry, method, plan)
+    });
     let small = geometry.bodies.len() <= SMALL;
     let kept = if small { best.plans.len() } else { 1 };
     let mut candidates: Vec<Tried> = best.plans.drain(..kept).collect();
