@@ -189,6 +189,15 @@ impl Multibody {
             .collect()
     }
 
+    /// Returns whether one of [`Multibody::links_that_move`] has a mass, or may have one at run time.
+    pub fn moves_mass(&self) -> bool {
+        let has_mass = |link: LinkId| match self.inertial(link).mass {
+            Value::Fixed(mass) => mass.hi() != 0.0,
+            Value::Parameter(_) => true,
+        };
+        self.links_that_move().into_iter().any(has_mass)
+    }
+
     /// Returns the first link whose joint is prescribed.
     pub fn first_prescribed(&self) -> Option<&LinkFrame> {
         let mut frames = self.frames.iter().skip(usize::from(self.base.is_some()));

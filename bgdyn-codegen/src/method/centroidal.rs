@@ -6,7 +6,6 @@
 
 use super::{Argument, Method, Shape};
 use crate::bond_graph::BondGraph;
-use crate::mechanism::Value;
 
 /// A method of the centre of mass, or of the momentum about it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -101,12 +100,7 @@ impl Method {
     /// Why it has none.
     pub fn centroidal_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
         let bodies = graph.closed.as_ref().map_or(graph, |closed| &closed.tree);
-        let moving = bodies.links_that_move().into_iter();
-        let has_mass = |mass: Value| match mass {
-            Value::Fixed(mass) => mass.hi() != 0.0,
-            Value::Parameter(_) => true,
-        };
-        match moving.map(|link| bodies.inertial(link).mass).any(has_mass) {
+        match bodies.moves_mass() {
             true => Ok(Centroidal::ALL.map(Method::Centroidal).to_vec()),
             false => Err(
                 "no link that a joint moves has a mass, so that there is no centre of mass; write `mass` for at least one of them",

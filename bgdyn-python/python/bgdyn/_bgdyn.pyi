@@ -317,6 +317,18 @@ class Model:
     """The kinetic energy by the parameters of the bodies, (..., 10 nb)."""
     potential_energy_regressor: MethodOfClass[_Q[Array, Array]]
     """The potential energy by the parameters of the bodies, (..., 10 nb)."""
+    centre_of_mass: MethodOfClass[_Q[Array, Array]]
+    """The centre of mass in the world, (..., 3): m."""
+    com_jacobian: MethodOfClass[_Q[Array, Array]]
+    """Jacobian of the centre of mass, (..., 3, nv): its velocity is J v."""
+    centroidal_map: MethodOfClass[_Q[Array, Array]]
+    """A_g, (..., 6, nv): the momentum about the centre of mass is A_g v, angular part first; world axes."""
+    centroidal_momentum: MethodOfClass[_QV[Array, Array]]
+    """The momentum about the centre of mass, (..., 6), angular part first: kg·m²/s, kg·m/s."""
+    centroidal_bias: MethodOfClass[_QV[Array, Array]]
+    """Its rate where the accelerations are zero, (..., 6): N·m, N."""
+    mass_matrix_rate: MethodOfClass[_QV[Array, Array]]
+    """The rate of the mass matrix along v, (..., nv, nv)."""
     velocity_map: MethodOfClass[_Q[Array, Array]]
     """With loops: S(q), (..., nt, nv); the velocities of the open tree are S v."""
     tree_velocity: MethodOfClass[_QV[Array, Array]]
