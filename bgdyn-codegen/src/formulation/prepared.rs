@@ -4,7 +4,8 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use super::recursion::geometry::{Geometry, geometry, geometry_of_momenta};
+use super::recursion::geometry::{Geometry, geometry};
+use super::recursion::geometry_of_momenta;
 use super::recursion::plan_search::BestPlan;
 use super::recursion::regressor::BaseParameters;
 use crate::bond_graph::BondGraph;

@@ -8,6 +8,7 @@ mod bundled;
 mod centroidal;
 mod derivatives;
 mod loads;
+mod momenta;
 mod regressor;
 mod scene_function;
 mod shape;
@@ -260,7 +261,7 @@ impl Method {
             {
                 return message;
             }
-            if let Some(why) = centroidal::without(graph, name) {
+            if let Some(why) = Method::without_momentum(graph, name) {
                 return why;
             }
             if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {

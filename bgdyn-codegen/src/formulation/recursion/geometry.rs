@@ -187,14 +187,6 @@ pub(crate) fn geometry(graph: &Multibody) -> Geometry {
     made
 }
 
-/// Returns the bodies for the centre of mass and the momentum about it. The efforts of a body that moves in a plane and
-/// along its normal do not depend on where its mass is along the normal; they do.
-pub(crate) fn geometry_of_momenta(graph: &Multibody) -> Geometry {
-    let mut made = geometry(graph);
-    made.bodies.iter_mut().for_each(|body| body.planar = false);
-    made
-}
-
 /// Reverses z if the axis is opposite to the parent's, so that parallel axes are equal.
 fn align_parallel_axes(bodies: &mut [Body], placed: &[Pose]) {
     for j in 0..bodies.len() {

@@ -61,6 +61,7 @@ mod rotors;
 mod standard_parameters;
 
 pub(super) use articulated::Articulated;
+pub(super) use centroidal::geometry_of_momenta;
 pub(super) use common_axes::CommonAxes;
 pub(super) use formulation::Recursion;
 pub(super) use regressor::ParameterColumns;

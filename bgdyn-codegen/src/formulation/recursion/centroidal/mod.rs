@@ -13,7 +13,7 @@
 //! in all components, and the axis moves with both bodies. Across a translation D moves, which rotates with both. So the
 //! total momentum is that of the true bodies; what reaches the base is at rest there, and is added to the first moment
 //! alone. Only planar bodies, which give their mass at another place along the normal of the plane, would change it:
-//! [`super::geometry::geometry_of_momenta`] has none.
+//! [`geometry_of_momenta`] has none.
 
 mod choices;
 mod map;
@@ -24,7 +24,7 @@ mod world;
 pub(super) use choices::plans;
 
 use super::frames::Frames;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, geometry};
 use super::inverse_dynamics;
 use super::motion::{GravityField, motions};
 use super::plan::Plan;
@@ -32,6 +32,14 @@ use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::method::Centroidal;
 use masses::Masses;
+
+/// Returns the bodies for the centre of mass and the momentum about it. The efforts of a body that moves in a plane and
+/// along its normal do not depend on where its mass is along the normal; they do.
+pub(in crate::formulation) fn geometry_of_momenta(graph: &Multibody) -> Geometry {
+    let mut made = geometry(graph);
+    made.bodies.iter_mut().for_each(|body| body.planar = false);
+    made
+}
 
 /// Returns the results of a centroidal method for the velocities `v`.
 pub(super) fn outputs<'g>(
