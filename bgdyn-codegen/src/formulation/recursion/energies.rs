@@ -105,7 +105,7 @@ fn twice_kinetic_energy<'g>(
 /// Returns V = −g · Σ m r, with first moments summed from the tips.
 pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<'g> {
     let mut energy = frames.constant_energy;
-    sum_first_moments(b, frames, |j, frame, whole| {
+    sum_first_moments(b, frames, |j, frame, [_, _, whole]| {
         if frame.parent.is_none() {
             energy = energy - frames.gravity[j].dot(whole.first + whole.weigh(frame.position));
         }
@@ -113,12 +113,12 @@ pub(super) fn potential_energy<'g>(b: &'g Builder, frames: &Frames<'g>) -> Expr<
     energy
 }
 
-/// Sums masses and first moments from the tips, and gives `at` those of each body with all it carries, about its origin in
-/// the axes of its basis.
+/// Sums masses and first moments from the tips, and gives `at` those of each body with all it carries, about its origin: the
+/// part in own axes, the part in those of the basis, and the whole in the latter.
 pub(super) fn sum_first_moments<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
-    mut at: impl FnMut(usize, &BodyFrame<'g>, &BodyInertia<'g>),
+    mut at: impl FnMut(usize, &BodyFrame<'g>, [&BodyInertia<'g>; 3]),
 ) {
     let n = frames.bodies.len();
     let mut own = vec![BodyInertia::zero(b); n];
@@ -127,10 +127,11 @@ pub(super) fn sum_first_moments<'g>(
         let frame = &frames.bodies[j];
         b.section(|| format!("{}: first moment with all it carries", frame.name));
         // Masses and first moments only: they do not depend on D.
-        let mut whole = frame.inertia.plus(&own[j]);
+        let inner = frame.inertia.plus(&own[j]);
+        let mut whole = inner;
         whole.first = frame.turn.apply(whole.first);
         whole = whole.plus(&basis[j]);
-        at(j, frame, &whole);
+        at(j, frame, [&inner, &basis[j], &whole]);
         let Some(p) = frame.parent else { continue };
         whole.first = whole.first + whole.weigh(frame.position);
         if frame.continues {

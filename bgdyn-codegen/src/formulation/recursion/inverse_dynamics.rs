@@ -195,16 +195,22 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
             frame.name, frame.joint
         )
     };
-    sum_loads(b, frames, loads, title, |frame, [inner, outer, whole]| {
-        // The columns are constant in the axes of the basis for a joint with an axis, and in own axes.
-        let at_joint = if frame.axial { whole } else { inner };
-        for column in &frame.columns {
-            let own = at_joint.along(column) * column.effort;
-            let j = column.coordinate;
-            efforts[j] = (efforts[j] + own).named(|| format!("{effort}_{}", column.name));
-        }
-        name_wrenches(["f", "n"], frame, inner, outer, whole);
-    });
+    sum_loads(
+        b,
+        frames,
+        loads,
+        title,
+        |_, frame, [inner, outer, whole]| {
+            // The columns are constant in the axes of the basis for a joint with an axis, and in own axes.
+            let at_joint = if frame.axial { whole } else { inner };
+            for column in &frame.columns {
+                let own = at_joint.along(column) * column.effort;
+                let j = column.coordinate;
+                efforts[j] = (efforts[j] + own).named(|| format!("{effort}_{}", column.name));
+            }
+            name_wrenches(["f", "n"], frame, inner, outer, whole);
+        },
+    );
     efforts
 }
 
@@ -215,7 +221,7 @@ pub(super) fn sum_loads<'g>(
     frames: &Frames<'g>,
     loads: &[Load<'g>],
     title: impl Fn(&BodyFrame<'g>) -> String,
-    mut at: impl FnMut(&BodyFrame<'g>, [&BodyWrench<'g>; 3]),
+    mut at: impl FnMut(usize, &BodyFrame<'g>, [&BodyWrench<'g>; 3]),
 ) {
     let n = frames.bodies.len();
     // Contributions of the outboard bodies: in own axes, and in those of the basis.
@@ -226,7 +232,7 @@ pub(super) fn sum_loads<'g>(
         b.section(|| title(frame));
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
         let whole = outer.plus(inner.map(|v| frame.turn.apply(v)));
-        at(frame, [&inner, &outer, &whole]);
+        at(j, frame, [&inner, &outer, &whole]);
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {

@@ -22,8 +22,8 @@ pub(super) fn centroidal_map<'g>(
     let centre = centre_from_bodies(b, frames, masses);
     let angular = |j: usize, axes: BodyAxes, unit: &Momentum<'g>| {
         let arm = match axes {
-            BodyAxes::Basis => centre[j],
-            BodyAxes::Own => frames.bodies[j].turn.apply_back(centre[j]),
+            BodyAxes::Basis => centre[j].0,
+            BodyAxes::Own => centre[j].1,
         };
         (unit.angular - arm.cross(unit.linear)).map(|x| x * unit.effort)
     };
@@ -82,26 +82,30 @@ fn columns<'g>(
         .collect()
 }
 
-/// Returns the centre of mass about the origin of each body, in the axes of its basis.
+/// Returns the centre of mass about the origin of each body, in the axes of its basis and in its own.
 fn centre_from_bodies<'g>(
     b: &'g Builder,
     frames: &Frames<'g>,
     masses: &Masses<'g>,
-) -> Vec<Vec3<Expr<'g>>> {
+) -> Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> {
     let roots = masses.from_roots(b, frames);
-    let mut arms: Vec<Vec3<Expr<'g>>> = Vec::new();
+    let mut arms: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         b.section(|| format!("{}: the centre of mass from its origin", frame.name));
-        let arm = match frame.parent {
-            None => (roots.iter().find(|(root, _)| *root == j))
-                .map_or(Vec3([b.zero(); 3]), |(_, arm)| *arm),
-            Some(p) if frame.continues => arms[p] - frame.position,
+        let root = roots.iter().find(|arm| arm.body == j);
+        let in_basis = match frame.parent {
+            None => root.map_or(Vec3([b.zero(); 3]), |arm| arm.basis),
+            Some(p) if frame.continues => arms[p].0 - frame.position,
             Some(p) => {
                 let back = frame.twist.transpose().map(|x| b.constant(x));
-                back * frames.bodies[p].turn.apply_back(arms[p]) - frame.position
+                back * arms[p].1 - frame.position
             }
         };
-        arms.push(arm);
+        let in_own = root.and_then(|arm| arm.own);
+        arms.push((
+            in_basis,
+            in_own.unwrap_or_else(|| frame.turn.apply_back(in_basis)),
+        ));
     }
     arms
 }

@@ -20,6 +20,8 @@ struct Root<'g> {
     mass: Expr<'g>,
     /// Σ m s about its origin, in the axes of its basis, units of the plan.
     first: Vec3<Expr<'g>>,
+    /// The same in own axes, if all are given in these.
+    own: Option<Vec3<Expr<'g>>>,
     /// Its origin in the world, m.
     origin: Vec3<Expr<'g>>,
 }
@@ -41,7 +43,7 @@ impl<'g> Masses<'g> {
         (graph, geometry, plan): (&Multibody, &Geometry, &Plan),
     ) -> Self {
         let mut roots: Vec<Root<'g>> = Vec::new();
-        sum_first_moments(b, frames, |body, frame, whole| {
+        sum_first_moments(b, frames, |body, frame, [inner, outer, whole]| {
             if frame.parent.is_some() {
                 return;
             }
@@ -56,6 +58,7 @@ impl<'g> Masses<'g> {
                 body,
                 mass: mass_carried(b, graph, geometry, body),
                 first: whole.first + on_base,
+                own: is_zero(&outer.first).then(|| inner.first + frame.turn.apply_back(on_base)),
                 origin: twist * (b.vector(origin) + moved),
             });
         });
@@ -90,21 +93,44 @@ impl<'g> Masses<'g> {
         first.scale(self.per_mass)
     }
 
-    /// Returns, for each body on the base, the centre of mass about its origin in the axes of its basis, units of the plan.
-    pub fn from_roots(&self, b: &'g Builder, frames: &Frames<'g>) -> Vec<(usize, Vec3<Expr<'g>>)> {
+    /// Returns, for each body on the base, the centre of mass about its origin, units of the plan.
+    pub fn from_roots(&self, b: &'g Builder, frames: &Frames<'g>) -> Vec<RootArm<'g>> {
         let per_unit = Dd::ONE / self.unit;
         if let [root] = &self.roots[..] {
             let scale = self.per_mass * (per_unit * per_unit);
-            return vec![(root.body, root.first.scale(scale))];
+            return vec![RootArm {
+                body: root.body,
+                basis: root.first.scale(scale),
+                own: root.own.map(|first| first.scale(scale)),
+            }];
         }
         let centre = self.centre(b, frames);
         let of = |root: &Root<'g>| {
             let back = frames.bodies[root.body].twist.transpose();
             let arm = back.map(|x| b.constant(x)) * (centre - root.origin);
-            (root.body, arm.map(|x| x * per_unit))
+            RootArm {
+                body: root.body,
+                basis: arm.map(|x| x * per_unit),
+                own: None,
+            }
         };
         self.roots.iter().map(of).collect()
     }
+}
+
+/// The centre of mass about the origin of a body on the base, units of the plan.
+pub(super) struct RootArm<'g> {
+    /// The body.
+    pub body: usize,
+    /// In the axes of its basis.
+    pub basis: Vec3<Expr<'g>>,
+    /// In its own axes, where it need not be rotated to these.
+    pub own: Option<Vec3<Expr<'g>>>,
+}
+
+/// Returns whether a vector is zero at generation time.
+pub(super) fn is_zero(v: &Vec3<Expr<'_>>) -> bool {
+    v.0.iter().all(|x| x.is_zero())
 }
 
 /// Returns the mass of a body and of all it carries, as the spec has it.

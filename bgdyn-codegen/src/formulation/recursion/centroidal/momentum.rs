@@ -12,7 +12,7 @@ use super::super::inertia::BodyInertia;
 use super::super::inverse_dynamics::{BodyWrench, Load, sum_loads};
 use super::super::mass_matrix::{Momentum, composites};
 use super::super::plan::Plan;
-use super::masses::Masses;
+use super::masses::{Masses, is_zero};
 use crate::expr::{Builder, Expr};
 use crate::math::Vec3;
 
@@ -96,21 +96,42 @@ pub(super) fn about_centre<'g>(
     (masses, loads): (&Masses<'g>, &[Load<'g>]),
 ) -> Vec<Expr<'g>> {
     let title = |frame: &BodyFrame<'g>| format!("{}: momenta summed from the tips", frame.name);
+    let arms = masses.from_roots(b, frames);
     let mut at_roots: Vec<BodyWrench<'g>> = Vec::new();
-    sum_loads(b, frames, loads, title, |frame, [_, _, whole]| {
-        if frame.parent.is_none() {
-            at_roots.push(*whole);
-        }
-    });
+    sum_loads(
+        b,
+        frames,
+        loads,
+        title,
+        |j, frame, [inner, outer, whole]| {
+            let Some(arm) = arms.iter().find(|arm| arm.body == j) else {
+                return;
+            };
+            let in_own = is_zero(&outer.force) && is_zero(&outer.moment);
+            // In own axes, if everything is given in these: then the centre of mass is not rotated.
+            at_roots.push(match arm.own.filter(|_| in_own) {
+                Some(arm) => moved_to(inner, arm).map(|v| frame.turn.apply(v)),
+                None => moved_to(whole, arm.basis),
+            });
+        },
+    );
     at_roots.reverse();
     b.section(|| "about the centre of mass, in the world".into());
     let zero = Vec3([b.zero(); 3]);
     let (mut angular, mut linear) = (zero, zero);
-    for ((body, arm), whole) in masses.from_roots(b, frames).into_iter().zip(at_roots) {
-        let twist = frames.bodies[body].twist.map(|x| b.constant(x));
-        angular = angular + twist * (whole.moment - arm.cross(whole.force));
+    for (arm, whole) in arms.iter().zip(at_roots) {
+        let twist = frames.bodies[arm.body].twist.map(|x| b.constant(x));
         let per_unit = Dd::ONE / plan.unit;
+        angular = angular + twist * whole.moment;
         linear = linear + twist * whole.force.map(|x| x * per_unit);
     }
     angular.0.into_iter().chain(linear.0).collect()
+}
+
+/// Returns a load about a point that is displaced by `arm` from the present one.
+fn moved_to<'g>(load: &BodyWrench<'g>, arm: Vec3<Expr<'g>>) -> BodyWrench<'g> {
+    BodyWrench {
+        force: load.force,
+        moment: load.moment - arm.cross(load.force),
+    }
 }
