@@ -88,7 +88,7 @@ fn centre_from_bodies<'g>(
     frames: &Frames<'g>,
     masses: &Masses<'g>,
 ) -> Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> {
-    let roots = masses.from_roots(b, frames);
+    let roots = masses.arms(b, frames);
     let mut arms: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)> = Vec::new();
     for (j, frame) in frames.bodies.iter().enumerate() {
         b.section(|| format!("{}: the centre of mass from its origin", frame.name));

@@ -94,7 +94,7 @@ impl<'g> Masses<'g> {
     }
 
     /// Returns, for each body on the base, the centre of mass about its origin, units of the plan.
-    pub fn from_roots(&self, b: &'g Builder, frames: &Frames<'g>) -> Vec<RootArm<'g>> {
+    pub fn arms(&self, b: &'g Builder, frames: &Frames<'g>) -> Vec<RootArm<'g>> {
         let per_unit = Dd::ONE / self.unit;
         if let [root] = &self.roots[..] {
             let scale = self.per_mass * (per_unit * per_unit);

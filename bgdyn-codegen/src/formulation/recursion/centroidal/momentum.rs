@@ -96,7 +96,7 @@ pub(super) fn about_centre<'g>(
     (masses, loads): (&Masses<'g>, &[Load<'g>]),
 ) -> Vec<Expr<'g>> {
     let title = |frame: &BodyFrame<'g>| format!("{}: momenta summed from the tips", frame.name);
-    let arms = masses.from_roots(b, frames);
+    let arms = masses.arms(b, frames);
     let mut at_roots: Vec<BodyWrench<'g>> = Vec::new();
     sum_loads(
         b,
