@@ -202,7 +202,9 @@ fn arguments<'a, T>(
             Argument::Q => from.q = values,
             Argument::V | Argument::TreeV => from.v = values,
             Argument::A | Argument::ReferenceA => from.a = values,
-            Argument::ReferenceV => from.x = values,
+            Argument::ReferenceV | Argument::AlongQ | Argument::Cotangent => from.x = values,
+            Argument::AlongV => from.modes = values,
+            Argument::AlongTau => from.a = values,
             // The others are a scene's.
             _ => from.u = values,
         }

@@ -1,7 +1,9 @@
 //! What `help` prints of methods: arguments and results with shapes, units and frames.
 
 use bgdyn_codegen::bond_graph::Site;
-use bgdyn_codegen::method::{Argument, Method, ParameterSet, Regressor, Shape};
+use bgdyn_codegen::method::{
+    Argument, Centroidal, Directional, Entries, Method, Operational, ParameterSet, Regressor, Shape,
+};
 
 use crate::spec::Spec;
 
@@ -53,6 +55,10 @@ pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
         .chain(of_loops)
         .chain([Method::DriveEfforts(0)])
         .chain(Regressor::ALL.map(Method::Regressor))
+        .chain(Centroidal::ALL.map(Method::Centroidal))
+        .chain([Method::MassMatrixRate])
+        .chain([Method::Operational(Operational::InverseMassMatrix)])
+        .chain(Directional::ALL.map(Method::Directional))
         // The class has a property of this name.
         .filter(|method| *method != Method::Regressor(Regressor::Parameters));
     let one = |method: Method| {
@@ -141,6 +147,11 @@ fn meaning(argument: Argument) -> (&'static str, &'static str) {
         Argument::ReferenceV => ("nv", "velocities of a reference: rad/s, m/s"),
         Argument::ReferenceA => ("nv", "accelerations of a reference: rad/s², m/s²"),
         Argument::Direction => ("nv", "a number for each velocity"),
+        Argument::AlongQ => ("nv", "direction of the positions, along v: rad, m"),
+        Argument::AlongV => ("nv", "direction of the velocities: rad/s, m/s"),
+        Argument::AlongA => ("nv", "direction of the accelerations: rad/s², m/s²"),
+        Argument::AlongTau => ("nv", "direction of the efforts: N·m, N"),
+        Argument::Cotangent => ("nv", "factors of the results that are differentiated"),
         Argument::BodyParameters => (
             "10 nb",
             "parameters of the bodies: kg, kg·m, kg·m² about the origin of each link",
@@ -161,6 +172,8 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::Symmetric | Shape::Square => one(&["nv", "nv"]),
         Shape::Spatial => one(&["6"]),
         Shape::Jacobian => one(&["6", "nv"]),
+        Shape::Point => one(&["3"]),
+        Shape::PointJacobian => one(&["3", "nv"]),
         Shape::TreeMatrix => one(&["nt", "nv"]),
         Shape::TreeVector | Shape::CheckedTree => one(&["nt"]),
         Shape::RowMatrix => one(&["nc", "nt"]),
@@ -169,6 +182,14 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
         Shape::ParameterVector(ParameterSet::Bodies) => one(&["10 nb"]),
         Shape::ParameterVector(ParameterSet::Base) => one(&["nbp"]),
+        Shape::VectorTriple => one(&["3", "nv"]),
+        Shape::Checked(entries) => match entries {
+            Entries::Joints => one(&["nv", "nv"]),
+            Entries::Task => one(&["6", "6"]),
+            Entries::TaskColumns => one(&["nv", "6"]),
+            Entries::TaskVector => one(&["6"]),
+            Entries::VectorTriple => one(&["3", "nv"]),
+        },
         Shape::SquarePair => (
             Some("InverseDerivatives"),
             vec![("q", square.clone()), ("v", square)],

@@ -1,6 +1,6 @@
 //! What a method returns in Python: its arrays, and which numbers of the function each contains.
 
-use bgdyn_codegen::method::{Method, Shape};
+use bgdyn_codegen::method::{Entries, Method, Shape};
 
 /// The sizes of a mechanism that shapes depend on.
 #[derive(Clone, Copy, Debug)]
@@ -51,6 +51,22 @@ impl Part {
         }
     }
 
+    /// Returns the entries after the numbers that are only checked.
+    fn entries(entries: Entries, nv: usize) -> Self {
+        let shape = match entries {
+            Entries::Joints => vec![nv, nv],
+            Entries::Task => vec![6, 6],
+            Entries::TaskColumns => vec![nv, 6],
+            Entries::TaskVector => vec![6],
+            Entries::VectorTriple => vec![3, nv],
+        };
+        let all: Vec<usize> = (nv..nv + entries.len(nv)).collect();
+        Part {
+            shape,
+            source: entries.spread(&all, nv),
+        }
+    }
+
     /// Returns the forces (`at` 0) or moments (`at` 3) of wrenches from `first` on.
     fn of_wrenches(first: usize, number: usize, at: usize) -> Self {
         let entries = (0..number).flat_map(|k| (0..3).map(move |i| first + 6 * k + at + i));
@@ -82,8 +98,11 @@ impl Parts {
             Shape::Symmetric => (None, vec![Part::symmetric(nv)]),
             Shape::Square => (None, vec![Part::run(0, &[nv, nv])]),
             Shape::Jacobian => (None, vec![Part::run(0, &[6, nv])]),
+            Shape::PointJacobian => (None, vec![Part::run(0, &[3, nv])]),
             Shape::TreeMatrix => (None, vec![Part::run(0, &[nt, nv])]),
             Shape::RowMatrix => (None, vec![Part::run(0, &[nc, nt])]),
+            Shape::VectorTriple => (None, vec![Part::run(0, &[3, nv])]),
+            Shape::Checked(entries) => (None, vec![Part::entries(entries, nv)]),
             Shape::SquarePair => (Some("InverseDerivatives"), vec![square(0, 0), square(1, 0)]),
             Shape::CheckedSquares => (
                 Some("ForwardDerivatives"),
@@ -117,6 +136,7 @@ impl Parts {
             | Shape::CheckedVector
             | Shape::CheckedActuated(_)
             | Shape::Spatial
+            | Shape::Point
             | Shape::TreeVector
             | Shape::RowVector
             | Shape::CheckedTree

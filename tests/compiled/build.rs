@@ -16,7 +16,7 @@ use std::{env, fs};
 
 use bgdyn_codegen::emit::struct_ident;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Shape;
+use bgdyn_codegen::method::{Entries, Shape};
 use random::Draft;
 use rng::Rng;
 
@@ -77,10 +77,13 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::Vector | Shape::Spatial | Shape::Drives(_) => "matrix",
             Shape::Symmetric | Shape::Square | Shape::Jacobian => "matrix",
             Shape::TreeVector | Shape::TreeMatrix => "matrix",
+            Shape::Point | Shape::PointJacobian => "matrix",
             Shape::ParameterColumns(_) | Shape::ParameterVector(_) => "matrix",
             Shape::RowVector | Shape::RowMatrix => "matrix",
-            Shape::SquarePair => "matrices",
+            Shape::SquarePair | Shape::VectorTriple => "matrices",
             Shape::CheckedVector => "checked",
+            Shape::Checked(Entries::VectorTriple) => "checked_matrices",
+            Shape::Checked(_) => "checked",
             Shape::CheckedSquares => "checked_matrices",
             Shape::Pose => "pose",
             Shape::CheckedActuated(_)

@@ -118,11 +118,10 @@ fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
             Argument::A | Argument::ReferenceA => inputs.a = values,
             Argument::ReferenceV => inputs.x = values,
             Argument::Direction | Argument::BodyParameters => inputs.u = values,
-            Argument::Cotangent => inputs.x = values,
-            // One after the other: dq, dv, and da or dtau.
-            Argument::AlongQ | Argument::AlongV | Argument::AlongA | Argument::AlongTau => {
-                inputs.x.extend(values);
-            }
+            Argument::AlongQ | Argument::Cotangent => inputs.x = values,
+            Argument::AlongV => inputs.modes = values,
+            Argument::AlongA => inputs.u = values,
+            Argument::AlongTau => inputs.a = values,
             Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => inputs.u = values,
             _ => return Err(plain("only a scene's function has this argument".into())),
         }
@@ -273,6 +272,8 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
                 Entries::TaskVector => json!(all),
             }
         }
+        Shape::Point => json!(values),
+        Shape::PointJacobian => rows(values, nv),
         Shape::RowMatrix => rows(values, nt),
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),

@@ -174,6 +174,30 @@ impl Multibody {
             .collect()
     }
 
+    /// Returns the links that are not fixed to the world: those that joints move, with the links fixed to them, and those of
+    /// a base whose motion is given.
+    pub fn links_that_move(&self) -> Vec<LinkId> {
+        let mut moving: Vec<bool> = Vec::new();
+        for frame in &self.frames {
+            let carried = frame.parent.is_some_and(|parent| moving[parent.0]);
+            moving.push(carried || frame.motion != Motion::None);
+        }
+        let links = moving.into_iter().enumerate();
+        links
+            .filter(|(_, moves)| *moves)
+            .map(|(i, _)| LinkId(i))
+            .collect()
+    }
+
+    /// Returns whether one of [`Multibody::links_that_move`] has a mass, or may have one at run time.
+    pub fn moves_mass(&self) -> bool {
+        let has_mass = |link: LinkId| match self.inertial(link).mass {
+            Value::Fixed(mass) => mass.hi() != 0.0,
+            Value::Parameter(_) => true,
+        };
+        self.links_that_move().into_iter().any(has_mass)
+    }
+
     /// Returns the first link whose joint is prescribed.
     pub fn first_prescribed(&self) -> Option<&LinkFrame> {
         let mut frames = self.frames.iter().skip(usize::from(self.base.is_some()));

@@ -261,7 +261,10 @@ impl<'a> Choice<'a> {
 
 /// Returns whether a method is a derivative of others.
 fn differentiates(method: Method) -> bool {
-    matches!(method, Method::CoriolisMatrix | Method::Directional(_))
+    matches!(
+        method,
+        Method::CoriolisMatrix | Method::Directional(_) | Method::MassMatrixRate
+    )
         || method.differentiates_dynamics()
 }
 

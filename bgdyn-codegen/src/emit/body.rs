@@ -306,6 +306,8 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
         Shape::LinkWrenches => wrenches(values),
         Shape::Spatial | Shape::Drives(_) => vector(values),
         Shape::Jacobian => matrix(nv, values),
+        Shape::Point => vector(values),
+        Shape::PointJacobian => matrix(nv, values),
         Shape::TreeVector | Shape::RowVector => vector(values),
         Shape::TreeMatrix => matrix(nv, values),
         Shape::RowMatrix => matrix(sizes.of_tree.unwrap_or(nv), values),

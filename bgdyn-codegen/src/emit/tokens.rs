@@ -151,6 +151,8 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Drives(_) => quote! { __na::SVector<T, NP> },
         Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },
+        Shape::Point => quote! { __na::SVector<T, 3> },
+        Shape::PointJacobian => quote! { __na::SMatrix<T, 3, NV> },
         Shape::TreeVector | Shape::CheckedTree => quote! { __na::SVector<T, NT> },
         Shape::TreeMatrix => quote! { __na::SMatrix<T, NT, NV> },
         Shape::RowVector => quote! { __na::SVector<T, NC> },

@@ -54,6 +54,8 @@ impl<'g> Arguments<'g> {
                 method,
                 Method::KineticEnergy
                     | Method::ProjectVelocity
+                    | Method::Centroidal(_)
+                    | Method::MassMatrixRate
                     | Method::Regressor(
                         Regressor::Momentum | Regressor::BaseMomentum | Regressor::KineticEnergy
                     )
@@ -81,7 +83,7 @@ impl<'g> Arguments<'g> {
             tau: efforts,
             reference_v: read(takes(Argument::ReferenceV) && turning, Leaf::State),
             direction: read(takes(Argument::Direction), Leaf::Input),
-            active: true,
+            active: !matches!(method, Method::Centroidal(_)),
             base: graph
                 .base
                 .filter(|_| moves_with_base(method))

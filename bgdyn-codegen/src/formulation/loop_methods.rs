@@ -10,7 +10,7 @@ use crate::formulation::joint_motion::{along, tangents};
 use crate::formulation::solve;
 use crate::formulation::velocity_map::VelocityMap;
 use crate::function::{Function, in_triangle};
-use crate::method::Method;
+use crate::method::{Centroidal, Method};
 
 /// The motion of the open tree for the independent velocities and accelerations.
 pub(super) struct LoopMotion<'a, 'g> {
@@ -45,6 +45,8 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
         }
         Method::Pose(_) | Method::Velocity(_) | Method::Jacobian(_) => vec![method],
         Method::JacobianDotV(site) => vec![method, Method::Jacobian(site)],
+        Method::Centroidal(Centroidal::Bias) => vec![method, Method::Centroidal(Centroidal::Map)],
+        Method::Centroidal(_) => vec![method],
         _ => vec![],
     }
 }
@@ -117,14 +119,14 @@ pub(super) fn compose<'g>(
         Method::CoriolisMatrix => tree.coriolis_matrix(closed)?,
         Method::Pose(_) | Method::Velocity(_) => tree.read(method, None)?,
         Method::Jacobian(_) => product(&tree.read(method, None)?, &map.map, n, b),
-        Method::JacobianDotV(site) => {
-            let jacobian = tree.read(Method::Jacobian(site), None)?;
-            let z = motion.bias_accelerations(b).into_iter();
-            let z: Vec<Vec<Expr<'g>>> = z.map(|z| vec![z]).collect();
-            let moved = product(&jacobian, &z, 1, b);
-            let own = tree.read(method, None)?;
-            own.into_iter().zip(moved).map(|(x, y)| x + y).collect()
-        }
+        Method::JacobianDotV(site) => tree.rate(method, Method::Jacobian(site))?,
+        Method::Centroidal(of) => match of {
+            Centroidal::Centre | Centroidal::Momentum => tree.read(method, None)?,
+            Centroidal::Jacobian | Centroidal::Map => {
+                product(&tree.read(method, None)?, &map.map, n, b)
+            }
+            Centroidal::Bias => tree.rate(method, Method::Centroidal(Centroidal::Map))?,
+        },
         Method::VelocityMap => entries(&map.map),
         Method::TreeVelocity => motion.velocities.clone(),
         Method::TreeAcceleration => motion.accelerations(&x.a),
@@ -221,6 +223,17 @@ impl<'g> TreeFunctions<'_, '_, 'g> {
             .b
             .with_graph(|g| copy_into(g, &function.graph, outputs, |_, l| leaf(l)));
         Some(copied.into_iter().map(|e| self.b.expr(e)).collect())
+    }
+
+    /// Returns the rate where u̇ is zero: that of the tree where its accelerations are zero, and the columns of the
+    /// `map` times z.
+    fn rate(&self, method: Method, map: Method) -> Option<Vec<Expr<'g>>> {
+        let map = self.read(map, None)?;
+        let z = self.motion.bias_accelerations(self.b).into_iter();
+        let z: Vec<Vec<Expr<'g>>> = z.map(|z| vec![z]).collect();
+        let moved = product(&map, &z, 1, self.b);
+        let own = self.read(method, None)?;
+        Some(own.into_iter().zip(moved).map(|(x, y)| x + y).collect())
     }
 
     /// Returns the efforts on the joints of the tree.

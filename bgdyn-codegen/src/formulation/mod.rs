@@ -61,7 +61,7 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
 /// make offers for any selected formulation, because those functions belong to it. Regressors have one formulation.
-pub(crate) static DERIVED: [&dyn Formulation; 11] = [
+pub(crate) static DERIVED: [&dyn Formulation; 12] = [
     &loops::Elimination,
     &base_twist::BaseTwist(0),
     &base_twist::BaseTwist(1),
@@ -73,6 +73,7 @@ pub(crate) static DERIVED: [&dyn Formulation; 11] = [
     &operational::Driven,
     &operational::Factored,
     &recursion::ParameterColumns,
+    &derivatives::MassMatrixRate,
 ];
 
 /// Returns the expressions of the mass matrix, its lower triangle, and then of the bias, for joints of any type.

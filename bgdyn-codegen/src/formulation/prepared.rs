@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::recursion::geometry::{Geometry, geometry};
+use super::recursion::geometry_of_momenta;
 use super::recursion::plan_search::BestPlan;
 use super::recursion::regressor::BaseParameters;
 use crate::bond_graph::BondGraph;
@@ -42,6 +43,7 @@ pub struct Prepared<'a> {
     /// The mechanism's bond graph.
     pub graph: &'a BondGraph,
     geometry: OnceCell<Geometry>,
+    geometry_of_momenta: OnceCell<Geometry>,
     base_parameters: OnceCell<BaseParameters>,
     /// The cheapest plans of the recursion.
     pub(super) plans: RefCell<BTreeMap<Method, BestPlan>>,
@@ -62,6 +64,7 @@ impl<'a> Prepared<'a> {
         Prepared {
             graph,
             geometry: OnceCell::new(),
+            geometry_of_momenta: OnceCell::new(),
             base_parameters: OnceCell::new(),
             plans: RefCell::default(),
             chosen: RefCell::default(),
@@ -136,6 +139,15 @@ impl<'a> Prepared<'a> {
     /// Returns the frames of the recursion.
     pub(crate) fn geometry(&self) -> &Geometry {
         self.geometry.get_or_init(|| geometry(self.graph))
+    }
+
+    /// Returns the frames of the recursion for a method.
+    pub(super) fn geometry_of(&self, method: Method) -> &Geometry {
+        let of_momenta = || geometry_of_momenta(self.graph);
+        match method {
+            Method::Centroidal(_) => self.geometry_of_momenta.get_or_init(of_momenta),
+            _ => self.geometry(),
+        }
     }
 
     /// Returns the base parameters.

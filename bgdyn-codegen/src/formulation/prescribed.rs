@@ -12,6 +12,7 @@
 //! | energies, poses, velocities | the same, with the whole motion |
 //! | loads through joints | the same, with the whole motion |
 //! | Jacobians | columns |
+//! | centroidal methods | as poses, velocities, Jacobians and J̇ v |
 //! | J̇ v | the acceleration where a is 0: J̇ v, and the other columns times the accelerations there |
 //! | Coriolis matrix | that of v alone, and the derivative of the bias along v where v is 0 |
 //!
@@ -27,7 +28,7 @@ use crate::bond_graph::{FreeArgument, Multibody, Released};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::{Function, in_triangle};
 use crate::mechanism::{BaseMotion, ParameterId};
-use crate::method::{Argument, Method};
+use crate::method::{Argument, Centroidal, Method};
 
 /// Returns the method's function by a formulation, also for a mechanism with prescribed joints: then from the
 /// functions for the mechanism in which they are free. A formulation that uses functions of other methods uses those
@@ -115,7 +116,20 @@ impl FreeFunctions<'_, '_> {
                 let columns = (0..6).flat_map(|row| own.iter().map(move |j| row * n + j));
                 self.copied(b, method, method, &columns.collect::<Vec<_>>())
             }
-            Method::JacobianDotV(_) => self.accelerations_of_site(b, method),
+            Method::JacobianDotV(site) => self.rate(b, method, Method::Jacobian(site)),
+            Method::Centroidal(of @ (Centroidal::Jacobian | Centroidal::Map)) => {
+                let own = self.released.own_velocities();
+                let rows = 0..of.shape().len(1);
+                let columns = rows.flat_map(|row| own.iter().map(move |j| row * n + j));
+                self.copied(b, method, method, &columns.collect::<Vec<_>>())
+            }
+            Method::Centroidal(Centroidal::Bias) => {
+                self.rate(b, method, Method::Centroidal(Centroidal::Map))
+            }
+            Method::Centroidal(_) => {
+                let all: Vec<usize> = (0..method.shape().len(n)).collect();
+                self.copied(b, method, method, &all)
+            }
             Method::KineticEnergy
             | Method::PotentialEnergy
             | Method::Pose(_)
@@ -155,11 +169,12 @@ impl FreeFunctions<'_, '_> {
         self.copied(b, Method::MassMatrix, Method::MassMatrix, &entries)
     }
 
-    /// Returns the acceleration of a site where a is 0.
-    fn accelerations_of_site(&self, b: &Builder, method: Method) -> Option<Made> {
+    /// Returns the acceleration of a site, or the rate of the momentum, where a is 0; `map` is the matrix to which it
+    /// belongs.
+    fn rate(&self, b: &Builder, method: Method, map: Method) -> Option<Made> {
         let n = self.released.velocities.len();
         let (mut sums, from) = self.copied(b, method, method, &[0, 1, 2, 3, 4, 5])?;
-        let jacobian = self.made(Method::Jacobian(method.site()?))?;
+        let jacobian = self.made(map)?;
         for prescribed in &self.released.prescribed {
             let column: Vec<usize> = (0..6).map(|i| i * n + prescribed.coordinate.0).collect();
             let column = self.copied_from(b, method, &jacobian, &column, |_| false);

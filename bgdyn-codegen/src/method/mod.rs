@@ -5,10 +5,12 @@
 mod actuated;
 mod argument;
 mod bundled;
+mod centroidal;
 mod derivatives;
 mod directional;
 mod loads;
 mod operational;
+mod momenta;
 mod regressor;
 mod scene_function;
 mod shape;
@@ -19,6 +21,7 @@ use crate::fault::unknown_name;
 pub use argument::Argument;
 pub use directional::Directional;
 pub use operational::Operational;
+pub use centroidal::Centroidal;
 pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
 pub use shape::{Entries, ParameterSet, Shape};
@@ -100,6 +103,10 @@ pub enum Method {
     Operational(Operational),
     /// A derivative along a direction, or an adjoint.
     Directional(Directional),
+    /// The centre of mass, or the momentum about it.
+    Centroidal(Centroidal),
+    /// Ṁ(q, v).
+    MassMatrixRate,
     /// A function of a scene.
     Scene(SceneFunction),
     /// Several methods in one call.
@@ -120,6 +127,8 @@ pub fn names() -> Vec<String> {
         .chain(Regressor::ALL.map(Method::Regressor))
         .chain([Method::Operational(Operational::InverseMassMatrix)])
         .chain(Directional::ALL.map(Method::Directional))
+        .chain(Centroidal::ALL.map(Method::Centroidal))
+        .chain([Method::MassMatrixRate])
         .map(|method| method.name(&[]))
         .chain(Method::reduced_names())
         .collect()
@@ -189,6 +198,8 @@ impl Method {
         let own = own.into_iter().chain(drives).chain(regressors);
         let own = own.chain(Method::operational_of(graph));
         let own = own.chain(Method::directional_of(graph).unwrap_or_default());
+        let own = own.chain(Method::centroidal_of(graph).unwrap_or_default());
+        let own = own.chain(Method::mass_matrix_rate_of(graph).ok());
         let mut all: Vec<Method> = own.chain(of_sites).collect();
         let [inverse, forward] = Method::derivatives_of(graph);
         for method in &mut all {
@@ -264,6 +275,9 @@ impl Method {
                 .or_else(|| directional::without_direction(graph, name))
             {
                 return message;
+            }
+            if let Some(why) = Method::without_momentum(graph, name) {
+                return why;
             }
             if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
                 return why;
@@ -354,6 +368,8 @@ impl Method {
                 None => of.prefix().into(),
             },
             Method::Directional(of) => of.name().into(),
+            Method::Centroidal(of) => of.name().into(),
+            Method::MassMatrixRate => "mass_matrix_rate".into(),
             Method::Scene(role) => role.name().into(),
             Method::Bundle { .. } => "bundle".into(),
         }
@@ -387,6 +403,8 @@ impl Method {
             Method::Regressor(regressor) => regressor.arguments(),
             Method::Operational(of) => of.arguments(),
             Method::Directional(of) => of.arguments(),
+            Method::Centroidal(of) => of.arguments(),
+            Method::MassMatrixRate => &[Q, V],
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
                 Argument::Accelerations,
@@ -445,6 +463,8 @@ impl Method {
             Method::Regressor(regressor) => regressor.shape(),
             Method::Operational(of) => of.shape(),
             Method::Directional(of) => of.shape(),
+            Method::Centroidal(of) => of.shape(),
+            Method::MassMatrixRate => Shape::Symmetric,
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::Inverse

@@ -30,6 +30,10 @@ pub enum Shape {
     Spatial,
     /// A 6 × NV matrix, row by row, angular part first.
     Jacobian,
+    /// A point, or a vector of three components.
+    Point,
+    /// A 3 × NV matrix, row by row.
+    PointJacobian,
     /// A number for each velocity of the open tree.
     TreeVector,
     /// An NT × NV matrix, row by row: velocities of the open tree by independent ones.
@@ -83,6 +87,8 @@ impl Shape {
             Shape::Pose => 12,
             Shape::Spatial => 6,
             Shape::Jacobian => 6 * nv,
+            Shape::Point => 3,
+            Shape::PointJacobian => 3 * nv,
             Shape::TreeVector | Shape::TreeMatrix | Shape::RowVector | Shape::RowMatrix => 0,
             Shape::CheckedTree | Shape::CheckedTreeAndRows => 0,
             Shape::CheckedWrenches | Shape::LinkWrenches => 0,

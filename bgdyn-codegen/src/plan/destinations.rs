@@ -46,6 +46,7 @@ pub fn matrix_destinations(shape: Shape, nv: usize) -> Option<Vec<Vec<Destinatio
         }
         Shape::Square => full(0, nv).collect(),
         Shape::Jacobian => full(0, 6).collect(),
+        Shape::PointJacobian => full(0, 3).collect(),
         Shape::SquarePair => full(0, nv).chain(full(1, nv)).collect(),
         _ => return None,
     })

@@ -111,15 +111,16 @@ impl<'a> Naming<'a> {
         if argument.belongs_to_scene() {
             return self.scene_components(argument);
         }
-        let n = self.joints.len();
         let leaf = |j: usize| match argument {
             Argument::Q => Leaf::Position(j),
             Argument::V | Argument::TreeV => Leaf::Velocity(j),
             Argument::A | Argument::ReferenceA => Leaf::Acceleration(j),
             Argument::Tau | Argument::TreeTau | Argument::ActuatedTau => Leaf::Input(j),
             Argument::Direction | Argument::BodyParameters => Leaf::Input(j),
-            Argument::AlongV => Leaf::State(n + j),
-            Argument::AlongA | Argument::AlongTau => Leaf::State(2 * n + j),
+            // Leaves that the other arguments of these methods leave free.
+            Argument::AlongV => Leaf::Mode(j),
+            Argument::AlongA => Leaf::Input(j),
+            Argument::AlongTau => Leaf::Acceleration(j),
             // v_r, dq, l
             _ => Leaf::State(j),
         };

@@ -11,12 +11,29 @@ use crate::random::Random;
 /// A law, its two sides, and the size of their terms.
 pub(super) type DirectionalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
-/// Returns the state with any directions dq, dv and a third one; an adjoint reads the first as its factors.
-pub(super) fn extended(at: &Inputs<Dd>) -> Inputs<Dd> {
+/// Returns any directions dq, dv and a third one; the first one is the factors of an adjoint as well.
+fn directions(n: usize) -> [Vec<Dd>; 3] {
     let mut random = Random(37);
-    let number = |_| Dd::from_f64(2.0 * random.signed());
-    let x = (0..3 * at.v.len()).map(number).collect();
-    Inputs { x, ..at.clone() }
+    [(); 3].map(|()| {
+        let number = |_| Dd::from_f64(2.0 * random.signed());
+        (0..n).map(number).collect()
+    })
+}
+
+/// Returns the state with directions, as a method reads them.
+pub(super) fn extended(of: Directional, at: &Inputs<Dd>) -> Inputs<Dd> {
+    let [x, modes, third] = directions(at.v.len());
+    let mut at = Inputs {
+        x,
+        modes,
+        ..at.clone()
+    };
+    match of {
+        Directional::InverseAlong => at.u = third,
+        Directional::ForwardAlong => at.a = third,
+        Directional::InverseAdjoint | Directional::ForwardAdjoint => {}
+    }
+    at
 }
 
 /// Returns the law of a method; `found` is its result at the [`extended`] state.
@@ -25,10 +42,10 @@ pub(super) fn law(
     of: Directional,
     (state, found): (&State, &[Dd]),
 ) -> Option<DirectionalLaw> {
-    let (at, directions) = (&state.at, extended(&state.at).x);
+    let at = &state.at;
     let n = at.v.len();
-    let (first, others) = directions.split_at(n);
-    let (second, third) = others.split_at(n);
+    let all = directions(n);
+    let [first, second, third] = all.each_ref().map(|x| &x[..]);
     let rates = literal.prepared.graph.rates_along(&at.q, first);
     let efforts_along = |a: (&[Dd], &[Dd])| literal.effort_rates(at, &rates, second, a);
     let accelerations = |u: &[Dd]| {
@@ -60,7 +77,7 @@ pub(super) fn law(
             let expected = dot(first, &efforts_along((&at.a, third)));
             let text = "(∂P/∂q)ᵀ l · dq + (∂P/∂v)ᵀ l · dv + (M l) · da = l · dτ";
             let size = size.max(largest(found));
-            (text, vec![dot(found, &directions)], vec![expected], size)
+            (text, vec![dot(found, &all.concat())], vec![expected], size)
         }
         Directional::ForwardAdjoint => {
             let along = forward()?;
@@ -69,7 +86,7 @@ pub(super) fn law(
             let size = largest(found).max(largest(&along));
             (
                 text,
-                vec![dot(found, &directions)],
+                vec![dot(found, &all.concat())],
                 vec![dot(first, &along)],
                 size,
             )

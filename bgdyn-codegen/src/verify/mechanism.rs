@@ -155,7 +155,7 @@ impl Subject<'_> {
     /// Returns the arguments of a method at this state.
     fn arguments(&self, method: Method, state: &State) -> Inputs<Dd> {
         match method {
-            Method::Directional(_) => directional::extended(&state.at),
+            Method::Directional(of) => directional::extended(of, &state.at),
             _ => of_method(self.literal.prepared.graph, method, &state.at),
         }
     }
@@ -223,6 +223,12 @@ impl Subject<'_> {
                 exact("T = ½ vᵀ M v", found, vec![energy])
             }
             Method::CoriolisMatrix => self.coriolis(state, &found),
+            Method::MassMatrixRate => {
+                let moved = times(&whole(&found, at.v.len()), &at.a);
+                let size = largest(&lit.efforts(at, &at.v, &state.zero()));
+                let expected = self.inertial_rate(state);
+                vec![Sides::new("Ṁ x = d/dt M(q) x", EXACT, moved, expected).sized(size)]
+            }
             method if method.differentiates_inverse() => vec![self.inverse_slopes(state, &found)],
             method if method.differentiates_forward() => self.forward_slopes(state, &found),
             Method::ConstraintResidual => vec![self.open_loops(at, Dd::from_f64(0.1), EXACT)],
@@ -280,14 +286,11 @@ impl Subject<'_> {
         let size = largest(&bias);
         let moved = plus(&times(matrix, &at.v), &state.at_rest);
         let first = Sides::new("bias = C v + gravity", EXACT, moved, bias).sized(size);
-        // Ṁ x: the rate of P(q, 0, x) − P(q, 0, 0) along v.
+        let along_v = self.inertial_rate(state);
         let at_rest = Inputs {
             v: zero.clone(),
             ..at.clone()
         };
-        let rates = lit.prepared.graph.position_rates(&at.q, &at.v);
-        let rate = |x: &[Dd]| lit.effort_rates(&at_rest, &rates, &zero, (x, &zero));
-        let along_v = minus(&rate(&at.a), &rate(&zero));
         // The motion of prescribed joints changes M as well.
         let rate = |x: &[Dd]| lit.prescribed_rates(&at_rest, x);
         let along_time = minus(&rate(&at.a), &rate(&zero));
@@ -300,6 +303,18 @@ impl Subject<'_> {
         };
         let second = Sides::new(text, EXACT, both, expected);
         vec![first, second.sized(size)]
+    }
+
+    /// Returns Ṁ a: the rate of P(q, 0, a) − P(q, 0, 0) along v.
+    fn inertial_rate(&self, state: &State) -> Vec<Dd> {
+        let (lit, at, zero) = (self.literal, &state.at, state.zero());
+        let at_rest = Inputs {
+            v: zero.clone(),
+            ..at.clone()
+        };
+        let rates = lit.prepared.graph.position_rates(&at.q, &at.v);
+        let rate = |x: &[Dd]| lit.effort_rates(&at_rest, &rates, &zero, (x, &zero));
+        minus(&rate(&at.a), &rate(&zero))
     }
 
     /// Returns ∂τ/∂q d + ∂τ/∂v e along random directions.

@@ -5,13 +5,14 @@ use bgdyn_codegen::options::{BundleOption, Options};
 use bgdyn_codegen::random::Random;
 
 use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
-use crate::same_bits::{files, model, name, selected};
+use crate::same_bits::{MOMENTA, files, model, name, selected};
 use crate::values::{CNumber, close_to, expected, state};
 
 const STATES: usize = 32;
 
 /// A bundle of a spec: what can be computed without an error, or with accelerations that may not exist.
-const BUNDLES: [(&str, &[&str]); 7] = [
+const BUNDLES: [(&str, &[&str]); 8] = [
+    ("specs/puma560.yaml", &MOMENTA),
     (
         "specs/scara.yaml",
         &[

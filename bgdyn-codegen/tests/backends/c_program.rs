@@ -143,7 +143,10 @@ impl CCall {
             Argument::TreeV => Some("v"),
             Argument::ReferenceV => Some("v_r").filter(|_| nv > 0),
             Argument::ReferenceA => Some("a").filter(|_| nv > 0),
-            Argument::Direction => Some("tau").filter(|_| nv > 0),
+            Argument::Direction | Argument::AlongA => Some("tau").filter(|_| nv > 0),
+            Argument::AlongTau => Some("a").filter(|_| nv > 0),
+            Argument::AlongQ | Argument::Cotangent => Some("v_r").filter(|_| nv > 0),
+            Argument::AlongV => Some("modes").filter(|_| nv > 0),
             _ => Some("tau"),
         };
         CCall {

@@ -183,6 +183,32 @@ fn columns() {
     assert!(loops > 0, "none of them has loops over columns");
 }
 
+/// Names of the centroidal methods, and the rate of the mass matrix.
+pub const MOMENTA: [&str; 6] = [
+    "centre_of_mass",
+    "com_jacobian",
+    "centroidal_map",
+    "centroidal_momentum",
+    "centroidal_bias",
+    "mass_matrix_rate",
+];
+
+/// Momenta of trees, of a base with wheels, and with run-time masses, which are divided by.
+#[test]
+fn momenta() {
+    for path in [
+        "specs/scara.yaml",
+        "specs/panda.yaml",
+        "specs/constraints/differential_drive.yaml",
+        "tests/golden/joints/quadrotor_arm.yaml",
+        "tests/numeric/specs/puma_payload.yaml",
+    ] {
+        let model = model(path, &selected(&MOMENTA));
+        check::<f64>(&format!("{}_momenta", name(path)), &model);
+        check::<f32>(&format!("{}_momenta", name(path)), &model);
+    }
+}
+
 /// A long mass matrix: blocks, and tables of inner products.
 #[test]
 fn blocks_and_products() {

@@ -124,6 +124,7 @@ pub fn expected<T: CNumber>(function: &Function, model: &Model, state: &Inputs<T
         Shape::CheckedVector | Shape::CheckedActuated(_) | Shape::CheckedTree => values.len(),
         Shape::CheckedTreeAndRows => nt,
         Shape::CheckedSquares | Shape::CheckedSlopesByTree | Shape::CheckedWrenches => nv,
+        Shape::Checked(_) => nv,
         _ => 0,
     };
     let is_wild = values[..checked].iter().any(|x| !x.is_finite());
@@ -140,6 +141,7 @@ pub fn expected<T: CNumber>(function: &Function, model: &Model, state: &Inputs<T
         Shape::CheckedSquares | Shape::CheckedSlopesByTree | Shape::CheckedWrenches => {
             values[nv..].to_vec()
         }
+        Shape::Checked(entries) => entries.spread(&values[nv..], nv),
         _ => values,
     };
     Expected {

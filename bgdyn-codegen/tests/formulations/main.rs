@@ -1,6 +1,7 @@
 //! Tests that formulations equal each other and obey the laws of mechanics.
 
 mod bundles;
+mod centroidal;
 #[path = "../common/mod.rs"]
 mod common;
 mod derivatives_vs_literal;

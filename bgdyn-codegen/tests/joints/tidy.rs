@@ -3,7 +3,7 @@
 //! numbers; random numbers never meet them.
 
 use bgdyn_codegen::formulation;
-use bgdyn_codegen::method::Regressor;
+use bgdyn_codegen::method::{Centroidal, Regressor};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::selection::model;
@@ -108,6 +108,26 @@ fn has_regressors(seed: u64) {
     assert_eq!(model.functions.len(), Regressor::ALL.len());
     let found = check_model(&model);
     assert!(found.is_empty(), "{text}\n{}", explain(&found));
+}
+
+/// Checks the centroidal methods of joints of every type, on bases at rest and moving ones.
+fn has_a_momentum(seed: u64) {
+    let text = tidy(seed);
+    let robot = Robot::read(&text);
+    let names = Centroidal::ALL.map(|of| of.name().to_owned());
+    let options = Options {
+        methods: Some(names.to_vec()),
+        ..Options::default()
+    };
+    let model = model(robot.mechanism, &options).expect("a model");
+    assert_eq!(model.functions.len(), Centroidal::ALL.len());
+    let found = check_model(&model);
+    assert!(found.is_empty(), "{text}\n{}", explain(&found));
+}
+
+#[test]
+fn tidy_mechanisms_have_momenta() {
+    (0..24).for_each(has_a_momentum);
 }
 
 #[test]

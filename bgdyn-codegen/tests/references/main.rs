@@ -3,7 +3,9 @@
 #[path = "../common/mod.rs"]
 mod common;
 mod golden;
+mod golden_centroidal;
 mod golden_poses;
+mod golden_operational;
 mod golden_regressors;
 mod lagrange_oracle;
 mod paper_oracle;

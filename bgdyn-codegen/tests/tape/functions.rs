@@ -20,6 +20,7 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
     let choice = Choice::new(&graph, formulation);
     let slow = [
         Method::CoriolisMatrix,
+        Method::MassMatrixRate,
         Method::InverseDynamicsDerivatives,
         Method::ForwardDynamicsDerivatives,
         Method::JointReactions,

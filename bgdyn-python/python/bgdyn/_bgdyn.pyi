@@ -9,7 +9,19 @@ import numpy as np
 from typing_extensions import Self
 from numpy.typing import NDArray
 
-from ._method_types import _Q, _QQd, _QQdTau, _QV, _QVA, _QVATau, _QVTau
+from ._method_types import (
+    _Q,
+    _QQd,
+    _QQdTau,
+    _QV,
+    _QVA,
+    _QVAAlong,
+    _QVAL,
+    _QVATau,
+    _QVTau,
+    _QVTauAlong,
+    _QVTauL,
+)
 from ._methods import MethodOfClass
 from ._results import ConstrainedDynamics, ForwardDerivatives, InverseDerivatives, Wrenches
 
@@ -317,6 +329,28 @@ class Model:
     """The kinetic energy by the parameters of the bodies, (..., 10 nb)."""
     potential_energy_regressor: MethodOfClass[_Q[Array, Array]]
     """The potential energy by the parameters of the bodies, (..., 10 nb)."""
+    centre_of_mass: MethodOfClass[_Q[Array, Array]]
+    """The centre of mass in the world, (..., 3): m."""
+    com_jacobian: MethodOfClass[_Q[Array, Array]]
+    """Jacobian of the centre of mass, (..., 3, nv): its velocity is J v."""
+    centroidal_map: MethodOfClass[_Q[Array, Array]]
+    """A_g, (..., 6, nv): the momentum about the centre of mass is A_g v, angular part first; world axes."""
+    centroidal_momentum: MethodOfClass[_QV[Array, Array]]
+    """The momentum about the centre of mass, (..., 6), angular part first: kg·m²/s, kg·m/s."""
+    centroidal_bias: MethodOfClass[_QV[Array, Array]]
+    """Its rate where the accelerations are zero, (..., 6): N·m, N."""
+    mass_matrix_rate: MethodOfClass[_QV[Array, Array]]
+    """The rate of the mass matrix along v, (..., nv, nv)."""
+    inverse_mass_matrix: MethodOfClass[_Q[Array, Array]]
+    """M⁻¹, (..., nv, nv), exactly symmetric: accelerations by efforts."""
+    inverse_dynamics_along: MethodOfClass[_QVAAlong[Array, Array]]
+    """∂τ/∂q dq + ∂τ/∂v dv + M da, (..., nv)."""
+    forward_dynamics_along: MethodOfClass[_QVTauAlong[Array, Array]]
+    """∂q̈/∂q dq + ∂q̈/∂v dv + M⁻¹ dtau, (..., nv)."""
+    inverse_dynamics_adjoint: MethodOfClass[_QVAL[Array, Array]]
+    """(∂τ/∂q)ᵀ l, (∂τ/∂v)ᵀ l, M l, (..., 3, nv)."""
+    forward_dynamics_adjoint: MethodOfClass[_QVTauL[Array, Array]]
+    """(∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l, (..., 3, nv)."""
     velocity_map: MethodOfClass[_Q[Array, Array]]
     """With loops: S(q), (..., nt, nv); the velocities of the open tree are S v."""
     tree_velocity: MethodOfClass[_QV[Array, Array]]

@@ -80,3 +80,43 @@ class _QQdTau(Method, Generic[_Result, _Out]):
     def __call__(
         self, q: Values, qd: Values, tau: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["nan"]
     ) -> tuple[_Result, Mask]: ...
+
+class _QVAAlong(Method, Generic[_Result, _Out]):
+    @overload  # type: ignore[override]
+    def __call__(
+        self, q: Values, v: Values, a: Values, dq: Values, dv: Values, da: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["raise"] = "raise"
+    ) -> _Result: ...
+    @overload
+    def __call__(
+        self, q: Values, v: Values, a: Values, dq: Values, dv: Values, da: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["nan"]
+    ) -> tuple[_Result, Mask]: ...
+
+class _QVTauAlong(Method, Generic[_Result, _Out]):
+    @overload  # type: ignore[override]
+    def __call__(
+        self, q: Values, v: Values, tau: Values, dq: Values, dv: Values, dtau: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["raise"] = "raise"
+    ) -> _Result: ...
+    @overload
+    def __call__(
+        self, q: Values, v: Values, tau: Values, dq: Values, dv: Values, dtau: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["nan"]
+    ) -> tuple[_Result, Mask]: ...
+
+class _QVAL(Method, Generic[_Result, _Out]):
+    @overload  # type: ignore[override]
+    def __call__(
+        self, q: Values, v: Values, a: Values, l: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["raise"] = "raise"
+    ) -> _Result: ...
+    @overload
+    def __call__(
+        self, q: Values, v: Values, a: Values, l: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["nan"]
+    ) -> tuple[_Result, Mask]: ...
+
+class _QVTauL(Method, Generic[_Result, _Out]):
+    @overload  # type: ignore[override]
+    def __call__(
+        self, q: Values, v: Values, tau: Values, l: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["raise"] = "raise"
+    ) -> _Result: ...
+    @overload
+    def __call__(
+        self, q: Values, v: Values, tau: Values, l: Values, *, out: _Out | None = None, threads: int = 1, on_singular: Literal["nan"]
+    ) -> tuple[_Result, Mask]: ...

@@ -77,6 +77,9 @@ impl Formulation for AlongDirections {
     }
 }
 
+/// The leaf of a component of da.
+type AlongA = fn(usize) -> Leaf;
+
 /// Returns a method of inverse dynamics from its expressions.
 fn of_inverse(graph: &BondGraph, of: Directional, from: &Function) -> Function {
     let (b, efforts) = reopen(from);
@@ -84,7 +87,7 @@ fn of_inverse(graph: &BondGraph, of: Directional, from: &Function) -> Function {
     let outputs = match of {
         Directional::InverseAlong => {
             let rates = rates_along(&b, graph);
-            along(&b, &efforts, &rates, Some(2 * n))
+            along(&b, &efforts, &rates, Some(Leaf::Input))
         }
         _ => {
             let l = (0..n)
@@ -122,7 +125,7 @@ fn of_forward(
             let drive: Vec<Signed> = moved
                 .iter()
                 .enumerate()
-                .map(|(j, &e)| (b.leaf(Leaf::State(2 * n + j)) - b.expr(e)).signed())
+                .map(|(j, &e)| (b.leaf(Leaf::Acceleration(j)) - b.expr(e)).signed())
                 .collect();
             along_efforts(&b, &accelerations, &drive)
         }
@@ -154,13 +157,12 @@ fn rates_along(b: &Builder, graph: &BondGraph) -> Vec<Signed> {
     (0..graph.positions.len()).map(rate).collect()
 }
 
-/// Returns the derivatives of results along the arguments dq and dv, and da from this state on.
-fn along(b: &Builder, results: &[Signed], rates: &[Signed], da: Option<usize>) -> Vec<Signed> {
-    let n = results.len();
+/// Returns the derivatives of efforts along the arguments dq and dv, and along da if there is a leaf for it.
+fn along(b: &Builder, results: &[Signed], rates: &[Signed], da: Option<AlongA>) -> Vec<Signed> {
     let mut tangent = Tangent::new(|g: &mut Graph, leaf| match (leaf, da) {
         (Leaf::Position(p), _) => Some(rates[p]),
-        (Leaf::Velocity(j), _) => Some(g.leaf(Leaf::State(n + j))),
-        (Leaf::Acceleration(j), Some(first)) => Some(g.leaf(Leaf::State(first + j))),
+        (Leaf::Velocity(j), _) => Some(g.leaf(Leaf::Mode(j))),
+        (Leaf::Acceleration(j), Some(leaf)) => Some(g.leaf(leaf(j))),
         _ => None,
     });
     let all = results.iter();

@@ -5,6 +5,7 @@
 //! | `differentiate.rs` | derivatives of a function's results by the coordinates' leaves |
 //! | `forward_dynamics.rs` | derivatives of forward dynamics from those of inverse dynamics |
 //! | `directional.rs` | derivatives along one direction, and adjoints |
+//! | `mass_matrix_rate.rs` | the rate of the mass matrix |
 //! | `by_differentiation.rs` | the formulations of matrices |
 //!
 //! Composite-body derivatives of inverse dynamics are in `recursion/derivatives/`.
@@ -13,7 +14,9 @@ mod by_differentiation;
 mod differentiate;
 mod directional;
 mod forward_dynamics;
+mod mass_matrix_rate;
 
 pub(super) use by_differentiation::{Differentiated, ForwardDynamicsDerivatives};
 pub(super) use differentiate::{along_efforts, derivatives};
 pub(super) use directional::AlongDirections;
+pub(super) use mass_matrix_rate::MassMatrixRate;

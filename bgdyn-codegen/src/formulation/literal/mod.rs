@@ -5,6 +5,7 @@
 //! All other formulations are verified against it. It follows the transformers of the bond graph one by
 //! one and omits only structural zeros.
 
+mod centroidal;
 mod closed;
 mod closing_loads;
 mod coriolis;
@@ -88,6 +89,8 @@ impl Formulation for Literal {
                 Method::Regressor(Regressor::Full) => sum.regressor(&arguments),
                 Method::Regressor(Regressor::PotentialEnergy) => sum.potential_energy_regressor(),
                 Method::Regressor(Regressor::Parameters) => sum.body_parameters(),
+                Method::Centroidal(of) => sum.centroidal(of, &arguments),
+                Method::MassMatrixRate => sum.mass_matrix_rate(&arguments.v),
                 Method::KineticEnergy => vec![sum.kinetic_energy(&arguments.v)],
                 Method::PotentialEnergy => vec![sum.potential_energy()],
                 method => placed_sites::outputs(&b, graph, method, &arguments)?,

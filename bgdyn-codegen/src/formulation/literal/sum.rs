@@ -22,9 +22,9 @@ pub(super) struct Moduli<'g> {
 }
 
 /// What a link takes: m_i r̈_i − R_i, K̇_i; and ω̇_i.
-struct LinkLoad<'g> {
-    force: Vec3<Expr<'g>>,
-    moment: Vec3<Expr<'g>>,
+pub(super) struct LinkLoad<'g> {
+    pub(super) force: Vec3<Expr<'g>>,
+    pub(super) moment: Vec3<Expr<'g>>,
     turning: Vec3<Expr<'g>>,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct LiteralSum<'a, 'g> {
     /// A_i, and the poses of the joints.
     placement: Placement<'g>,
     /// r_i: centres of mass.
-    positions: Vec<Vec3<Expr<'g>>>,
+    pub(super) positions: Vec<Vec3<Expr<'g>>>,
     pub(super) moduli: Vec<Moduli<'g>>,
 }
 
@@ -180,7 +180,10 @@ impl<'a, 'g> LiteralSum<'a, 'g> {
     }
 
     /// Returns m_i r̈_i − R_i, K̇_i and ω̇_i of each link for the given velocities and accelerations.
-    fn link_loads<'s>(&'s self, x: &'s Arguments<'g>) -> impl Iterator<Item = LinkLoad<'g>> + 's {
+    pub(super) fn link_loads<'s>(
+        &'s self,
+        x: &'s Arguments<'g>,
+    ) -> impl Iterator<Item = LinkLoad<'g>> + 's {
         let mut rate = Tangent::new(along(tangents(self.b, self.graph, &x.v)));
         let mut rate_of = move |m: &Vec3<Expr<'g>>| {
             m.map(|e| {

@@ -18,7 +18,7 @@ use super::{Formulation, Offer, Prepared};
 use crate::bond_graph::{BondGraph, ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
-use crate::method::Method;
+use crate::method::{Centroidal, Method};
 use crate::passes::factor;
 
 /// Elimination of the dependent velocities, on the functions chosen for the open tree.
@@ -91,6 +91,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::KineticEnergy
             | Method::Velocity(_)
             | Method::JacobianDotV(_)
+            | Method::Centroidal(Centroidal::Momentum | Centroidal::Bias)
             | Method::TreeVelocity
             | Method::TreeAcceleration
             | Method::Multipliers

@@ -8,6 +8,7 @@ use std::rc::Rc;
 
 use bgdyn_runtime::Dd;
 
+use crate::math::Vec3;
 use crate::mechanism::LinkId;
 
 /// The links that each number of a body contains, in the order of [`Numbers::bodies`].
@@ -27,6 +28,8 @@ pub(super) struct Numbers {
     pub bodies: Vec<[Dd; 11]>,
     /// Potential energy that does not depend on q, J.
     pub energy: Dd,
+    /// For each body on the base the first moment that was moved to the base, about the body's origin in base axes, kg·m.
+    pub on_base: Vec<Vec3<Dd>>,
     /// The contents of each body's numbers, once a reader has asked for them.
     pub contents: OnceCell<Rc<[Contents]>>,
 }

@@ -55,14 +55,23 @@ impl<'g> Parts<'g> {
     }
 }
 
-/// Returns the inertia of every body after the regrouping, and the potential energy that does not depend
-/// on q.
+/// The inertia of a mechanism after the regrouping.
+pub(super) struct Regrouped<'g> {
+    /// Of every body.
+    pub bodies: Vec<Parts<'g>>,
+    /// The potential energy that does not depend on q.
+    pub energy: Expr<'g>,
+    /// For each body on the base the first moment that was moved to the base, about the body's origin in base axes, kg·m.
+    pub on_base: Vec<Vec3<Expr<'g>>>,
+}
+
+/// Returns the inertia after the regrouping.
 pub(super) fn regrouped<'g>(
     b: &'g Builder,
     graph: &Multibody,
     geometry: &Geometry,
     plan: &Plan,
-) -> (Vec<Parts<'g>>, Expr<'g>) {
+) -> Regrouped<'g> {
     if !graph.parameters.is_empty() {
         return regroup(b, graph, geometry, plan, |_| true);
     }
@@ -73,20 +82,36 @@ pub(super) fn regrouped<'g>(
             varying: Vec::new(),
             points: Vec::new(),
         });
-        return (parts.collect(), b.constant(known.energy));
+        return Regrouped {
+            bodies: parts.collect(),
+            energy: b.constant(known.energy),
+            on_base: known.on_base.iter().map(|&h| b.vector(h)).collect(),
+        };
     }
-    let (bodies, energy) = regroup(b, graph, geometry, plan, |_| true);
-    let numbers = bodies.iter().map(|parts| parts.known.numbers());
-    if let (Some(bodies), Some(energy)) = (numbers.collect(), energy.as_constant()) {
+    let made = regroup(b, graph, geometry, plan, |_| true);
+    let numbers = made.bodies.iter().map(|parts| parts.known.numbers());
+    let on_base = made.on_base.iter().map(|h| constant(*h));
+    if let (Some(bodies), Some(energy), Some(on_base)) = (
+        numbers.collect(),
+        made.energy.as_constant(),
+        on_base.collect(),
+    ) {
         before.keep(Numbers {
             slides: plan.slides.clone(),
             base_parameters: plan.base_parameters,
             bodies,
             energy,
+            on_base,
             contents: OnceCell::new(),
         });
     }
-    (bodies, energy)
+    made
+}
+
+/// Returns a vector that is known at generation time.
+fn constant(v: Vec3<Expr<'_>>) -> Option<Vec3<Dd>> {
+    let [x, y, z] = v.0.map(Expr::as_constant);
+    Some(Vec3([x?, y?, z?]))
 }
 
 /// Regroups the inertia of these links.
@@ -96,12 +121,17 @@ pub(super) fn regroup<'g>(
     geometry: &Geometry,
     plan: &Plan,
     counts: impl Fn(LinkId) -> bool,
-) -> (Vec<Parts<'g>>, Expr<'g>) {
+) -> Regrouped<'g> {
     let parts = |j: usize| parts(b, graph, &geometry.bodies[j], (plan, j), &counts);
     let mut bodies: Vec<Parts<'g>> = (0..geometry.bodies.len()).map(parts).collect();
     let mut energy = constant_energy(b, graph, geometry, plan);
+    let mut on_base = vec![Vec3([b.zero(); 3]); bodies.len()];
     if !plan.base_parameters {
-        return (bodies, energy);
+        return Regrouped {
+            bodies,
+            energy,
+            on_base,
+        };
     }
     for j in (0..bodies.len()).rev() {
         let body = &geometry.bodies[j];
@@ -109,6 +139,7 @@ pub(super) fn regroup<'g>(
             let at_parent = take_to_parent(b, graph, geometry, (plan, j), own);
             if body.parent.is_none() {
                 energy = energy - b.vector(graph.gravity).dot(at_parent.first);
+                on_base[j] = on_base[j] + at_parent.first;
             }
             at_parent
         };
@@ -124,7 +155,11 @@ pub(super) fn regroup<'g>(
             bodies[p].varying.extend(varying);
         }
     }
-    (bodies, energy)
+    Regrouped {
+        bodies,
+        energy,
+        on_base,
+    }
 }
 
 /// Takes from body j the inertia that its parent moves alike, and returns it about the parent's origin, in its axes.

@@ -110,7 +110,8 @@ fn mass_matrix<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Expr<'g>>> {
     let axes: Vec<Axis<'g>> = (frames.bodies.iter().zip(&placed))
         .map(|(frame, axes)| axis(b, frame, axes))
         .collect();
-    let units = composites(b, frames);
+    let units = composites(b, frames).into_iter().flatten();
+    let units: Vec<Momentum<'g>> = units.collect();
     let momenta = units.iter().zip(&placed).map(|(unit, axes)| {
         let frame = &frames.bodies[unit.joint];
         b.section(|| format!("{}: momentum in common axes", frame.name));

@@ -52,7 +52,7 @@ fn find_contents(graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Rc<[Con
 /// Returns the magnitudes of a link's part of each body's numbers; 1 where it depends on a run-time parameter.
 fn parts_of(link: LinkId, graph: &Multibody, geometry: &Geometry, plan: &Plan) -> Vec<[f64; 11]> {
     let b = Builder::silent();
-    let (bodies, _) = regroup(&b, graph, geometry, plan, |other| other == link);
+    let bodies = regroup(&b, graph, geometry, plan, |other| other == link).bodies;
     let size = |x: Expr<'_>| x.as_constant().map_or(1.0, |x: Dd| x.to_f64().abs());
     let of = |inertia: BodyInertia<'_>| inertia.entries().map(size);
     bodies.iter().map(|parts| of(parts.sum())).collect()

@@ -4,7 +4,7 @@ use super::frames::Frames;
 use super::geometry::Geometry;
 use super::motion::{GravityField, add_set_aside, motions};
 use super::plan::Plan;
-use super::{derivatives, energies, inverse_dynamics, mass_matrix};
+use super::{centroidal, derivatives, energies, inverse_dynamics, mass_matrix};
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::formulation::arguments::Arguments;
@@ -44,6 +44,10 @@ pub(super) fn outputs(
             Method::CoriolisMatrix => {
                 let rows = derivatives::coriolis_matrix(&b, &frames, &plan.views);
                 rows.into_iter().flatten().collect()
+            }
+            Method::Centroidal(of) => {
+                let bodies = (graph, geometry, plan);
+                centroidal::outputs(&b, &frames, bodies, of, &x.v)
             }
             Method::KineticEnergy => vec![energies::kinetic_energy(&b, &frames)],
             Method::PotentialEnergy => vec![energies::potential_energy(&b, &frames)],

@@ -36,7 +36,7 @@ impl Formulation for Recursion {
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let graph = prepared.graph;
-        let geometry = prepared.geometry();
+        let geometry = prepared.geometry_of(method);
         if !makes(graph, method) {
             return None;
         }
@@ -83,6 +83,7 @@ pub(super) fn makes(graph: &Multibody, method: Method) -> bool {
     ];
     method != Method::JointReactions
         && !method.is_derived()
+        && method != Method::MassMatrixRate
         && (graph.plain() || !partial.contains(&method))
 }
 

@@ -66,7 +66,21 @@ pub(super) struct BodyFrame<'g> {
     pub effort: Dd,
 }
 
-impl BodyFrame<'_> {
+impl<'g> BodyFrame<'g> {
+    /// Returns the axes of its basis in the world, from the basis and the own axes of the parent there.
+    pub fn basis_in_world(
+        &self,
+        b: &'g Builder,
+        parent: Option<(&Mat3<Expr<'g>>, &Mat3<Expr<'g>>)>,
+    ) -> Mat3<Expr<'g>> {
+        let twist = self.twist.map(|x| b.constant(x));
+        match parent {
+            None => twist,
+            Some((basis, _)) if self.continues => *basis,
+            Some((_, own)) => *own * twist,
+        }
+    }
+
     /// Returns whether the joint does not move; a base whose motion is given counts as at rest.
     pub fn at_rest(&self, accelerated: bool) -> bool {
         if self.given {
@@ -93,6 +107,9 @@ pub(super) struct Frames<'g> {
     pub gravity: Vec<Vec3<Expr<'g>>>,
     /// Potential energy that does not depend on q.
     pub constant_energy: Expr<'g>,
+    /// For each body on the base the first moment that base parameters moved to the base, about the body's origin in base
+    /// axes, kg·m.
+    pub on_base: Vec<Vec3<Expr<'g>>>,
     /// Rotors behind gears.
     pub rotors: Rotors<'g>,
     /// Names of the coordinates.
@@ -109,7 +126,8 @@ impl<'g> Frames<'g> {
         x: &Arguments<'g>,
     ) -> Self {
         b.unit_of_length(plan.unit);
-        let (parts, energy) = regrouped(b, graph, geometry, plan);
+        let whole = regrouped(b, graph, geometry, plan);
+        let parts = &whole.bodies;
         let mut angles: Vec<(Vec<Expr<'g>>, (Dd, Dd))> = Vec::new();
         let mut bodies: Vec<BodyFrame<'g>> = Vec::new();
         // Cosine and sine of the angle by which each body's axes are rotated about z.
@@ -193,7 +211,8 @@ impl<'g> Frames<'g> {
         let frames = Frames {
             gravity,
             bodies,
-            constant_energy: energy,
+            constant_energy: whole.energy,
+            on_base: whole.on_base,
             rotors,
             names: graph.coordinates.iter().map(|c| c.name.clone()).collect(),
         };

@@ -187,30 +187,52 @@ fn dynamics_of_point<'g>(point: &Point<'g>, spin: &Spin<'g>, a: Vec3<Expr<'g>>) 
 
 /// Sums forces and moments from the tips to the base, and returns the component along each joint.
 fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<Expr<'g>> {
+    let mut efforts = vec![b.zero(); frames.rotors.coordinates()];
+    let effort = effort_name(frames);
+    let title = |frame: &BodyFrame<'g>| {
+        format!(
+            "{}: forces and moments summed from the tips; effort of `{}`",
+            frame.name, frame.joint
+        )
+    };
+    sum_loads(
+        b,
+        frames,
+        loads,
+        title,
+        |_, frame, [inner, outer, whole]| {
+            // The columns are constant in the axes of the basis for a joint with an axis, and in own axes.
+            let at_joint = if frame.axial { whole } else { inner };
+            for column in &frame.columns {
+                let own = at_joint.along(column) * column.effort;
+                let j = column.coordinate;
+                efforts[j] = (efforts[j] + own).named(|| format!("{effort}_{}", column.name));
+            }
+            name_wrenches(["f", "n"], frame, inner, outer, whole);
+        },
+    );
+    efforts
+}
+
+/// Sums loads from the tips to the base, and gives `at` the sums over each body and all it carries, about its origin: the
+/// part in own axes, the part in those of the basis, and the whole in the latter.
+pub(super) fn sum_loads<'g>(
+    b: &'g Builder,
+    frames: &Frames<'g>,
+    loads: &[Load<'g>],
+    title: impl Fn(&BodyFrame<'g>) -> String,
+    mut at: impl FnMut(usize, &BodyFrame<'g>, [&BodyWrench<'g>; 3]),
+) {
     let n = frames.bodies.len();
     // Contributions of the outboard bodies: in own axes, and in those of the basis.
     let mut own = vec![BodyWrench::zero(b); n];
     let mut basis = own.clone();
-    let mut efforts = vec![b.zero(); frames.rotors.coordinates()];
-    let effort = effort_name(frames);
     for j in (0..n).rev() {
         let frame = &frames.bodies[j];
-        b.section(|| {
-            format!(
-                "{}: forces and moments summed from the tips; effort of `{}`",
-                frame.name, frame.joint
-            )
-        });
+        b.section(|| title(frame));
         let (inner, outer) = (loads[j].own.plus(own[j]), loads[j].basis.plus(basis[j]));
         let whole = outer.plus(inner.map(|v| frame.turn.apply(v)));
-        // The columns are constant in the axes of the basis for a joint with an axis, and in own axes.
-        let at_joint = if frame.axial { &whole } else { &inner };
-        for column in &frame.columns {
-            let own = at_joint.along(column) * column.effort;
-            let j = column.coordinate;
-            efforts[j] = (efforts[j] + own).named(|| format!("{effort}_{}", column.name));
-        }
-        name_wrenches(["f", "n"], frame, &inner, &outer, &whole);
+        at(j, frame, [&inner, &outer, &whole]);
         let Some(p) = frame.parent else { continue };
         let carried = whole.carried(frame.position);
         if frame.continues {
@@ -220,7 +242,6 @@ fn inwards<'g>(b: &'g Builder, frames: &Frames<'g>, loads: &[Load<'g>]) -> Vec<E
             own[p] = own[p].plus(carried.map(|v| twist * v));
         }
     }
-    efforts
 }
 
 /// Returns the name of the efforts of this motion: `gravity` at rest, `bias` without accelerations.

@@ -238,19 +238,12 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
     let mut placed: Vec<PlacedSite<'g>> = Vec::new();
     for (body, frame) in geometry.bodies.iter().zip(&frames.bodies) {
         b.section(|| format!("{}: its axes and origin in the world", frame.name));
-        let twist = frame.twist.map(|x| b.constant(x));
-        let (basis, origin) = match frame.parent {
+        let parent = frame.parent.map(|p| placed[p]);
+        let basis = frame.basis_in_world(b, parent.as_ref().map(|p| (&p.basis, &p.own)));
+        let origin = match parent {
             // The pose of the base enters here, and not in the dynamics.
-            None => (twist, twist * (b.vector(body.offset) + frame.position)),
-            Some(p) => {
-                let parent = placed[p];
-                let basis = if frame.continues {
-                    parent.basis
-                } else {
-                    parent.own * twist
-                };
-                (basis, parent.origin + parent.own * frame.position_in_parent)
-            }
+            None => basis * (b.vector(body.offset) + frame.position),
+            Some(parent) => parent.origin + parent.own * frame.position_in_parent,
         };
         let own = frame.turn.own_axes(&basis);
         placed.push(PlacedSite { basis, own, origin });

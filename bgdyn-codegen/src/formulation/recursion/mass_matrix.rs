@@ -126,8 +126,9 @@ fn turned_on<'g>(
     }
 }
 
-/// Returns the momentum of all bodies that each joint moves per unit rate, in the axes of its basis.
-pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentum<'g>> {
+/// Returns, for each body, the momenta of all bodies that its joint moves per unit rates about the joint's origin: in the
+/// axes of the columns.
+pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Vec<Momentum<'g>>> {
     let n = frames.bodies.len();
     let (mut own, mut basis) = (vec![BodyInertia::zero(b); n], vec![BodyInertia::zero(b); n]);
     let mut units = Vec::new();
@@ -135,7 +136,7 @@ pub(super) fn composites<'g>(b: &'g Builder, frames: &Frames<'g>) -> Vec<Momentu
         let frame = &frames.bodies[j];
         b.section(|| format!("{}: inertia with all it carries", frame.name));
         let composite = CompositeInertia::new(b, frame, &own[j], &basis[j]);
-        units.extend(composite.units);
+        units.push(composite.units);
         let Some(p) = frame.parent else { continue };
         let home = if frame.continues {
             &mut basis[p]

@@ -23,6 +23,7 @@
 //! | `common_axes.rs` | the mass matrix of long chains |
 //! | `articulated/` | forward dynamics by articulated bodies |
 //! | `rotors.rs` | rotors behind gears |
+//! | `centroidal/` | the centre of mass, and the momentum about it |
 //! | `regressor/` | regressors and base parameters |
 //!
 //! A plan states how far origins slide, the unit of length, which parallel joints have a common basis, for
@@ -34,6 +35,7 @@ mod articulated;
 mod base_parameter_cache;
 mod base_parameters;
 mod body_joint;
+mod centroidal;
 mod common_axes;
 mod contents;
 mod derivatives;
@@ -59,6 +61,7 @@ mod rotors;
 mod standard_parameters;
 
 pub(super) use articulated::Articulated;
+pub(super) use centroidal::geometry_of_momenta;
 pub(super) use common_axes::CommonAxes;
 pub(super) use formulation::Recursion;
 pub(super) use regressor::ParameterColumns;

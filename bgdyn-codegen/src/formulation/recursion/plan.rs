@@ -32,6 +32,18 @@ pub(super) struct Plan {
     pub linear_first: bool,
     /// For derivatives: how each joint's contribution is computed.
     pub views: Vec<PartialsPlan>,
+    /// For the momentum about the centre of mass: how it is computed.
+    pub momenta: MomentaPlan,
+}
+
+/// How momenta reach the world.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct MomentaPlan {
+    /// The number of joints, counted from the base, across which vectors are rotated one by one; vectors of later joints
+    /// are rotated at once.
+    pub one_by_one: usize,
+    /// Whether the momentum is the sum of those of the bodies, not of those of composite bodies per unit rates.
+    pub by_bodies: bool,
 }
 
 /// How the derivatives by a joint's coordinate are computed.
@@ -76,6 +88,7 @@ impl Plan {
             short_moment: false,
             linear_first: false,
             views: vec![PartialsPlan::default(); n],
+            momenta: MomentaPlan::default(),
         }
     }
 

@@ -6,7 +6,7 @@
 use bgdyn_runtime::Dd;
 
 use super::geometry::Geometry;
-use super::plan::{PartialsPlan, Plan};
+use super::plan::{MomentaPlan, PartialsPlan, Plan};
 use crate::expr::Cost;
 use crate::function::Considered;
 
@@ -91,7 +91,11 @@ impl BestPlan {
 ///
 /// With many bodies the initial plans are compared only. If a joint has several velocities, choices for all
 /// bodies at once and then one round over the positions of origins follow: humanoids need them.
-pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestPlan {
+pub(super) fn search(
+    geometry: &Geometry,
+    momenta: MomentaPlan,
+    cost: impl Fn(&Plan) -> Cost,
+) -> BestPlan {
     let few = geometry.bodies.len() <= SEARCHED;
     let free = geometry.bodies.iter().any(|body| !body.axial);
     let (rounds, changes) = match (few, free) {
@@ -100,7 +104,7 @@ pub(super) fn search(geometry: &Geometry, cost: impl Fn(&Plan) -> Cost) -> BestP
         (false, false) => (0, Vec::new()),
     };
     let mut best = BestPlan::default();
-    for start in starts(geometry) {
+    for start in starts(geometry, momenta) {
         improve(&mut best, start, &changes, rounds, &cost);
     }
     if !few && free {
@@ -157,7 +161,7 @@ pub(super) fn refined(geometry: &Geometry, start: &Plan, cost: impl Fn(&Plan) ->
 
 /// Returns the initial plans: with and without groups. On parents without an axis also with every origin
 /// next to its parent: the legs of one base share products, so that moving one leg alone can cost more.
-fn starts(geometry: &Geometry) -> Vec<Plan> {
+fn starts(geometry: &Geometry, momenta: MomentaPlan) -> Vec<Plan> {
     let n = geometry.bodies.len();
     let tip = |j: usize| geometry.axial_tip(j);
     let plan = |grouped, slides: Vec<Dd>| Plan {
@@ -172,6 +176,7 @@ fn starts(geometry: &Geometry) -> Vec<Plan> {
         short_moment: false,
         linear_first: false,
         views: vec![PartialsPlan::default(); n],
+        momenta,
     };
     let mut all_slides = vec![(0..n).map(|j| slides(geometry, j)[0]).collect::<Vec<Dd>>()];
     if geometry.bodies.iter().any(|body| !body.axial) {

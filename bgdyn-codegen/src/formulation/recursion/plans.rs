@@ -2,9 +2,9 @@
 
 use super::expressions::outputs;
 use super::geometry::Geometry;
-use super::plan::Plan;
+use super::plan::{MomentaPlan, Plan};
 use super::plan_search::{BestPlan, Tried};
-use super::{derivatives, plan_search};
+use super::{centroidal, derivatives, plan_search};
 use crate::bond_graph::Multibody;
 use crate::expr::{self, Builder, Cost, factored_cost};
 use crate::formulation::Prepared;
@@ -34,7 +34,13 @@ pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> BestPla
         // method.
         Method::CoriolisMatrix => plans_from(prepared, Method::MassMatrix, method),
         Method::InverseDynamicsDerivatives => plans_from(prepared, Method::CoriolisMatrix, method),
-        _ => search_plans(prepared, method),
+        Method::Centroidal(of) => {
+            let (graph, geometry) = (prepared.graph, prepared.geometry_of(method));
+            let search = |momenta| search_plans(prepared, method, momenta);
+            let cost = |plan: &Plan| cost(graph, geometry, method, plan);
+            centroidal::plans((of, geometry), search, cost)
+        }
+        _ => search_plans(prepared, method, MomentaPlan::default()),
     };
     let mut known = prepared.plans.borrow_mut();
     known.insert(method, best.clone());
@@ -44,7 +50,7 @@ pub(super) fn cheapest_plans(prepared: &Prepared<'_>, method: Method) -> BestPla
 /// Returns the plans of a method with partial derivatives, starting from the cheapest plan of another one.
 fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> BestPlan {
     let graph = prepared.graph;
-    let geometry = prepared.geometry();
+    let geometry = prepared.geometry_of(method);
     let start = cheapest_plans(prepared, other);
     let cost = |plan: &Plan| cost(graph, geometry, method, plan);
     let after = |plan: &Plan| cost_after_factoring(graph, geometry, method, plan);
@@ -59,10 +65,12 @@ fn plans_from(prepared: &Prepared<'_>, other: Method, method: Method) -> BestPla
 /// Returns the plans of a whole search; the first one costs least after factoring. Plans with almost equal
 /// costs before factoring can differ after it. The rotation of a tip's axes to its centre of mass has an
 /// effect only there: it saves operations and costs a sum of angles.
-fn search_plans(prepared: &Prepared<'_>, method: Method) -> BestPlan {
+fn search_plans(prepared: &Prepared<'_>, method: Method, momenta: MomentaPlan) -> BestPlan {
     let graph = prepared.graph;
-    let geometry = prepared.geometry();
-    let mut best = plan_search::search(geometry, |plan| cost(graph, geometry, method, plan));
+    let geometry = prepared.geometry_of(method);
+    let mut best = plan_search::search(geometry, momenta, |plan| {
+        cost(graph, geometry, method, plan)
+    });
     let small = geometry.bodies.len() <= SMALL;
     let kept = if small { best.plans.len() } else { 1 };
     let mut candidates: Vec<Tried> = best.plans.drain(..kept).collect();

@@ -40,7 +40,7 @@ impl Formulation for OwnInertia {
         if !makes(graph, method) {
             return None;
         }
-        let geometry = prepared.geometry();
+        let geometry = prepared.geometry_of(method);
         let mut best = best_plans(prepared, method)?;
         for tried in &mut best.plans {
             tried.plan.base_parameters = false;

@@ -75,6 +75,9 @@ fn returned<C: Tested>(
         Shape::Symmetric => Ok(full(&values, nv).concat()),
         Shape::CheckedVector => compiled.outcome(values, pivots),
         Shape::CheckedSquares => compiled.outcome(values, pivots).map(|x| x[nv..].to_vec()),
+        Shape::Checked(entries) => compiled
+            .outcome(values, pivots)
+            .map(|x| entries.spread(&x[nv..], nv)),
         _ => Ok(values),
     }
 }

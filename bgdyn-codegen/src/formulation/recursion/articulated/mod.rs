@@ -23,7 +23,7 @@ use super::frames::Frames;
 use super::geometry::Geometry;
 use super::inertia_ratio::{MIN_INERTIA_RATIO, own_inertia_ratios};
 use super::motion::{GravityField, add_set_aside, motions};
-use super::plan::Plan;
+use super::plan::{MomentaPlan, Plan};
 use super::plan_search::{self, BestPlan, SEARCHED};
 use super::plans::cheapest_plans;
 use super::{expressions, inverse_dynamics};
@@ -152,7 +152,8 @@ fn elimination(geometry: &Geometry) -> usize {
 impl Articulated {
     fn search(&self, prepared: &Prepared<'_>) -> BestPlan {
         let (graph, geometry) = (prepared.graph, prepared.geometry());
-        plan_search::search(geometry, |plan| self.cost(graph, geometry, plan))
+        let momenta = MomentaPlan::default();
+        plan_search::search(geometry, momenta, |plan| self.cost(graph, geometry, plan))
     }
 
     fn offer_beside_recursion(&self, prepared: &Prepared<'_>) -> Offer {

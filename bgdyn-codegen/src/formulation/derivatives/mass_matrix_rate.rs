@@ -1,0 +1,121 @@
+//! The rate of the mass matrix along the velocities: Ṁ = C + Cᵀ, or M differentiated along v.
+
+use super::differentiate::{finish, reopen};
+use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
+use crate::expr::{Builder, Expr, Leaf, Signed, Tangent};
+use crate::formulation::joint_motion::{along, tangents};
+use crate::formulation::loop_rows::{LoopForm, loop_rows};
+use crate::formulation::velocity_map::VelocityMap;
+use crate::formulation::{Formulation, Offer, Prepared};
+use crate::function::{Function, in_triangle};
+use crate::method::Method;
+use crate::passes::factor;
+
+/// The rate of the mass matrix.
+pub(in crate::formulation) struct MassMatrixRate;
+
+impl Formulation for MassMatrixRate {
+    fn name(&self) -> &'static str {
+        "mass_matrix_rate"
+    }
+
+    fn summary(&self) -> &'static str {
+        "the mass matrix differentiated along v, or the sum of the Coriolis matrix and its transpose"
+    }
+
+    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
+        None
+    }
+
+    fn serves_loops(&self) -> bool {
+        true
+    }
+
+    fn knows(&self, method: Method) -> bool {
+        method == Method::MassMatrixRate
+    }
+
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Candidate
+    }
+
+    fn reads(&self, method: Method) -> Vec<Method> {
+        match method {
+            Method::MassMatrixRate => vec![Method::MassMatrix, Method::CoriolisMatrix],
+            _ => Vec::new(),
+        }
+    }
+
+    fn function(&self, prepared: &Prepared<'_>, _: Method) -> Option<Function> {
+        let masses = prepared.candidates(Method::MassMatrix);
+        let masses = masses.accepted.iter();
+        let rates = masses.flat_map(|mass| [&mass.plain, &mass.generated]);
+        let rates = rates.map(|mass| differentiated(prepared.graph, mass));
+        let coriolis = prepared.candidates(Method::CoriolisMatrix);
+        let sums = coriolis
+            .accepted
+            .iter()
+            .filter(|_| is_symmetric_part(prepared.graph));
+        let sums = sums.map(|candidate| symmetric_part(prepared.graph, &candidate.plain));
+        cheapest_after_factoring(rates.chain(sums))
+    }
+}
+
+fn cheapest_after_factoring(made: impl Iterator<Item = Function>) -> Option<Function> {
+    let made: Vec<Function> = made.collect();
+    let cost = |function: &Function| factor(function.clone()).cost().weighted();
+    made.into_iter().min_by_key(cost)
+}
+
+/// Returns whether C + Cᵀ needs nothing that cancels: C without velocity products is zero, and that of a turning base
+/// has a skew part.
+fn is_symmetric_part(graph: &BondGraph) -> bool {
+    graph.velocity_products && graph.base.is_none()
+}
+
+/// Returns C + Cᵀ, the lower triangle.
+fn symmetric_part(graph: &BondGraph, coriolis: &Function) -> Function {
+    let n = graph.coordinates.len();
+    let (b, entries) = reopen(coriolis);
+    let entry = |i: usize, j: usize| b.expr(entries[i * n + j]);
+    let mut outputs: Vec<Signed> = Vec::new();
+    for i in 0..n {
+        for j in 0..=i {
+            debug_assert_eq!(outputs.len(), in_triangle(i, j));
+            outputs.push((entry(i, j) + entry(j, i)).signed());
+        }
+    }
+    let formulation = format!("{}; C + Cᵀ", coriolis.formulation);
+    Function {
+        formulation,
+        ..finish(graph, Method::MassMatrixRate, coriolis, b, outputs)
+    }
+}
+
+/// Returns the derivative of M along v, the lower triangle.
+fn differentiated(graph: &BondGraph, mass: &Function) -> Function {
+    let (b, entries) = reopen(mass);
+    let rates = position_rates(&b, graph);
+    let mut tangent = Tangent::new(along(rates));
+    let outputs = entries
+        .iter()
+        .map(|&e| b.with_graph(|g| tangent.of(g, e)))
+        .collect();
+    finish(graph, Method::MassMatrixRate, mass, b, outputs)
+}
+
+/// Returns the rates of all positions for the velocities: with loops for those of the open tree, S v.
+fn position_rates(b: &Builder, graph: &BondGraph) -> Vec<Signed> {
+    let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Expr<'_>> {
+        (0..n).map(|k| b.leaf(leaf(k))).collect()
+    };
+    let v = leaves(graph.coordinates.len(), Leaf::Velocity);
+    let Some(closed) = &graph.closed else {
+        return tangents(b, graph, &v);
+    };
+    let q = leaves(graph.positions.len(), Leaf::Position);
+    let (form, closure) = (LoopForm::default(), &closed.closure);
+    let rows = loop_rows(b, closure, &q, form);
+    let map = VelocityMap::new(b, closure, (rows, form), None);
+    tangents(b, &closed.tree, &map.velocities(&v))
+}
