@@ -128,6 +128,7 @@ fn joints(
                 linear: coordinate.linear,
                 range: [limits.lower, limits.upper],
                 speed: limits.velocity,
+                effort: limits.effort,
                 file,
             }
         })
