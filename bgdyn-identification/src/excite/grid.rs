@@ -26,13 +26,8 @@ impl Grid {
     }
 
     /// Returns the count of times.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.turns.len()
-    }
-
-    /// Returns whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.turns.is_empty()
     }
 
     /// Returns position, velocity, acceleration of a joint at a time.

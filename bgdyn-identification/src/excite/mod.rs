@@ -15,5 +15,5 @@ pub mod series;
 pub mod shape;
 
 pub use limits::{JointLimits, Keep, Points};
-pub use plan::{Excitation, Noise, Request, excite};
+pub use plan::{Excitation, Noise, Request, efforts_of_file, excite};
 pub use series::{Motion, Series, State};

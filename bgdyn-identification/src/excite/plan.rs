@@ -6,7 +6,7 @@ use super::information::Information;
 use super::limits::{JointLimits, Keep, Points};
 use super::problem::{Bounds, Problem};
 use super::search::{Found, search, used};
-use super::series::{Extremes, Motion};
+use super::series::{Extremes, Motion, State};
 use super::shape::Shape;
 use crate::base::{Base, base};
 use crate::even::even;
@@ -105,7 +105,7 @@ pub fn excite(
     };
     let rows = Problem::new(&information, &shape, &bounds, request.harmonics, frequency)
         .rows
-        .len();
+        .count();
     if let Some(log) = request.prior {
         let prior = of_log(model, &base, &information, log, request.period / rows as f64);
         information.set_prior(prior / rows as f64);
@@ -147,7 +147,7 @@ fn report(
             .each_ref()
             .map(|s| problem.information.condition(s)),
         log_det: states.each_ref().map(|s| problem.information.log_det(s)),
-        rows: problem.rows.len(),
+        rows: problem.rows.count(),
         ascents: found.ascents,
         motion: found.motion,
     }
@@ -171,30 +171,36 @@ fn noise(model: &Model<'_>, request: &Request<'_>) -> Vec<f64> {
 fn by_sizes(model: &Model<'_>, request: &Request<'_>) -> Vec<f64> {
     let n = model.joints.len();
     let mut random = bgdyn_runtime::random::Random(1);
-    let none = Base {
-        free: vec![],
-        kept: vec![],
-        map: DMatrix::zeros(0, 0),
-    };
-    let information = Information::new(model, &none, &vec![1.0; n], vec![1.0; n]);
     let mut sizes = vec![0.0_f64; n];
     for _ in 0..STATES {
         let mut draw = |of: &dyn Fn(&JointLimits) -> [f64; 2]| -> Vec<f64> {
             let one = |l: &JointLimits| of(l)[0] + of(l)[1] * random.signed();
             request.limits.iter().map(one).collect()
         };
-        let state = super::State {
+        let state = State {
             q: draw(&|l| [l.middle(), l.half()]),
             v: draw(&|l| [0.0, l.speed]),
             a: draw(&|l| [0.0, l.acceleration]),
         };
-        for (size, x) in sizes.iter_mut().zip(information.efforts(&state).iter()) {
+        for (size, x) in sizes.iter_mut().zip(efforts_of_file(model, &state)) {
             *size = size.max(x.abs());
         }
     }
     let largest = sizes.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let sizes = sizes.into_iter().map(|x| NOISE * x.max(0.01 * largest));
     sizes.collect()
+}
+
+/// Returns the efforts of the file's numbers at a state, N·m or N, by joint.
+pub fn efforts_of_file(model: &Model<'_>, state: &State) -> Vec<f64> {
+    let n = model.joints.len();
+    let none = Base {
+        free: vec![],
+        kept: vec![],
+        map: DMatrix::zeros(0, 0),
+    };
+    let information = Information::new(model, &none, &vec![1.0; n], vec![1.0; n]);
+    information.efforts(state).as_slice().to_vec()
 }
 
 /// Returns AᵀA of the rows of a log, prepared as `identify` does it; a row counts as the time that it stands for, in

@@ -61,7 +61,7 @@ impl<'a> Problem<'a> {
 
     /// Returns the states of the rows.
     pub(super) fn states(&self, motion: &Motion) -> Vec<State> {
-        (0..self.rows.len())
+        (0..self.rows.count())
             .map(|i| self.rows.state(motion, i))
             .collect()
     }
@@ -75,10 +75,10 @@ impl<'a> Problem<'a> {
     fn left(&self, motion: &Motion, states: &[State]) -> Option<f64> {
         let mut sum = 0.0;
         for (series, limits) in motion.joints.iter().zip(self.bounds.joints) {
-            for i in 0..self.checked.len() {
+            for i in 0..self.checked.count() {
                 let shares = parts(limits, self.checked.at(series, i));
                 let own = shares.into_iter().map(|share| left(share));
-                sum += own.sum::<Option<f64>>()? / self.checked.len() as f64;
+                sum += own.sum::<Option<f64>>()? / self.checked.count() as f64;
             }
         }
         for state in states {
@@ -104,9 +104,9 @@ impl<'a> Problem<'a> {
         let joints = motion.joints.iter().zip(self.bounds.joints).zip(slopes);
         for ((series, limits), slope) in joints {
             let scales = [limits.half(), limits.speed, limits.acceleration];
-            for i in 0..self.checked.len() {
+            for i in 0..self.checked.count() {
                 let shares = parts(limits, self.checked.at(series, i));
-                let factor = self.barrier / self.checked.len() as f64;
+                let factor = self.barrier / self.checked.count() as f64;
                 let by: [f64; 3] =
                     std::array::from_fn(|d| factor * steepness(shares[d]) / scales[d]);
                 self.checked.pull(i, by, slope);
@@ -121,7 +121,7 @@ impl<'a> Problem<'a> {
             return DVector::zeros(n);
         }
         let efforts = self.information.smooth_efforts(state);
-        let factor = self.barrier / self.rows.len() as f64;
+        let factor = self.barrier / self.rows.count() as f64;
         DVector::from_fn(n, |j, _| {
             let most = self.bounds.joints[j].effort;
             most.map_or(0.0, |most| factor * steepness(efforts[j] / most) / most)
@@ -130,7 +130,7 @@ impl<'a> Problem<'a> {
 
     /// Adds the slopes of the barriers of planes by positions at a state.
     fn push_of_planes(&self, state: &State, by_state: &mut [[f64; 3]]) {
-        let factor = self.barrier / self.rows.len() as f64;
+        let factor = self.barrier / self.rows.count() as f64;
         for keep in self.bounds.keeps {
             let distance = keep.distance(self.bounds.points, &state.q);
             let steep = factor * (1.0 / distance - 1.0 / (NEAR + distance));

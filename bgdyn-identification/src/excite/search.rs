@@ -3,7 +3,7 @@
 use bgdyn_runtime::random::Random;
 use nalgebra::DVector;
 
-use super::ascent::{Slope, ascend};
+use super::ascent::ascend;
 use super::limits::least;
 use super::problem::Problem;
 use super::series::{Extremes, Motion, State};
