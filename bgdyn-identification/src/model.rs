@@ -29,6 +29,16 @@ pub trait Rows {
     fn effort_rows(&self, q: &[f64], v: &[f64], a: &[f64], rows: &mut DMatrix<f64>);
 }
 
+/// Fills rows from numbers row by row, as generated functions give them.
+pub fn fill_by_rows(rows: &mut DMatrix<f64>, values: &[f64]) {
+    let width = rows.ncols();
+    for (i, own) in values.chunks(width).enumerate() {
+        for (k, x) in own.iter().enumerate() {
+            rows[(i, k)] = *x;
+        }
+    }
+}
+
 /// A link with an inertia of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPart {

@@ -6,6 +6,8 @@ use nalgebra::DVector;
 const MEMORY: usize = 12;
 /// The share of the slope's promise that a step must keep (Armijo).
 const KEPT: f64 = 1e-4;
+/// So many steps are judged together: the first ones of an ascent are short.
+const PATIENCE: usize = 6;
 /// So often a step is halved.
 const HALVED: usize = 30;
 
@@ -27,7 +29,8 @@ pub struct Ascent {
     pub values: Vec<f64>,
 }
 
-/// Ascends from a point where `f` is defined, at most `rounds` steps; a step that rises by less than `least` ends it.
+/// Ascends from a point where `f` is defined, at most `rounds` steps; [`PATIENCE`] steps that rise by less than `least`
+/// in sum end it.
 pub fn ascend(
     f: &dyn Slope,
     start: DVector<f64>,
@@ -90,7 +93,8 @@ pub fn ascend(
         }
         (found.x, slope) = (x, new);
         found.values.push(value);
-        if value - now < least {
+        let before = found.values.len().checked_sub(1 + PATIENCE);
+        if before.is_some_and(|i| value - found.values[i] < least) {
             break;
         }
     }

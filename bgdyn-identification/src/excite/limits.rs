@@ -77,11 +77,11 @@ impl Keep {
     }
 }
 
-/// The smallest value of a function along a motion: of the samples, less an eighth of the largest second difference
+/// The smallest value of a function along a motion: of `samples` for each harmonic, less an eighth of the largest second difference
 /// beside, the most by which a parabola goes on between two samples.
-pub fn least(motion: &Motion, of: &mut dyn FnMut(&State) -> f64) -> f64 {
+pub fn least(motion: &Motion, samples: usize, of: &mut dyn FnMut(&State) -> f64) -> f64 {
     let harmonics = motion.joints.first().map_or(1, |s| s.sine.len());
-    let count = super::series::SAMPLES * harmonics;
+    let count = samples * harmonics;
     let step = motion.period() / count as f64;
     let x: Vec<f64> = (0..count).map(|i| of(&motion.at(i as f64 * step))).collect();
     let at = |i: usize| {

@@ -6,7 +6,7 @@ use super::information::Information;
 use super::limits::{JointLimits, Keep, Points};
 use super::problem::{Bounds, Problem};
 use super::search::{Found, search, used};
-use super::series::{Extremes, Motion, State};
+use super::series::{Extremes, Motion, SAMPLES, State};
 use super::shape::Shape;
 use crate::base::{Base, base};
 use crate::even::even;
@@ -99,6 +99,7 @@ pub fn excite(
     let widths = request.limits.iter().map(|l| SMOOTHED * l.speed).collect();
     let mut information = Information::new(model, &base, &sigma, widths);
     let bounds = Bounds {
+        names: model.joints.iter().map(|j| j.name.clone()).collect(),
         joints: request.limits,
         keeps: request.keeps,
         points: request.points,
@@ -130,7 +131,7 @@ fn report(
 ) -> Excitation {
     let motions = [&found.first, &found.start, &found.motion];
     let states = motions.map(|motion| problem.states(motion));
-    let (distances, efforts) = used(problem, &found.motion);
+    let (distances, efforts) = used(problem, &found.motion, SAMPLES);
     let joints = || found.motion.joints.iter().zip(problem.bounds.joints);
     let frequency = found.motion.frequency;
     let shares = joints().zip(efforts).map(|((series, limits), effort)| {

@@ -21,6 +21,8 @@ const STEP: f64 = 1e-5;
 
 /// Limits and planes.
 pub struct Bounds<'a> {
+    /// Names of the joints.
+    pub names: Vec<String>,
     /// By joint.
     pub joints: &'a [JointLimits],
     /// Planes.
@@ -77,7 +79,7 @@ impl<'a> Problem<'a> {
         for (series, limits) in motion.joints.iter().zip(self.bounds.joints) {
             for i in 0..self.checked.count() {
                 let shares = parts(limits, self.checked.at(series, i));
-                let own = shares.into_iter().map(|share| left(share));
+                let own = shares.into_iter().map(left);
                 sum += own.sum::<Option<f64>>()? / self.checked.count() as f64;
             }
         }

@@ -4,9 +4,9 @@ use bgdyn_runtime::random::Random;
 use nalgebra::DVector;
 
 use super::ascent::ascend;
-use super::limits::least;
+use super::limits::{JointLimits, Keep, least};
 use super::problem::Problem;
-use super::series::{Extremes, Motion, State};
+use super::series::{Motion, SAMPLES, State};
 use crate::fault::{LogFault, short};
 
 /// Centres that are tried for a start until planes and efforts permit one.
@@ -17,8 +17,10 @@ const HALVINGS: usize = 12;
 const INSIDE: f64 = 0.97;
 /// Weights of the barriers, one after the other.
 const BARRIERS: [f64; 3] = [1.0, 0.1, 0.01];
+/// Samples for each harmonic at which random motions are checked against planes and efforts.
+const COARSE: usize = 12;
 /// An ascent ends where a step rises by less, in nepers of det.
-const LEAST: f64 = 1e-3;
+const LEAST: f64 = 1e-2;
 
 /// What a search found.
 #[derive(Clone, Debug)]
@@ -82,12 +84,12 @@ pub fn search(
         x = ascent.x;
         ascents.push(ascent.values);
     }
-    let motion = within(problem, problem.shape.motion(&x));
+    let motion = within(problem, problem.shape.motion(&x), SAMPLES);
     // Where barriers cost more than the ascent gains, the start remains.
     let value = |motion: &Motion| problem.information.log_det(&problem.states(motion));
     let motion = match value(&motion) > value(&start) {
         true => motion,
-        false => within(problem, start.clone()),
+        false => within(problem, start.clone(), SAMPLES),
     };
     Ok(Found {
         first,
@@ -107,20 +109,24 @@ struct Exceeded {
 }
 
 impl Exceeded {
-    fn note(&mut self, problem: &Problem<'_>, state: &State) {
+    /// Returns whether planes and limits of efforts permit to rest at a state; keeps what comes nearest.
+    fn note(&mut self, problem: &Problem<'_>, state: &State) -> bool {
         let keeps = problem.bounds.keeps.iter();
         let own: Vec<f64> = keeps
             .map(|k| k.distance(problem.bounds.points, &state.q))
             .collect();
+        let apart = own.iter().all(|d| *d > 0.0);
         self.keeps.resize(own.len(), f64::NEG_INFINITY);
         for (most, x) in self.keeps.iter_mut().zip(own) {
             *most = most.max(x);
         }
         let own = effort_shares(problem, state);
+        let strong = own.iter().all(|share| *share < 1.0);
         self.efforts.resize(own.len(), f64::INFINITY);
         for (least, x) in self.efforts.iter_mut().zip(own) {
             *least = least.min(x);
         }
+        apart && strong
     }
 
     fn faults(&self, problem: &Problem<'_>, tried: usize) -> Vec<LogFault> {
@@ -140,8 +146,8 @@ impl Exceeded {
         for (j, least) in self.efforts.iter().enumerate() {
             if *least >= 1.0 {
                 let message = format!(
-                    "joint {} needs at least {} % of its limit of effort at rest, in {tried} positions within the limits",
-                    j + 1,
+                    "joint `{}` needs at least {} % of its limit of effort at rest, in {tried} positions within the limits",
+                    problem.bounds.names[j],
                     short(100.0 * least)
                 );
                 faults.push(LogFault::whole("effort-limit", message).with_help(
@@ -175,17 +181,16 @@ fn effort_shares(problem: &Problem<'_>, state: &State) -> Vec<f64> {
 }
 
 /// Returns the least distances from planes along a motion, m, and the largest shares of efforts by joint.
-pub fn used(problem: &Problem<'_>, motion: &Motion) -> (Vec<f64>, Vec<f64>) {
-    let distance = |keep: &super::limits::Keep| {
-        least(motion, &mut |state| {
-            keep.distance(problem.bounds.points, &state.q)
-        })
+pub fn used(problem: &Problem<'_>, motion: &Motion, samples: usize) -> (Vec<f64>, Vec<f64>) {
+    let distance = |keep: &Keep| {
+        let of = &mut |state: &State| keep.distance(problem.bounds.points, &state.q);
+        least(motion, samples, of)
     };
     let keeps = problem.bounds.keeps.iter().map(distance).collect();
     let mut efforts = vec![0.0_f64; motion.joints.len()];
     if problem.has_efforts() {
         // Friction jumps, so that no parabola bounds the efforts: samples alone.
-        least(motion, &mut |state| {
+        least(motion, samples, &mut |state| {
             for (most, share) in efforts.iter_mut().zip(effort_shares(problem, state)) {
                 *most = most.max(share);
             }
@@ -196,27 +201,27 @@ pub fn used(problem: &Problem<'_>, motion: &Motion) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Returns whether planes and limits of efforts permit a motion.
-fn permitted(problem: &Problem<'_>, motion: &Motion) -> bool {
+fn permitted(problem: &Problem<'_>, motion: &Motion, samples: usize) -> bool {
     if problem.bounds.keeps.is_empty() && !problem.has_efforts() {
         return true;
     }
-    let (keeps, efforts) = used(problem, motion);
+    let (keeps, efforts) = used(problem, motion, samples);
     keeps.iter().all(|d| *d > 0.0) && efforts.iter().all(|share| *share <= 1.0)
 }
 
 /// Returns the motion with each joint's motion about its centre as large as its limits permit, at most as it is; then
 /// all of them as large as planes and efforts permit.
-fn within(problem: &Problem<'_>, mut motion: Motion) -> Motion {
+fn within(problem: &Problem<'_>, mut motion: Motion, samples: usize) -> Motion {
     for (series, limits) in motion.joints.iter_mut().zip(problem.bounds.joints) {
         *series = series.scaled(limits.room(series, motion.frequency).min(1.0));
     }
-    if permitted(problem, &motion) {
+    if permitted(problem, &motion, samples) {
         return motion;
     }
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        match permitted(problem, &motion.scaled(middle)) {
+        match permitted(problem, &motion.scaled(middle), samples) {
             true => low = middle,
             false => high = middle,
         }
@@ -237,29 +242,25 @@ fn random_motion(
     for (series, limits) in motion.joints.iter_mut().zip(problem.bounds.joints) {
         series.centre = 0.0;
         let [q, ..] = series.extremes(frequency);
-        let size = (2.0 * limits.half() / (q[1] - q[0])).min({
-            let wide = super::limits::JointLimits {
-                position: [f64::NEG_INFINITY, f64::INFINITY],
-                ..*limits
-            };
-            wide.room(series, frequency)
-        });
-        *series = series.scaled(size);
+        let wide = JointLimits {
+            position: [f64::NEG_INFINITY, f64::INFINITY],
+            ..*limits
+        };
+        let size = 2.0 * limits.half() / (q[1] - q[0]);
+        *series = series.scaled(size.min(wide.room(series, frequency)));
     }
     let draw = |motion: &mut Motion, random: &mut Random| {
         for (series, limits) in motion.joints.iter_mut().zip(problem.bounds.joints) {
             series.centre = 0.0;
-            let [q, ..]: [Extremes; 3] = series.extremes(frequency);
+            let [q, ..] = series.extremes(frequency);
             let [low, high] = [limits.position[0] - q[0], limits.position[1] - q[1]];
             series.centre = low + (high - low) * random.unit();
         }
     };
     for _ in 0..CENTRES {
         draw(&mut motion, random);
-        let rest = motion.scaled(0.0);
-        worst.note(problem, &rest.at(0.0));
-        if permitted(problem, &rest) {
-            return Some(within(problem, motion));
+        if worst.note(problem, &motion.scaled(0.0).at(0.0)) {
+            return Some(within(problem, motion, COARSE));
         }
     }
     None
