@@ -7,7 +7,7 @@ use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::machine::Machine;
 use bgdyn_identification::excite::{
-    Excitation, JointLimits, Keep, Noise, Request, efforts_of_file, excite,
+    Effort, Excitation, JointLimits, Keep, Noise, Request, efforts_of_file, excite,
 };
 use bgdyn_identification::{LogFault, Model};
 use clap::{Args, ValueEnum};
@@ -69,7 +69,10 @@ pub(crate) struct Excite {
     /// Random motions from which the best is taken
     #[arg(long, value_name = "N", default_value = "60")]
     starts: usize,
-    /// Steps of the ascent at most
+    /// So many of the best of them are improved
+    #[arg(long, value_name = "N", default_value = "3")]
+    ascents: usize,
+    /// Steps of an ascent at most
     #[arg(long, value_name = "N", default_value = "150")]
     steps: usize,
     /// Seed of the random motions: the same seed gives the same files
@@ -117,7 +120,8 @@ impl Excite {
         let model = identified.model();
         let mut points = FramePoints::default();
         let keeps = self.keeps(&machine, &mut points);
-        let limits = joint_limits(&model.joints, &asked).map_err(|faults| refusal(&self.spec, &faults));
+        let limits =
+            joint_limits(&model.joints, &asked).map_err(|faults| refusal(&self.spec, &faults));
         let prior = self.prior.as_ref();
         let prior = prior.map(|path| read_log(path, &model, &names, None));
         // Faults of all parts, before one stops.
@@ -135,9 +139,12 @@ impl Excite {
             points: &points,
             harmonics: self.harmonics,
             period,
-            starts: self.starts,
-            rounds: self.steps,
-            seed: self.seed,
+            effort: Effort {
+                starts: self.starts,
+                ascents: self.ascents,
+                steps: self.steps,
+                seed: self.seed,
+            },
             noise: match self.noise {
                 NoiseOption::Relative => Noise::Relative,
                 NoiseOption::Equal => Noise::Equal,
@@ -145,7 +152,7 @@ impl Excite {
             prior: prior.as_ref(),
         };
         let mut progress = Progress::new("planning");
-        let found = excite(&model, &request, &mut |_, share| progress.at(share));
+        let found = excite(&model, &request, &mut |share| progress.at(share));
         drop(progress);
         let found = found.map_err(|faults| refusal(&self.spec, &faults))?;
         let plan = Plan {
@@ -176,8 +183,10 @@ impl Excite {
                 self.harmonics
             )));
         }
-        if self.starts == 0 {
-            bail!(Usage("`--starts 0`: write 1 or more".into()));
+        for (option, count) in [("starts", self.starts), ("ascents", self.ascents)] {
+            if count == 0 {
+                bail!(Usage(format!("`--{option} 0`: write 1 or more")));
+            }
         }
         let least = 2.0 * self.harmonics as f64 / period;
         if rate <= least {

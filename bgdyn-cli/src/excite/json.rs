@@ -31,7 +31,11 @@ pub(crate) fn json(
         let [weighted, plain] = found.condition[i].map(|x| x.is_finite().then_some(x));
         json!({ "condition": weighted, "condition_without_weights": plain, "log_det": found.log_det[i] })
     };
-    let steps: usize = found.ascents.iter().map(|a| a.len().saturating_sub(1)).sum();
+    let steps: usize = found
+        .ascents
+        .iter()
+        .map(|a| a.len().saturating_sub(1))
+        .sum();
     json!({
         "series": "q = centre + sum over k of (sine_k sin(k w t) - cosine_k cos(k w t))/(k w)",
         "period": found.motion.period(), "frequency": found.motion.frequency,

@@ -74,10 +74,7 @@ fn pair(
         let read = |d: Dimension| value(own, &[d]).map(|x| x.to_f64());
         let sizes = match (angular.is_some(), plain) {
             (true, _) => [read(dimensions[0]).map(Some), Ok(None)],
-            (false, true) => [
-                read(dimensions[0]).map(Some),
-                read(dimensions[1]).map(Some),
-            ],
+            (false, true) => [read(dimensions[0]).map(Some), read(dimensions[1]).map(Some)],
             (false, false) => match read(dimensions[0]) {
                 Ok(x) => [Ok(Some(x)), Ok(None)],
                 Err(_) => [Ok(None), read(dimensions[1]).map(Some)],
@@ -129,8 +126,9 @@ fn of_joint(
     let [low, high] = range(joint, chosen)?;
     if high <= low {
         let message = format!("joint `{name}` has the range {low} … {high} {unit}");
-        return Err(LogFault::whole("no-range", message)
-            .with_help("a joint that does not move shows nothing: widen its limits, or make it `fixed`"));
+        return Err(LogFault::whole("no-range", message).with_help(
+            "a joint that does not move shows nothing: widen its limits, or make it `fixed`",
+        ));
     }
     let (middle, half) = (0.5 * (low + high), 0.5 * free * (high - low));
     let speed = match (joint.speed.map(|s| s * free), asked.speed[kind]) {
@@ -146,8 +144,9 @@ fn of_joint(
     };
     if speed <= 0.0 {
         let message = format!("joint `{name}` has the limit of velocity 0");
-        return Err(LogFault::whole("no-speed", message)
-            .with_help("a joint that does not move shows nothing: raise its limit, or make it `fixed`"));
+        return Err(LogFault::whole("no-speed", message).with_help(
+            "a joint that does not move shows nothing: raise its limit, or make it `fixed`",
+        ));
     }
     Ok(JointLimits {
         position: [middle - half, middle + half],

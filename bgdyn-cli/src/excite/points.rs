@@ -61,7 +61,10 @@ pub(crate) fn keep(
     let axis = ["x", "y", "z"].iter().position(|own| *own == axis.trim());
     let axis = axis.ok_or_else(form)?;
     let level = value(length.trim(), &[Dimension::Length])?.to_f64();
-    let site = graph.sites.iter().position(|site| site.name == frame.trim());
+    let site = graph
+        .sites
+        .iter()
+        .position(|site| site.name == frame.trim());
     let site = site.ok_or_else(|| {
         let known: Vec<&str> = graph.sites.iter().map(|s| s.name.as_str()).collect();
         format!("no frame or link `{frame}`: there are {}", known.join(", "))

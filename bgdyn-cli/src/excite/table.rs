@@ -17,9 +17,15 @@ pub(crate) fn table(
         names.collect()
     };
     let mut header = vec!["time".to_owned()];
-    header.extend(["q", "v", "a", "predicted_tau"].iter().flat_map(|of| head(of)));
+    header.extend(
+        ["q", "v", "a", "predicted_tau"]
+            .iter()
+            .flat_map(|of| head(of)),
+    );
     let mut lines = vec![
-        format!("# A planned motion of {name}, no log: efforts are those of the file's numbers. One period; SI units."),
+        format!(
+            "# A planned motion of {name}, no log: efforts are those of the file's numbers. One period; SI units."
+        ),
         header.join(","),
     ];
     for i in 0..rows(found, rate) {

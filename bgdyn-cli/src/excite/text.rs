@@ -67,7 +67,11 @@ pub(crate) fn summary(
         stage(1),
         stage(2)
     ));
-    let steps: usize = found.ascents.iter().map(|a| a.len().saturating_sub(1)).sum();
+    let steps: usize = found
+        .ascents
+        .iter()
+        .map(|a| a.len().saturating_sub(1))
+        .sum();
     let value = |i: usize| found.log_det[i].map_or("−∞".into(), short);
     lines.push(format!(
         "log det: {}, {}, {}; {steps} steps",

@@ -29,13 +29,6 @@ pub struct Information<'a> {
     prior: Option<DMatrix<f64>>,
 }
 
-/// Slopes at a state, by joint.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Slopes {
-    /// By position, velocity, acceleration of each joint.
-    pub by_state: Vec<[f64; 3]>,
-}
-
 /// How the slope of a function of the rows and efforts follows from theirs.
 pub struct Cotangent {
     /// Slopes by the rows of base parameters, n × p.
@@ -191,9 +184,9 @@ impl<'a> Information<'a> {
         Some(states.iter().map(of).collect())
     }
 
-    /// Returns the slopes by a state of what has these slopes by rows and efforts: ⟨C, ∂Y⟩ for each of q, v, a. Rows are
+    /// Returns the slopes by position, velocity and acceleration of each joint of what has these slopes by rows and efforts: ⟨C, ∂Y⟩ for each of q, v, a. Rows are
     /// of second order in velocities and of first in accelerations, so that differences are exact there.
-    pub fn slopes(&self, state: &State, by: &Cotangent) -> Slopes {
+    pub fn slopes(&self, state: &State, by: &Cotangent) -> Vec<[f64; 3]> {
         let n = self.model.joints.len();
         // Slopes by the rows of bodies.
         let all = &by.rows * self.of_bodies.transpose() + &by.efforts * self.file.transpose();
@@ -214,7 +207,7 @@ impl<'a> Information<'a> {
             ];
         }
         self.add_joints(state, by, &mut by_state);
-        Slopes { by_state }
+        by_state
     }
 
     /// Adds the slopes of the columns of joints.

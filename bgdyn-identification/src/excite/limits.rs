@@ -83,7 +83,9 @@ pub fn least(motion: &Motion, samples: usize, of: &mut dyn FnMut(&State) -> f64)
     let harmonics = motion.joints.first().map_or(1, |s| s.sine.len());
     let count = samples * harmonics;
     let step = motion.period() / count as f64;
-    let x: Vec<f64> = (0..count).map(|i| of(&motion.at(i as f64 * step))).collect();
+    let x: Vec<f64> = (0..count)
+        .map(|i| of(&motion.at(i as f64 * step)))
+        .collect();
     let at = |i: usize| {
         let (before, after) = (x[(i + count - 1) % count], x[(i + 1) % count]);
         x[i] - (before - 2.0 * x[i] + after).abs() / 8.0

@@ -16,4 +16,5 @@ pub mod shape;
 
 pub use limits::{JointLimits, Keep, Points};
 pub use plan::{Excitation, Noise, Request, efforts_of_file, excite};
+pub use search::Effort;
 pub use series::{Motion, Series, State};

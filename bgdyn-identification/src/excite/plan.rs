@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::information::Information;
 use super::limits::{JointLimits, Keep, Points};
 use super::problem::{Bounds, Problem};
-use super::search::{Found, search, used};
+use super::search::{Effort, Found, search, used};
 use super::series::{Extremes, Motion, SAMPLES, State};
 use super::shape::Shape;
 use crate::base::{Base, base};
@@ -46,12 +46,8 @@ pub struct Request<'a> {
     pub harmonics: usize,
     /// s
     pub period: f64,
-    /// Random motions.
-    pub starts: usize,
-    /// Steps of the ascent at most.
-    pub rounds: usize,
-    /// Of the random motions.
-    pub seed: u64,
+    /// How far the search goes.
+    pub effort: Effort,
     /// Noise of efforts.
     pub noise: Noise,
     /// A log whose rows count too.
@@ -83,14 +79,14 @@ pub struct Excitation {
     pub rows: usize,
 }
 
-/// Finds a motion. Tells step and share to `progress`.
+/// Finds a motion. Tells the finished share to `progress`.
 ///
 /// # Errors
 /// If no motion keeps to the planes and limits, or none shows all base parameters.
 pub fn excite(
     model: &Model<'_>,
     request: &Request<'_>,
-    progress: &mut dyn FnMut(&'static str, f64),
+    progress: &mut dyn FnMut(f64),
 ) -> Result<Excitation, Vec<LogFault>> {
     let frequency = std::f64::consts::TAU / request.period;
     let base = base(model);
@@ -104,21 +100,19 @@ pub fn excite(
         keeps: request.keeps,
         points: request.points,
     };
-    let rows = Problem::new(&information, &shape, &bounds, request.harmonics, frequency)
-        .rows
-        .count();
+    let rows = Problem::new(&information, &shape, &bounds, request.harmonics, frequency).count();
     if let Some(log) = request.prior {
-        let prior = of_log(model, &base, &information, log, request.period / rows as f64);
+        let prior = of_log(
+            model,
+            &base,
+            &information,
+            log,
+            request.period / rows as f64,
+        );
         information.set_prior(prior / rows as f64);
     }
     let mut problem = Problem::new(&information, &shape, &bounds, request.harmonics, frequency);
-    let found = search(
-        &mut problem,
-        request.starts,
-        request.rounds,
-        request.seed,
-        progress,
-    )?;
+    let found = search(&mut problem, &request.effort, progress)?;
     Ok(report(model, &base, &problem, found, sigma))
 }
 
@@ -144,11 +138,9 @@ fn report(
         extremes: joints().map(|(s, _)| s.extremes(frequency)).collect(),
         shares: shares.collect(),
         distances,
-        condition: states
-            .each_ref()
-            .map(|s| problem.information.condition(s)),
+        condition: states.each_ref().map(|s| problem.information.condition(s)),
         log_det: states.each_ref().map(|s| problem.information.log_det(s)),
-        rows: problem.rows.count(),
+        rows: problem.count(),
         ascents: found.ascents,
         motion: found.motion,
     }

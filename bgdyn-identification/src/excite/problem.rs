@@ -33,17 +33,21 @@ pub struct Bounds<'a> {
 
 /// The function that rises.
 pub struct Problem<'a> {
-    pub(super) information: &'a Information<'a>,
-    pub(super) shape: &'a Shape,
-    pub(super) bounds: &'a Bounds<'a>,
-    pub(super) rows: Grid,
+    /// What rises.
+    pub information: &'a Information<'a>,
+    /// Free numbers.
+    pub shape: &'a Shape,
+    /// Where it may go.
+    pub bounds: &'a Bounds<'a>,
+    rows: Grid,
     checked: Grid,
     /// Weight μ of the barriers.
-    pub(super) barrier: f64,
+    pub barrier: f64,
 }
 
 impl<'a> Problem<'a> {
-    pub(super) fn new(
+    /// Returns the problem of series with `harmonics` of `frequency`, rad/s, without barriers.
+    pub fn new(
         information: &'a Information<'a>,
         shape: &'a Shape,
         bounds: &'a Bounds<'a>,
@@ -61,8 +65,13 @@ impl<'a> Problem<'a> {
         }
     }
 
+    /// Returns the count of rows of a period.
+    pub fn count(&self) -> usize {
+        self.rows.count()
+    }
+
     /// Returns the states of the rows.
-    pub(super) fn states(&self, motion: &Motion) -> Vec<State> {
+    pub fn states(&self, motion: &Motion) -> Vec<State> {
         (0..self.rows.count())
             .map(|i| self.rows.state(motion, i))
             .collect()
@@ -88,7 +97,9 @@ impl<'a> Problem<'a> {
             if self.has_efforts() {
                 let efforts = self.information.smooth_efforts(state);
                 for (effort, limits) in efforts.iter().zip(self.bounds.joints) {
-                    own += limits.effort.map_or(Some(0.0), |most| left(effort / most))?;
+                    own += limits
+                        .effort
+                        .map_or(Some(0.0), |most| left(effort / most))?;
                 }
             }
             for keep in self.bounds.keeps {
@@ -168,7 +179,7 @@ impl Slope for Problem<'_> {
         for (i, (state, rows)) in states.iter().zip(rows).enumerate() {
             let efforts = self.push_of_efforts(state);
             let by = Cotangent { rows, efforts };
-            let mut found = self.information.slopes(state, &by).by_state;
+            let mut found = self.information.slopes(state, &by);
             self.push_of_planes(state, &mut found);
             for (slope, by) in slopes.iter_mut().zip(found) {
                 self.rows.pull(i, by, slope);

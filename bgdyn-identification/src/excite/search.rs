@@ -35,80 +35,126 @@ pub struct Found {
     pub ascents: Vec<Vec<f64>>,
 }
 
-/// Searches: `starts` random motions, then at most `rounds` steps.
+/// How far a search goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effort {
+    /// Random motions.
+    pub starts: usize,
+    /// So many of the best of them are improved.
+    pub ascents: usize,
+    /// Steps of an ascent at most.
+    pub steps: usize,
+    /// Of the random motions.
+    pub seed: u64,
+}
+
+/// Searches: random motions, then an ascent from each of the best ones; returns the best of all.
 ///
 /// # Errors
-/// If no motion keeps to the planes and limits of efforts.
+/// If no motion keeps to the planes and limits of efforts, or none shows all base parameters.
 pub fn search(
     problem: &mut Problem<'_>,
-    starts: usize,
-    rounds: usize,
-    seed: u64,
-    progress: &mut dyn FnMut(&'static str, f64),
+    effort: &Effort,
+    progress: &mut dyn FnMut(f64),
 ) -> Result<Found, Vec<LogFault>> {
-    let mut random = Random(seed);
-    let (mut first, mut best): (Option<Motion>, Option<(f64, Motion)>) = (None, None);
-    let mut worst = Exceeded::default();
-    for i in 0..starts {
-        progress("starts", i as f64 / starts as f64);
-        let Some(motion) = random_motion(problem, &mut random, &mut worst) else {
+    let (first, mut starts) = random_motions(problem, effort)?;
+    // Equal values keep their order.
+    starts.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut best: Option<(f64, Found)> = None;
+    let count = effort.ascents.clamp(1, starts.len());
+    for (i, (_, start)) in starts.iter().take(count).enumerate() {
+        let (motion, ascents) = improved(problem, start, effort.steps, &mut |share| {
+            progress((i as f64 + share) / count as f64)
+        });
+        let value = problem.information.log_det(&problem.states(&motion));
+        let value = value.unwrap_or(f64::NEG_INFINITY);
+        if best.as_ref().is_none_or(|(most, _)| value > *most) {
+            let found = Found {
+                first: first.clone(),
+                start: starts[0].1.clone(),
+                motion,
+                ascents,
+            };
+            best = Some((value, found));
+        }
+    }
+    Ok(best.expect("at least one ascent").1)
+}
+
+/// Returns the first random motion, and all that show every base parameter with their log det.
+#[expect(clippy::type_complexity, reason = "a pair of motions and their values")]
+fn random_motions(
+    problem: &Problem<'_>,
+    effort: &Effort,
+) -> Result<(Motion, Vec<(f64, Motion)>), Vec<LogFault>> {
+    let mut random = Random(effort.seed);
+    let (mut first, mut starts) = (None, Vec::new());
+    let mut nearest = Nearest::default();
+    for _ in 0..effort.starts {
+        let Some(motion) = random_motion(problem, &mut random, &mut nearest) else {
             continue;
         };
         first.get_or_insert_with(|| motion.clone());
-        let Some(value) = problem.information.log_det(&problem.states(&motion)) else {
-            continue;
-        };
-        if best.as_ref().is_none_or(|(most, _)| value > *most) {
-            best = Some((value, motion));
+        if let Some(value) = problem.information.log_det(&problem.states(&motion)) {
+            starts.push((value, motion));
         }
     }
     let Some(first) = first else {
-        return Err(worst.faults(problem, CENTRES * starts));
+        return Err(nearest.faults(problem, CENTRES * effort.starts));
     };
-    let Some((_, start)) = best else {
-        let message = format!("none of {starts} random motions shows all base parameters");
-        return Err(vec![LogFault::whole("nothing-excited", message).with_help(
-            "take more --harmonics, a longer --period, or larger limits",
-        )]);
-    };
+    if starts.is_empty() {
+        let message = format!(
+            "none of {} random motions shows all base parameters",
+            effort.starts
+        );
+        let help = "take more --harmonics, a longer --period, or larger limits";
+        return Err(vec![
+            LogFault::whole("nothing-excited", message).with_help(help),
+        ]);
+    }
+    Ok((first, starts))
+}
+
+/// Returns what an ascent makes of a motion, within the limits, and the values along it for each weight of the barriers.
+fn improved(
+    problem: &mut Problem<'_>,
+    start: &Motion,
+    steps: usize,
+    progress: &mut dyn FnMut(f64),
+) -> (Motion, Vec<Vec<f64>>) {
     let mut x = problem.shape.numbers(&start.scaled(INSIDE));
     let mut ascents = Vec::new();
-    let each = rounds.div_ceil(BARRIERS.len());
     let mut done = 0;
     for barrier in BARRIERS {
         problem.barrier = barrier;
+        let each = steps.div_ceil(BARRIERS.len());
         let ascent = ascend(&*problem, x, each, LEAST, &mut || {
-            progress("ascent", done as f64 / rounds as f64);
+            progress(done as f64 / steps as f64);
             done += 1;
         });
         x = ascent.x;
         ascents.push(ascent.values);
     }
     let motion = within(problem, problem.shape.motion(&x), SAMPLES);
+    let start = within(problem, start.clone(), SAMPLES);
     // Where barriers cost more than the ascent gains, the start remains.
     let value = |motion: &Motion| problem.information.log_det(&problem.states(motion));
-    let motion = match value(&motion) > value(&start) {
-        true => motion,
-        false => within(problem, start.clone(), SAMPLES),
-    };
-    Ok(Found {
-        first,
-        start,
-        motion,
-        ascents,
-    })
+    match value(&motion) > value(&start) {
+        true => (motion, ascents),
+        false => (start, ascents),
+    }
 }
 
-/// By how much the best centre misses.
+/// The nearest that positions at rest come to planes and limits of efforts.
 #[derive(Debug, Default)]
-struct Exceeded {
+struct Nearest {
     /// The largest distance from each plane that was found, m.
     keeps: Vec<f64>,
     /// The smallest share of each limit of effort.
     efforts: Vec<f64>,
 }
 
-impl Exceeded {
+impl Nearest {
     /// Returns whether planes and limits of efforts permit to rest at a state; keeps what comes nearest.
     fn note(&mut self, problem: &Problem<'_>, state: &State) -> bool {
         let keeps = problem.bounds.keeps.iter();
@@ -234,7 +280,7 @@ fn within(problem: &Problem<'_>, mut motion: Motion, samples: usize) -> Motion {
 fn random_motion(
     problem: &Problem<'_>,
     random: &mut Random,
-    worst: &mut Exceeded,
+    nearest: &mut Nearest,
 ) -> Option<Motion> {
     let numbers = DVector::from_fn(problem.shape.len(), |_, _| random.signed());
     let mut motion = problem.shape.motion(&numbers);
@@ -259,7 +305,7 @@ fn random_motion(
     };
     for _ in 0..CENTRES {
         draw(&mut motion, random);
-        if worst.note(problem, &motion.scaled(0.0).at(0.0)) {
+        if nearest.note(problem, &motion.scaled(0.0).at(0.0)) {
             return Some(within(problem, motion, COARSE));
         }
     }
