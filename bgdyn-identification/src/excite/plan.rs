@@ -71,9 +71,9 @@ pub struct Excitation {
     pub distances: Vec<f64>,
     /// Condition number, columns scaled, rows weighted and not: of the first random motion, of the best one, of this.
     pub condition: [[f64; 2]; 3],
-    /// log det of the same three; `None` for a motion that does not show all base parameters.
+    /// log det of the same three, columns scaled; `None` for a motion that does not show all base parameters.
     pub log_det: [Option<f64>; 3],
-    /// log det with barriers along the ascents.
+    /// What was raised, with barriers, along the ascent for each weight of the barriers.
     pub ascents: Vec<Vec<f64>>,
     /// Rows of the period that were counted.
     pub rows: usize,

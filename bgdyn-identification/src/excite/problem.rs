@@ -1,4 +1,4 @@
-//! What an ascent rises: log det, with logarithms of the distances from the limits, so that it stays within them
+//! What an ascent raises: log det, with logarithms of the distances from the limits, so that it stays within them
 //! (barriers).
 
 use nalgebra::{DMatrix, DVector};
@@ -31,9 +31,9 @@ pub struct Bounds<'a> {
     pub points: &'a dyn Points,
 }
 
-/// The function that rises.
+/// The function that is raised.
 pub struct Problem<'a> {
-    /// What rises.
+    /// What is raised.
     pub information: &'a Information<'a>,
     /// Free numbers.
     pub shape: &'a Shape,
@@ -164,7 +164,7 @@ impl Slope for Problem<'_> {
         let motion = self.shape.motion(x);
         let states = self.states(&motion);
         let left = self.left(&motion, &states)?;
-        Some(self.information.log_det(&states)? + self.barrier * left)
+        Some(self.information.value(&states)? + self.barrier * left)
     }
 
     fn slope(&self, x: &DVector<f64>) -> Option<DVector<f64>> {

@@ -19,7 +19,7 @@ const INSIDE: f64 = 0.97;
 const BARRIERS: [f64; 3] = [1.0, 0.1, 0.01];
 /// Samples for each harmonic at which random motions are checked against planes and efforts.
 const COARSE: usize = 12;
-/// An ascent ends where a step rises by less, in nepers of det.
+/// An ascent ends where the value rises by less.
 const LEAST: f64 = 1e-2;
 
 /// What a search found.
@@ -31,7 +31,7 @@ pub struct Found {
     pub start: Motion,
     /// What the ascent made of it.
     pub motion: Motion,
-    /// log det with barriers along the ascent, for each weight of these.
+    /// Values with barriers along the ascent, for each weight of these.
     pub ascents: Vec<Vec<f64>>,
 }
 
@@ -66,7 +66,7 @@ pub fn search(
         let (motion, ascents) = improved(problem, start, effort.steps, &mut |share| {
             progress((i as f64 + share) / count as f64)
         });
-        let value = problem.information.log_det(&problem.states(&motion));
+        let value = problem.information.value(&problem.states(&motion));
         let value = value.unwrap_or(f64::NEG_INFINITY);
         if best.as_ref().is_none_or(|(most, _)| value > *most) {
             let found = Found {
@@ -81,7 +81,7 @@ pub fn search(
     Ok(best.expect("at least one ascent").1)
 }
 
-/// Returns the first random motion, and all that show every base parameter with their log det.
+/// Returns the first random motion, and all that show every base parameter, with their values.
 #[expect(clippy::type_complexity, reason = "a pair of motions and their values")]
 fn random_motions(
     problem: &Problem<'_>,
@@ -95,7 +95,7 @@ fn random_motions(
             continue;
         };
         first.get_or_insert_with(|| motion.clone());
-        if let Some(value) = problem.information.log_det(&problem.states(&motion)) {
+        if let Some(value) = problem.information.value(&problem.states(&motion)) {
             starts.push((value, motion));
         }
     }
@@ -138,7 +138,7 @@ fn improved(
     let motion = within(problem, problem.shape.motion(&x), SAMPLES);
     let start = within(problem, start.clone(), SAMPLES);
     // Where barriers cost more than the ascent gains, the start remains.
-    let value = |motion: &Motion| problem.information.log_det(&problem.states(motion));
+    let value = |motion: &Motion| problem.information.value(&problem.states(motion));
     match value(&motion) > value(&start) {
         true => (motion, ascents),
         false => (start, ascents),
