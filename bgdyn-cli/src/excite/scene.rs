@@ -8,8 +8,6 @@ use bgdyn_identification::excite::{Excitation, Series};
 
 /// Gains of computed torque: poles at −10/s.
 const GAINS: [f64; 2] = [100.0, 20.0];
-/// Step of the run, s.
-const STEP: f64 = 1e-3;
 
 /// Returns the scene; `spec` is the file of the mechanism beside it.
 pub(crate) fn scene(
@@ -18,9 +16,10 @@ pub(crate) fn scene(
     model: &Model<'_>,
     found: &Excitation,
 ) -> String {
+    let effects = effects(machine);
     let mut text = format!(
-        "# The motion of `bgdyn excite` under computed torque, one period.\nscene: 1\nmechanism: {spec}\n\neffects: [{}]\n\ninputs:\n",
-        effects(machine).join(", ")
+        "# The motion of `bgdyn excite` under computed torque, one period, without friction.\nscene: 1\nmechanism: {spec}\n\neffects: [{}]\n\ninputs:\n",
+        effects.join(", ")
     );
     let [stiffness, damping] = GAINS;
     for (joint, series) in model.joints.iter().zip(&found.motion.joints) {
@@ -39,10 +38,10 @@ pub(crate) fn scene(
     for (joint, q) in model.joints.iter().zip(&start.q) {
         let _ = writeln!(text, "  {}: {}", joint.name, exact(*q));
     }
+    let end = exact(found.motion.period());
     let _ = writeln!(
         text,
-        "\nintegration: {{ method: rk4, step: {STEP}, end: {} }}",
-        exact(found.motion.period())
+        "\nintegration: {{ method: rk4, step: 1 ms, end: {end} }}"
     );
     text
 }
@@ -59,15 +58,18 @@ fn harmonic(series: &Series, k: usize, found: &Excitation) -> String {
     )
 }
 
-/// Returns the effects: bodies under gravity, with rotors and friction where the file has them.
+/// Returns the effects: bodies under gravity, with rotors where the file has them. Friction is left out: a light joint
+/// under computed torque sticks, and the motion would not be seen.
 fn effects(machine: &Machine) -> Vec<String> {
     let mut all: Vec<String> = ["gravity", "inertia", "velocity_products"]
         .map(String::from)
         .into();
-    for family in ["rotors", "friction"] {
-        if machine.effects.iter().any(|e| e.effect.family() == family) {
-            all.push(family.into());
-        }
+    if machine
+        .effects
+        .iter()
+        .any(|e| e.effect.family() == "rotors")
+    {
+        all.push("rotors".into());
     }
     all
 }
