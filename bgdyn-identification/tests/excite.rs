@@ -3,11 +3,12 @@
 use bgdyn_identification::base::base;
 use bgdyn_identification::excite::ascent::Slope;
 use bgdyn_identification::excite::information::Information;
-use bgdyn_identification::excite::problem::{Bounds, Problem};
+use bgdyn_identification::excite::objective::{Bounds, Objective};
 use bgdyn_identification::excite::series::SAMPLES;
 use bgdyn_identification::excite::shape::Shape;
 use bgdyn_identification::excite::{
-    Effort, Excitation, JointLimits, Keep, Motion, Noise, Points, Request, efforts_of_file, excite,
+    Effort, Excitation, JointLimits, Keep, Noise, PeriodicMotion, Points, Request, efforts_of_file,
+    excite,
 };
 use bgdyn_identification::log::Log;
 use bgdyn_identification::pseudo_inertia::{from_centre, transport};
@@ -136,7 +137,7 @@ const SEARCH: Effort = Effort {
 };
 
 /// Returns many times of a period: ten for each one at which the search looks.
-fn dense(motion: &Motion) -> Vec<f64> {
+fn dense(motion: &PeriodicMotion) -> Vec<f64> {
     let count = 10 * SAMPLES * motion.joints[0].sine.len();
     let time = |i: usize| i as f64 / count as f64 * motion.period();
     (0..count).map(time).collect()
@@ -264,18 +265,18 @@ fn slopes_are_those_of_differences() {
     };
     let shape = Shape::new(3, 0.8, &limits);
     let information = Information::new(&model, &base(&model), &[0.5, 0.2], vec![0.1; 2]);
-    let mut problem = Problem::new(&information, &shape, &bounds, 3, 0.8);
-    problem.barrier = 0.7;
+    let mut objective = Objective::new(&information, &shape, &bounds, 3, 0.8);
+    objective.barrier = 0.7;
     let mut random = Random(9);
     let x = DVector::from_fn(shape.len(), |i, _| {
         0.2 * random.signed() + if i == 0 { 0.3 } else { 0.0 }
     });
-    let slope = problem.slope(&x).expect("inside");
+    let slope = objective.slope(&x).expect("inside");
     for i in 0..x.len() {
         let at = |step: f64| {
             let mut x = x.clone();
             x[i] += step;
-            problem.value(&x).expect("inside")
+            objective.value(&x).expect("inside")
         };
         let h = 1e-5;
         let difference = (at(h) - at(-h)) / (2.0 * h);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use bgdyn_codegen::machine::Machine;
 use bgdyn_identification::Model;
-use bgdyn_identification::excite::{Excitation, Series};
+use bgdyn_identification::excite::{Excitation, FourierSeries};
 
 /// Gains of computed torque: poles at −10/s.
 const GAINS: [f64; 2] = [100.0, 20.0];
@@ -47,7 +47,7 @@ pub(crate) fn scene(
 }
 
 /// (a sin x − b cos x)/(kω) = |(a, b)|/(kω) · sin(x − atan2(b, a)).
-fn harmonic(series: &Series, k: usize, found: &Excitation) -> String {
+fn harmonic(series: &FourierSeries, k: usize, found: &Excitation) -> String {
     let (a, b) = (series.sine[k], series.cosine[k]);
     let order = (k + 1) as f64;
     format!(

@@ -1,6 +1,6 @@
 //! Samples of a period, with the sines and cosines of all harmonics.
 
-use super::series::{Motion, Series, State};
+use super::series::{FourierSeries, PeriodicMotion, State};
 
 /// Evenly spaced times of a period.
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ impl Grid {
     }
 
     /// Returns position, velocity, acceleration of a joint at a time.
-    pub fn at(&self, series: &Series, i: usize) -> [f64; 3] {
+    pub fn at(&self, series: &FourierSeries, i: usize) -> [f64; 3] {
         let mut found = [series.centre, 0.0, 0.0];
         for (k, [sine, cosine]) in self.turns[i].iter().enumerate() {
             let w = self.frequency * (k + 1) as f64;
@@ -44,7 +44,7 @@ impl Grid {
     }
 
     /// Returns the state of all joints at a time.
-    pub fn state(&self, motion: &Motion, i: usize) -> State {
+    pub fn state(&self, motion: &PeriodicMotion, i: usize) -> State {
         let mut state = State::default();
         for series in &motion.joints {
             let [q, v, a] = self.at(series, i);
@@ -56,7 +56,7 @@ impl Grid {
     }
 
     /// Adds to slopes by coefficients what slopes by position, velocity and acceleration at a time say.
-    pub fn pull(&self, i: usize, [q, v, a]: [f64; 3], slope: &mut Series) {
+    pub fn pull(&self, i: usize, [q, v, a]: [f64; 3], slope: &mut FourierSeries) {
         slope.centre += q;
         for (k, [sine, cosine]) in self.turns[i].iter().enumerate() {
             let w = self.frequency * (k + 1) as f64;

@@ -1,6 +1,6 @@
 //! What a motion may do: limits of joints, and frames that stay on one side of planes.
 
-use super::series::{Motion, Series, State};
+use super::series::{FourierSeries, PeriodicMotion, State};
 
 /// Limits of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ impl JointLimits {
 
     /// Returns the shares of the limits of position, speed and acceleration that a series uses at most, between samples
     /// too: above 1 it exceeds one.
-    pub fn shares(&self, series: &Series, frequency: f64) -> [f64; 3] {
+    pub fn shares(&self, series: &FourierSeries, frequency: f64) -> [f64; 3] {
         let [q, v, a] = series.extremes(frequency);
         let size = |[low, high]: [f64; 2]| high.max(-low);
         [
@@ -39,7 +39,7 @@ impl JointLimits {
     }
 
     /// Returns the factor of the motion about the centre with which it touches the first limit.
-    pub fn room(&self, series: &Series, frequency: f64) -> f64 {
+    pub fn room(&self, series: &FourierSeries, frequency: f64) -> f64 {
         let [q, v, a] = series.extremes(frequency);
         let up = (self.position[1] - series.centre) / (q[1] - series.centre);
         let down = (series.centre - self.position[0]) / (series.centre - q[0]);
@@ -79,7 +79,7 @@ impl Keep {
 
 /// The smallest value of a function along a motion: of `samples` for each harmonic, less an eighth of the largest second difference
 /// beside, the most by which a parabola goes on between two samples.
-pub fn least(motion: &Motion, samples: usize, of: &mut dyn FnMut(&State) -> f64) -> f64 {
+pub fn least(motion: &PeriodicMotion, samples: usize, of: &mut dyn FnMut(&State) -> f64) -> f64 {
     let harmonics = motion.joints.first().map_or(1, |s| s.sine.len());
     let count = samples * harmonics;
     let step = motion.period() / count as f64;

@@ -4,9 +4,9 @@ use nalgebra::DMatrix;
 
 use super::information::Information;
 use super::limits::{JointLimits, Keep, Points};
-use super::problem::{Bounds, Problem};
+use super::objective::{Bounds, Objective};
 use super::search::{Effort, Found, search, used};
-use super::series::{Extremes, Motion, SAMPLES, State};
+use super::series::{Extremes, PeriodicMotion, SAMPLES, State};
 use super::shape::Shape;
 use crate::base::{Base, base};
 use crate::even::even;
@@ -58,7 +58,7 @@ pub struct Request<'a> {
 #[derive(Clone, Debug)]
 pub struct Excitation {
     /// The motion.
-    pub motion: Motion,
+    pub motion: PeriodicMotion,
     /// Names of the base parameters.
     pub base: Vec<String>,
     /// Noise of the efforts, N·m or N, by joint.
@@ -100,7 +100,7 @@ pub fn excite(
         keeps: request.keeps,
         points: request.points,
     };
-    let rows = Problem::new(&information, &shape, &bounds, request.harmonics, frequency).count();
+    let rows = Objective::new(&information, &shape, &bounds, request.harmonics, frequency).count();
     if let Some(log) = request.prior {
         let prior = of_log(
             model,
@@ -111,22 +111,22 @@ pub fn excite(
         );
         information.set_prior(prior / rows as f64);
     }
-    let mut problem = Problem::new(&information, &shape, &bounds, request.harmonics, frequency);
-    let found = search(&mut problem, &request.effort, progress)?;
-    Ok(report(model, &base, &problem, found, sigma))
+    let mut objective = Objective::new(&information, &shape, &bounds, request.harmonics, frequency);
+    let found = search(&mut objective, &request.effort, progress)?;
+    Ok(report(model, &base, &objective, found, sigma))
 }
 
 fn report(
     model: &Model<'_>,
     base: &Base,
-    problem: &Problem<'_>,
+    objective: &Objective<'_>,
     found: Found,
     sigma: Vec<f64>,
 ) -> Excitation {
     let motions = [&found.first, &found.start, &found.motion];
-    let states = motions.map(|motion| problem.states(motion));
-    let (distances, efforts) = used(problem, &found.motion, SAMPLES);
-    let joints = || found.motion.joints.iter().zip(problem.bounds.joints);
+    let states = motions.map(|motion| objective.states(motion));
+    let (distances, efforts) = used(objective, &found.motion, SAMPLES);
+    let joints = || found.motion.joints.iter().zip(objective.bounds.joints);
     let frequency = found.motion.frequency;
     let shares = joints().zip(efforts).map(|((series, limits), effort)| {
         let [q, v, a] = limits.shares(series, frequency);
@@ -138,9 +138,11 @@ fn report(
         extremes: joints().map(|(s, _)| s.extremes(frequency)).collect(),
         shares: shares.collect(),
         distances,
-        condition: states.each_ref().map(|s| problem.information.condition(s)),
-        log_det: states.each_ref().map(|s| problem.information.log_det(s)),
-        rows: problem.count(),
+        condition: states
+            .each_ref()
+            .map(|s| objective.information.condition(s)),
+        log_det: states.each_ref().map(|s| objective.information.log_det(s)),
+        rows: objective.count(),
         ascents: found.ascents,
         motion: found.motion,
     }

@@ -5,8 +5,8 @@ use nalgebra::DVector;
 
 use super::ascent::ascend;
 use super::limits::{JointLimits, Keep, least};
-use super::problem::Problem;
-use super::series::{Motion, SAMPLES, State};
+use super::objective::Objective;
+use super::series::{PeriodicMotion, SAMPLES, State};
 use crate::fault::{LogFault, short};
 
 /// Centres that are tried for a start until planes and efforts permit one.
@@ -26,11 +26,11 @@ const LEAST: f64 = 1e-2;
 #[derive(Clone, Debug)]
 pub struct Found {
     /// The first random motion.
-    pub first: Motion,
+    pub first: PeriodicMotion,
     /// The best one.
-    pub start: Motion,
+    pub start: PeriodicMotion,
     /// What the ascent made of it.
-    pub motion: Motion,
+    pub motion: PeriodicMotion,
     /// Values with barriers along the ascent, for each weight of these.
     pub ascents: Vec<Vec<f64>>,
 }
@@ -53,20 +53,20 @@ pub struct Effort {
 /// # Errors
 /// If no motion keeps to the planes and limits of efforts, or none shows all base parameters.
 pub fn search(
-    problem: &mut Problem<'_>,
+    objective: &mut Objective<'_>,
     effort: &Effort,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Found, Vec<LogFault>> {
-    let (first, mut starts) = random_motions(problem, effort)?;
+    let (first, mut starts) = random_motions(objective, effort)?;
     // Equal values keep their order.
     starts.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut best: Option<(f64, Found)> = None;
     let count = effort.ascents.clamp(1, starts.len());
     for (i, (_, start)) in starts.iter().take(count).enumerate() {
-        let (motion, ascents) = improved(problem, start, effort.steps, &mut |share| {
+        let (motion, ascents) = improved(objective, start, effort.steps, &mut |share| {
             progress((i as f64 + share) / count as f64)
         });
-        let value = problem.information.value(&problem.states(&motion));
+        let value = objective.information.value(&objective.states(&motion));
         let value = value.unwrap_or(f64::NEG_INFINITY);
         if best.as_ref().is_none_or(|(most, _)| value > *most) {
             let found = Found {
@@ -84,23 +84,23 @@ pub fn search(
 /// Returns the first random motion, and all that show every base parameter, with their values.
 #[expect(clippy::type_complexity, reason = "a pair of motions and their values")]
 fn random_motions(
-    problem: &Problem<'_>,
+    objective: &Objective<'_>,
     effort: &Effort,
-) -> Result<(Motion, Vec<(f64, Motion)>), Vec<LogFault>> {
+) -> Result<(PeriodicMotion, Vec<(f64, PeriodicMotion)>), Vec<LogFault>> {
     let mut random = Random(effort.seed);
     let (mut first, mut starts) = (None, Vec::new());
     let mut nearest = Nearest::default();
     for _ in 0..effort.starts {
-        let Some(motion) = random_motion(problem, &mut random, &mut nearest) else {
+        let Some(motion) = random_motion(objective, &mut random, &mut nearest) else {
             continue;
         };
         first.get_or_insert_with(|| motion.clone());
-        if let Some(value) = problem.information.value(&problem.states(&motion)) {
+        if let Some(value) = objective.information.value(&objective.states(&motion)) {
             starts.push((value, motion));
         }
     }
     let Some(first) = first else {
-        return Err(nearest.faults(problem, CENTRES * effort.starts));
+        return Err(nearest.faults(objective, CENTRES * effort.starts));
     };
     if starts.is_empty() {
         let message = format!(
@@ -117,28 +117,28 @@ fn random_motions(
 
 /// Returns what an ascent makes of a motion, within the limits, and the values along it for each weight of the barriers.
 fn improved(
-    problem: &mut Problem<'_>,
-    start: &Motion,
+    objective: &mut Objective<'_>,
+    start: &PeriodicMotion,
     steps: usize,
     progress: &mut dyn FnMut(f64),
-) -> (Motion, Vec<Vec<f64>>) {
-    let mut x = problem.shape.numbers(&start.scaled(INSIDE));
+) -> (PeriodicMotion, Vec<Vec<f64>>) {
+    let mut x = objective.shape.numbers(&start.scaled(INSIDE));
     let mut ascents = Vec::new();
     let mut done = 0;
     for barrier in BARRIERS {
-        problem.barrier = barrier;
+        objective.barrier = barrier;
         let each = steps.div_ceil(BARRIERS.len());
-        let ascent = ascend(&*problem, x, each, LEAST, &mut || {
+        let ascent = ascend(&*objective, x, each, LEAST, &mut || {
             progress(done as f64 / steps as f64);
             done += 1;
         });
         x = ascent.x;
         ascents.push(ascent.values);
     }
-    let motion = within(problem, problem.shape.motion(&x), SAMPLES);
-    let start = within(problem, start.clone(), SAMPLES);
+    let motion = within(objective, objective.shape.motion(&x), SAMPLES);
+    let start = within(objective, start.clone(), SAMPLES);
     // Where barriers cost more than the ascent gains, the start remains.
-    let value = |motion: &Motion| problem.information.value(&problem.states(motion));
+    let value = |motion: &PeriodicMotion| objective.information.value(&objective.states(motion));
     match value(&motion) > value(&start) {
         true => (motion, ascents),
         false => (start, ascents),
@@ -156,17 +156,17 @@ struct Nearest {
 
 impl Nearest {
     /// Returns whether planes and limits of efforts permit to rest at a state; keeps what comes nearest.
-    fn note(&mut self, problem: &Problem<'_>, state: &State) -> bool {
-        let keeps = problem.bounds.keeps.iter();
+    fn note(&mut self, objective: &Objective<'_>, state: &State) -> bool {
+        let keeps = objective.bounds.keeps.iter();
         let own: Vec<f64> = keeps
-            .map(|k| k.distance(problem.bounds.points, &state.q))
+            .map(|k| k.distance(objective.bounds.points, &state.q))
             .collect();
         let apart = own.iter().all(|d| *d > 0.0);
         self.keeps.resize(own.len(), f64::NEG_INFINITY);
         for (most, x) in self.keeps.iter_mut().zip(own) {
             *most = most.max(x);
         }
-        let own = effort_shares(problem, state);
+        let own = effort_shares(objective, state);
         let strong = own.iter().all(|share| *share < 1.0);
         self.efforts.resize(own.len(), f64::INFINITY);
         for (least, x) in self.efforts.iter_mut().zip(own) {
@@ -175,9 +175,9 @@ impl Nearest {
         apart && strong
     }
 
-    fn faults(&self, problem: &Problem<'_>, tried: usize) -> Vec<LogFault> {
+    fn faults(&self, objective: &Objective<'_>, tried: usize) -> Vec<LogFault> {
         let mut faults = Vec::new();
-        for (keep, most) in problem.bounds.keeps.iter().zip(&self.keeps) {
+        for (keep, most) in objective.bounds.keeps.iter().zip(&self.keeps) {
             if *most <= 0.0 {
                 let message = format!(
                     "`--keep {}` cannot be met: in {tried} positions within the limits the point is at least {} m beyond the plane",
@@ -193,7 +193,7 @@ impl Nearest {
             if *least >= 1.0 {
                 let message = format!(
                     "joint `{}` needs at least {} % of its limit of effort at rest, in {tried} positions within the limits",
-                    problem.bounds.names[j],
+                    objective.bounds.names[j],
                     short(100.0 * least)
                 );
                 faults.push(LogFault::whole("effort-limit", message).with_help(
@@ -215,29 +215,33 @@ impl Nearest {
 }
 
 /// Returns the shares of the limits of efforts at a state, by joint; 0 where there is none.
-fn effort_shares(problem: &Problem<'_>, state: &State) -> Vec<f64> {
-    if !problem.has_efforts() {
-        return vec![0.0; problem.bounds.joints.len()];
+fn effort_shares(objective: &Objective<'_>, state: &State) -> Vec<f64> {
+    if !objective.has_efforts() {
+        return vec![0.0; objective.bounds.joints.len()];
     }
-    let efforts = problem.information.efforts(state);
-    let joints = efforts.iter().zip(problem.bounds.joints);
+    let efforts = objective.information.efforts(state);
+    let joints = efforts.iter().zip(objective.bounds.joints);
     joints
         .map(|(effort, l)| l.effort.map_or(0.0, |most| effort.abs() / most))
         .collect()
 }
 
 /// Returns the least distances from planes along a motion, m, and the largest shares of efforts by joint.
-pub fn used(problem: &Problem<'_>, motion: &Motion, samples: usize) -> (Vec<f64>, Vec<f64>) {
+pub fn used(
+    objective: &Objective<'_>,
+    motion: &PeriodicMotion,
+    samples: usize,
+) -> (Vec<f64>, Vec<f64>) {
     let distance = |keep: &Keep| {
-        let of = &mut |state: &State| keep.distance(problem.bounds.points, &state.q);
+        let of = &mut |state: &State| keep.distance(objective.bounds.points, &state.q);
         least(motion, samples, of)
     };
-    let keeps = problem.bounds.keeps.iter().map(distance).collect();
+    let keeps = objective.bounds.keeps.iter().map(distance).collect();
     let mut efforts = vec![0.0_f64; motion.joints.len()];
-    if problem.has_efforts() {
+    if objective.has_efforts() {
         // Friction jumps, so that no parabola bounds the efforts: samples alone.
         least(motion, samples, &mut |state| {
-            for (most, share) in efforts.iter_mut().zip(effort_shares(problem, state)) {
+            for (most, share) in efforts.iter_mut().zip(effort_shares(objective, state)) {
                 *most = most.max(share);
             }
             0.0
@@ -247,27 +251,27 @@ pub fn used(problem: &Problem<'_>, motion: &Motion, samples: usize) -> (Vec<f64>
 }
 
 /// Returns whether planes and limits of efforts permit a motion.
-fn permitted(problem: &Problem<'_>, motion: &Motion, samples: usize) -> bool {
-    if problem.bounds.keeps.is_empty() && !problem.has_efforts() {
+fn permitted(objective: &Objective<'_>, motion: &PeriodicMotion, samples: usize) -> bool {
+    if objective.bounds.keeps.is_empty() && !objective.has_efforts() {
         return true;
     }
-    let (keeps, efforts) = used(problem, motion, samples);
+    let (keeps, efforts) = used(objective, motion, samples);
     keeps.iter().all(|d| *d > 0.0) && efforts.iter().all(|share| *share <= 1.0)
 }
 
 /// Returns the motion with each joint's motion about its centre as large as its limits permit, at most as it is; then
 /// all of them as large as planes and efforts permit.
-fn within(problem: &Problem<'_>, mut motion: Motion, samples: usize) -> Motion {
-    for (series, limits) in motion.joints.iter_mut().zip(problem.bounds.joints) {
+fn within(objective: &Objective<'_>, mut motion: PeriodicMotion, samples: usize) -> PeriodicMotion {
+    for (series, limits) in motion.joints.iter_mut().zip(objective.bounds.joints) {
         *series = series.scaled(limits.room(series, motion.frequency).min(1.0));
     }
-    if permitted(problem, &motion, samples) {
+    if permitted(objective, &motion, samples) {
         return motion;
     }
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        match permitted(problem, &motion.scaled(middle), samples) {
+        match permitted(objective, &motion.scaled(middle), samples) {
             true => low = middle,
             false => high = middle,
         }
@@ -278,14 +282,14 @@ fn within(problem: &Problem<'_>, mut motion: Motion, samples: usize) -> Motion {
 /// Returns a random motion that touches a limit of each joint, unless planes or efforts shrink it; `None` if these
 /// permit no centre.
 fn random_motion(
-    problem: &Problem<'_>,
+    objective: &Objective<'_>,
     random: &mut Random,
     nearest: &mut Nearest,
-) -> Option<Motion> {
-    let numbers = DVector::from_fn(problem.shape.len(), |_, _| random.signed());
-    let mut motion = problem.shape.motion(&numbers);
+) -> Option<PeriodicMotion> {
+    let numbers = DVector::from_fn(objective.shape.len(), |_, _| random.signed());
+    let mut motion = objective.shape.motion(&numbers);
     let frequency = motion.frequency;
-    for (series, limits) in motion.joints.iter_mut().zip(problem.bounds.joints) {
+    for (series, limits) in motion.joints.iter_mut().zip(objective.bounds.joints) {
         series.centre = 0.0;
         let [q, ..] = series.extremes(frequency);
         let wide = JointLimits {
@@ -295,8 +299,8 @@ fn random_motion(
         let size = 2.0 * limits.half() / (q[1] - q[0]);
         *series = series.scaled(size.min(wide.room(series, frequency)));
     }
-    let draw = |motion: &mut Motion, random: &mut Random| {
-        for (series, limits) in motion.joints.iter_mut().zip(problem.bounds.joints) {
+    let draw = |motion: &mut PeriodicMotion, random: &mut Random| {
+        for (series, limits) in motion.joints.iter_mut().zip(objective.bounds.joints) {
             series.centre = 0.0;
             let [q, ..] = series.extremes(frequency);
             let [low, high] = [limits.position[0] - q[0], limits.position[1] - q[1]];
@@ -305,8 +309,8 @@ fn random_motion(
     };
     for _ in 0..CENTRES {
         draw(&mut motion, random);
-        if nearest.note(problem, &motion.scaled(0.0).at(0.0)) {
-            return Some(within(problem, motion, COARSE));
+        if nearest.note(objective, &motion.scaled(0.0).at(0.0)) {
+            return Some(within(objective, motion, COARSE));
         }
     }
     None

@@ -6,7 +6,7 @@ pub const SAMPLES: usize = 64;
 
 /// The series of a joint.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Series {
+pub struct FourierSeries {
     /// q₀, rad or m.
     pub centre: f64,
     /// a_k for k = 1, 2, …, rad/s or m/s.
@@ -18,7 +18,7 @@ pub struct Series {
 /// Least and largest value over all times.
 pub type Extremes = [f64; 2];
 
-impl Series {
+impl FourierSeries {
     /// Returns position, velocity and acceleration at time `t`, s; `frequency` is ω, rad/s.
     pub fn at(&self, frequency: f64, t: f64) -> [f64; 3] {
         let terms = self.sine.iter().zip(&self.cosine).enumerate();
@@ -60,7 +60,7 @@ impl Series {
     /// Returns the series with its motion about the centre scaled.
     pub fn scaled(&self, factor: f64) -> Self {
         let scaled = |x: &[f64]| x.iter().map(|x| x * factor).collect();
-        Series {
+        FourierSeries {
             centre: self.centre,
             sine: scaled(&self.sine),
             cosine: scaled(&self.cosine),
@@ -70,11 +70,11 @@ impl Series {
 
 /// A motion of all joints.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct PeriodicMotion {
     /// ω, rad/s.
     pub frequency: f64,
     /// The series of each joint.
-    pub joints: Vec<Series>,
+    pub joints: Vec<FourierSeries>,
 }
 
 /// Position, velocity and acceleration of all joints at one time.
@@ -88,7 +88,7 @@ pub struct State {
     pub a: Vec<f64>,
 }
 
-impl Motion {
+impl PeriodicMotion {
     /// Returns the period, s.
     pub fn period(&self) -> f64 {
         std::f64::consts::TAU / self.frequency
@@ -108,7 +108,7 @@ impl Motion {
 
     /// Returns the motion with each joint's motion about its centre scaled.
     pub fn scaled(&self, factor: f64) -> Self {
-        Motion {
+        PeriodicMotion {
             frequency: self.frequency,
             joints: self.joints.iter().map(|s| s.scaled(factor)).collect(),
         }

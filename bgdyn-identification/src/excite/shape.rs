@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::limits::JointLimits;
-use super::series::{Motion, Series};
+use super::series::{FourierSeries, PeriodicMotion};
 
 /// The map between free numbers and motions. A joint has 2K − 1 numbers: its centre in halves of its range, then those
 /// of a_k and of b_k in parts of its speed limit.
@@ -47,10 +47,10 @@ impl Shape {
     }
 
     /// Returns the motion of free numbers.
-    pub fn motion(&self, x: &DVector<f64>) -> Motion {
+    pub fn motion(&self, x: &DVector<f64>) -> PeriodicMotion {
         let (n, k) = (self.of_joint(), self.sine.ncols());
         let joints = self.scales.iter().enumerate();
-        let joint = |(j, [middle, half, speed]): (usize, &[f64; 3])| Series {
+        let joint = |(j, [middle, half, speed]): (usize, &[f64; 3])| FourierSeries {
             centre: middle + half * x[n * j],
             sine: (&self.sine * x.rows(n * j + 1, k) * *speed)
                 .as_slice()
@@ -59,14 +59,14 @@ impl Shape {
                 .as_slice()
                 .to_vec(),
         };
-        Motion {
+        PeriodicMotion {
             frequency: self.frequency,
             joints: joints.map(joint).collect(),
         }
     }
 
     /// Returns the free numbers of a motion at rest at t = 0.
-    pub fn numbers(&self, motion: &Motion) -> DVector<f64> {
+    pub fn numbers(&self, motion: &PeriodicMotion) -> DVector<f64> {
         let mut x = DVector::zeros(self.len());
         let (n, k) = (self.of_joint(), self.sine.ncols());
         for (j, (series, [middle, half, speed])) in
@@ -84,7 +84,7 @@ impl Shape {
     }
 
     /// Returns the slopes by free numbers from those by the coefficients, for each joint (q₀, a_k, b_k).
-    pub fn slopes(&self, by_coefficients: &[Series]) -> DVector<f64> {
+    pub fn slopes(&self, by_coefficients: &[FourierSeries]) -> DVector<f64> {
         let mut x = DVector::zeros(self.len());
         let (n, k) = (self.of_joint(), self.sine.ncols());
         for (j, (slope, [_, half, speed])) in by_coefficients.iter().zip(&self.scales).enumerate() {

@@ -7,7 +7,7 @@ use super::ascent::Slope;
 use super::grid::Grid;
 use super::information::{Cotangent, Information};
 use super::limits::{JointLimits, Keep, Points};
-use super::series::{Motion, Series, State};
+use super::series::{FourierSeries, PeriodicMotion, State};
 use super::shape::Shape;
 
 /// Rows of a period at least, and for each harmonic.
@@ -32,7 +32,7 @@ pub struct Bounds<'a> {
 }
 
 /// The function that is raised.
-pub struct Problem<'a> {
+pub struct Objective<'a> {
     /// What is raised.
     pub information: &'a Information<'a>,
     /// Free numbers.
@@ -45,8 +45,8 @@ pub struct Problem<'a> {
     pub barrier: f64,
 }
 
-impl<'a> Problem<'a> {
-    /// Returns the problem of series with `harmonics` of `frequency`, rad/s, without barriers.
+impl<'a> Objective<'a> {
+    /// Returns the objective of series with `harmonics` of `frequency`, rad/s, without barriers.
     pub fn new(
         information: &'a Information<'a>,
         shape: &'a Shape,
@@ -55,7 +55,7 @@ impl<'a> Problem<'a> {
         frequency: f64,
     ) -> Self {
         let count = ROWS[0].max(ROWS[1] * harmonics);
-        Problem {
+        Objective {
             information,
             shape,
             bounds,
@@ -71,7 +71,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the states of the rows.
-    pub fn states(&self, motion: &Motion) -> Vec<State> {
+    pub fn states(&self, motion: &PeriodicMotion) -> Vec<State> {
         (0..self.rows.count())
             .map(|i| self.rows.state(motion, i))
             .collect()
@@ -83,7 +83,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Returns the mean of the logarithms of what is left of each limit; `None` outside.
-    fn left(&self, motion: &Motion, states: &[State]) -> Option<f64> {
+    fn left(&self, motion: &PeriodicMotion, states: &[State]) -> Option<f64> {
         let mut sum = 0.0;
         for (series, limits) in motion.joints.iter().zip(self.bounds.joints) {
             for i in 0..self.checked.count() {
@@ -113,7 +113,7 @@ impl<'a> Problem<'a> {
     }
 
     /// Adds the slopes of the barriers of joints.
-    fn push(&self, motion: &Motion, slopes: &mut [Series]) {
+    fn push(&self, motion: &PeriodicMotion, slopes: &mut [FourierSeries]) {
         let joints = motion.joints.iter().zip(self.bounds.joints).zip(slopes);
         for ((series, limits), slope) in joints {
             let scales = [limits.half(), limits.speed, limits.acceleration];
@@ -159,7 +159,7 @@ impl<'a> Problem<'a> {
     }
 }
 
-impl Slope for Problem<'_> {
+impl Slope for Objective<'_> {
     fn value(&self, x: &DVector<f64>) -> Option<f64> {
         let motion = self.shape.motion(x);
         let states = self.states(&motion);
@@ -170,11 +170,11 @@ impl Slope for Problem<'_> {
     fn slope(&self, x: &DVector<f64>) -> Option<DVector<f64>> {
         let motion = self.shape.motion(x);
         let states = self.states(&motion);
-        let zero = |series: &Series| Series {
+        let zero = |series: &FourierSeries| FourierSeries {
             centre: 0.0,
             ..series.scaled(0.0)
         };
-        let mut slopes: Vec<Series> = motion.joints.iter().map(zero).collect();
+        let mut slopes: Vec<FourierSeries> = motion.joints.iter().map(zero).collect();
         let rows: Vec<DMatrix<f64>> = self.information.cotangents(&states)?;
         for (i, (state, rows)) in states.iter().zip(rows).enumerate() {
             let efforts = self.push_of_efforts(state);
