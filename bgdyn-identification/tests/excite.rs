@@ -354,6 +354,23 @@ fn what_cannot_be_kept_is_a_fault_with_its_numbers() {
         told.contains("at least 1.") && told.contains("help: "),
         "{told}"
     );
+    let bare = Model {
+        links: vec![],
+        columns: [false; 4],
+        ..model()
+    };
+    let request = Request {
+        limits: &limits(None),
+        keeps: &[],
+        points: &Pendulums,
+        harmonics: 2,
+        period: 1.0,
+        effort: SEARCH,
+        noise: Noise::Equal,
+        prior: None,
+    };
+    let told = excite(&bare, &request, &mut |_| {}).expect_err("nothing to show");
+    assert_eq!(told[0].rule, "nothing-excited");
     let narrow = limits(Some(0.5)).map(|l| JointLimits {
         position: [-0.1, 0.1],
         ..l

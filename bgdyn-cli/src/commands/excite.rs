@@ -9,6 +9,7 @@ use bgdyn_codegen::machine::Machine;
 use bgdyn_identification::excite::{
     Effort, Excitation, JointLimits, Keep, Noise, Request, efforts_of_file, excite,
 };
+use bgdyn_identification::log::{ColumnNames, Log, quality, unsound};
 use bgdyn_identification::{LogFault, Model};
 use clap::{Args, ValueEnum};
 
@@ -53,7 +54,7 @@ pub(crate) struct Excite {
     #[arg(long, value_name = "ACCELERATIONS")]
     acceleration: Option<String>,
     /// Keep the origin of a frame or link on one side of a plane: `tool.z>0.1 m`; may be repeated
-    #[arg(long, value_name = "FRAME.AXIS>LENGTH")]
+    #[arg(long, value_name = "PLANE")]
     keep: Vec<String>,
     #[command(flatten)]
     parts: Parts,
@@ -123,7 +124,7 @@ impl Excite {
         let limits =
             joint_limits(&model.joints, &asked).map_err(|faults| refusal(&self.spec, &faults));
         let prior = self.prior.as_ref();
-        let prior = prior.map(|path| read_log(path, &model, &names, None));
+        let prior = prior.map(|path| sound_log(path, &model, &names));
         // Faults of all parts, before one stops.
         let mut told = Vec::new();
         let keeps = keeps.map_err(|why| told.push(why)).unwrap_or_default();
@@ -248,6 +249,16 @@ fn write(folder: &Path, file: &SpecFile, plan: &Plan<'_>) -> Result<()> {
             .with_context(|| format!("{} cannot be written", path.display()))?;
     }
     Ok(())
+}
+
+/// Reads an earlier log, and refuses what `identify` would refuse.
+fn sound_log(path: &Path, model: &Model<'_>, names: &ColumnNames) -> Result<Log> {
+    let log = read_log(path, model, names, None)?;
+    let faults = unsound(&log, &quality(&log, &model.joints), &model.joints);
+    match faults.is_empty() {
+        true => Ok(log),
+        false => Err(super::logs::refusal(path, &faults)),
+    }
 }
 
 /// Converts faults to an error; prints them.

@@ -277,5 +277,18 @@ fn a_period_that_one_log_showed_counts() {
     );
     assert_eq!(alone["joints"][0]["sine"], after["joints"][0]["sine"]);
     let condition = |of: &Value| number(&of["motion"]["condition"]);
+    let gap = fs::read_to_string(&log).expect("the log");
+    let gap: Vec<&str> = gap
+        .lines()
+        .enumerate()
+        .filter(|(i, _)| !(300..400).contains(i))
+        .map(|(_, l)| l)
+        .collect();
+    let gap = scratch("excite_prior_spec", "gap.csv", gap.join("\n"));
+    let told = bgdyn(&["excite", &spec, "--prior", &gap]).bad_input();
+    assert!(
+        told.contains("gap.csv:301:1:") && told.contains("[gap]"),
+        "{told}"
+    );
     assert!(condition(&after) < condition(&alone));
 }

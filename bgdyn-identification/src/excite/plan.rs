@@ -90,6 +90,13 @@ pub fn excite(
 ) -> Result<Excitation, Vec<LogFault>> {
     let frequency = std::f64::consts::TAU / request.period;
     let base = base(model);
+    if base.kept.is_empty() {
+        let message = "no parameter has an effect on the efforts".to_owned();
+        let help = "give the links masses, or identify friction or rotors too";
+        return Err(vec![
+            LogFault::whole("nothing-excited", message).with_help(help),
+        ]);
+    }
     let shape = Shape::new(request.harmonics, frequency, request.limits);
     let sigma = noise(model, request);
     let widths = request.limits.iter().map(|l| SMOOTHED * l.speed).collect();
