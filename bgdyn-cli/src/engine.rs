@@ -1,4 +1,4 @@
-//! The engines that compute functions for the commands `eval`, `simulate` and `accuracy`.
+//! The engines that compute functions for the commands.
 
 use std::collections::BTreeMap;
 
@@ -64,7 +64,7 @@ const PAYS: usize = 10_000;
 
 /// Returns the engine that makes machine code of functions after [`PAYS`] calls, or the tape where there is no machine code.
 #[cfg(feature = "jit")]
-fn often_called() -> Box<dyn Engine> {
+pub(crate) fn often_called() -> Box<dyn Engine> {
     match bgdyn_jit::Jit::new() {
         Ok(jit) => Box::new(bgdyn_jit::OftenCalled::after(PAYS, jit)),
         Err(_) => Box::new(Tape),
@@ -73,7 +73,7 @@ fn often_called() -> Box<dyn Engine> {
 
 /// Returns the tape.
 #[cfg(not(feature = "jit"))]
-fn often_called() -> Box<dyn Engine> {
+pub(crate) fn often_called() -> Box<dyn Engine> {
     Box::new(Tape)
 }
 

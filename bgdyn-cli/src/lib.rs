@@ -8,6 +8,7 @@ mod cargo_project;
 mod colour;
 pub mod commands;
 mod engine;
+mod excite;
 pub mod fuzz_invariants;
 pub mod graph;
 mod identify;
@@ -52,6 +53,7 @@ enum Command {
     Graph(commands::graph::Graph),
     Simulate(commands::simulate::Simulate),
     Identify(commands::identify::Identify),
+    Excite(commands::excite::Excite),
     Accuracy(commands::accuracy::Accuracy),
     Import(import::ImportArgs),
     Schema(commands::schema::Schema),
@@ -70,6 +72,7 @@ pub fn run() -> ExitCode {
         Command::Graph(command) => command.run(),
         Command::Simulate(command) => command.run(),
         Command::Identify(command) => command.run(),
+        Command::Excite(command) => command.run(),
         Command::Accuracy(command) => command.run(),
         Command::Import(arguments) => import::run(arguments),
         Command::Schema(command) => command.run(),

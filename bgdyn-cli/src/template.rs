@@ -1,5 +1,10 @@
 //! Fills the templates of self-contained pages.
 
+/// The style of pages with plots over time.
+pub(crate) const STYLE: &str = include_str!("template/style.css");
+/// Their scripts: elements, tables, plots.
+pub(crate) const PLOTS: &str = include_str!("template/plot.js");
+
 /// Returns JSON as it can be written into a page: `<` could end its element.
 pub(crate) fn embedded(json: &str) -> String {
     json.replace('<', "\\u003c")

@@ -12,6 +12,7 @@ pub mod base;
 pub mod bodies;
 pub mod deviations;
 pub mod even;
+pub mod excite;
 pub mod fault;
 pub mod filter;
 pub mod fit;

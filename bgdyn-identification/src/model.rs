@@ -29,6 +29,16 @@ pub trait Rows {
     fn effort_rows(&self, q: &[f64], v: &[f64], a: &[f64], rows: &mut DMatrix<f64>);
 }
 
+/// Fills rows from numbers row by row, as generated functions give them.
+pub fn fill_by_rows(rows: &mut DMatrix<f64>, values: &[f64]) {
+    let width = rows.ncols();
+    for (i, own) in values.chunks(width).enumerate() {
+        for (k, x) in own.iter().enumerate() {
+            rows[(i, k)] = *x;
+        }
+    }
+}
+
 /// A link with an inertia of its own.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkPart {
@@ -55,6 +65,8 @@ pub struct JointPart {
     pub range: [Option<f64>; 2],
     /// Limit of its speed.
     pub speed: Option<f64>,
+    /// Limit of its effort, N·m or N.
+    pub effort: Option<f64>,
     /// Rotor inertia, viscous and Coulomb friction, offset, as the file has them.
     pub file: [f64; 4],
 }
@@ -134,5 +146,10 @@ pub const SIGN_WIDTH: f64 = 1e-3;
 
 /// Returns the columns of a joint, in the order of [`JOINT_COLUMNS`]: a, v, sign v (smoothed), 1.
 pub fn joint_columns(v: f64, a: f64) -> [f64; 4] {
-    [a, v, (v / SIGN_WIDTH).tanh(), 1.0]
+    joint_columns_within(v, a, SIGN_WIDTH)
+}
+
+/// Returns the same with another width of the sign.
+pub fn joint_columns_within(v: f64, a: f64, width: f64) -> [f64; 4] {
+    [a, v, (v / width).tanh(), 1.0]
 }

@@ -40,6 +40,7 @@ fn model(columns: [bool; 4]) -> Model<'static> {
         linear: false,
         range: [None; 2],
         speed: None,
+        effort: None,
         file: [0.0; 4],
     };
     Model {

@@ -1,15 +1,16 @@
 //! `bgdyn identify`: a calibrated model from a log.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::read_machine;
-use bgdyn_identification::log::{ColumnNames, Expected, Log, Quantity, read};
+use bgdyn_identification::log::Log;
 use bgdyn_identification::{Identification, LogFault, Model, Options, identify};
 use clap::Args;
 
-use crate::identify::{IdentifiedMachine, Wanted, json, page, summary, table, write};
+use super::logs::{Parts, column_names, machine, read_log, refusal};
+use crate::identify::{IdentifiedMachine, json, page, summary, table, write};
 use crate::output::{print, tell};
 use crate::quantity::{positive, value};
 use crate::simulate::progress::Progress;
@@ -44,15 +45,8 @@ pub(crate) struct Identify {
     /// Cut of the low-pass filter, such as `10 Hz` [default: from the spectrum of the positions]
     #[arg(long, value_name = "HZ")]
     cut: Option<String>,
-    /// Friction that is identified: `viscous`, `coulomb`, `offset`, or `none`
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', default_values_t = ["viscous".to_owned(), "coulomb".into(), "offset".into()])]
-    friction: Vec<String>,
-    /// Identify the rotors' reflected inertia
-    #[arg(long)]
-    rotors: bool,
-    /// Identify these links only, separated by commas; the others keep their numbers
-    #[arg(long, value_name = "LINKS", value_delimiter = ',')]
-    only: Vec<String>,
+    #[command(flatten)]
+    parts: Parts,
     /// Weight of the numbers in the file: 1 means that to change a body by itself costs one deviation
     #[arg(long, value_name = "X", default_value = "1")]
     prior: f64,
@@ -69,27 +63,17 @@ pub(crate) struct Identify {
 
 impl Identify {
     pub(crate) fn run(self) -> Result<()> {
-        let (wanted, options) = (self.wanted()?, self.options()?);
-        let names = self.columns.as_deref().map(ColumnNames::parse).transpose();
-        let names = names
-            .map_err(|why| Usage(format!("--columns: {why}")))?
-            .unwrap_or_default();
+        let (wanted, options) = (self.parts.wanted()?, self.options()?);
+        let names = column_names(self.columns.as_deref())?;
         let file = SpecFile::open(&self.spec)?;
-        if file.is_scene() {
-            bail!("{} is a scene: give its mechanism", shown(&self.spec));
-        }
-        let (machine, faults) = read_machine(&file.text, Some(&file.stem));
-        tell(&file.render(&faults));
-        let machine =
-            machine.ok_or_else(|| anyhow!("{} has {}", shown(&self.spec), faults.tally()))?;
-        let identified = IdentifiedMachine::new(&machine, &wanted)
-            .map_err(|faults| anyhow!("{}: {}", shown(&self.spec), faults.join("\nbgdyn: ")))?;
+        let (_, identified) = machine(&file, &wanted)?;
         let model = identified.model();
-        let log = self.read(&self.log, &model, &names);
+        let gains = self.gains.as_deref();
+        let log = read_log(&self.log, &model, &names, gains);
         let test = self
             .test
             .as_ref()
-            .map(|path| self.read(path, &model, &names))
+            .map(|path| read_log(path, &model, &names, gains))
             .transpose();
         // Faults of both logs, before either stops.
         let (log, test) = match (log, test) {
@@ -144,25 +128,6 @@ impl Identify {
         }
     }
 
-    fn wanted(&self) -> Result<Wanted> {
-        let mut columns = [self.rotors, false, false, false];
-        for name in &self.friction {
-            match name.trim() {
-                "viscous" => columns[1] = true,
-                "coulomb" => columns[2] = true,
-                "offset" => columns[3] = true,
-                "none" if self.friction.len() == 1 => {}
-                other => bail!(Usage(format!(
-                    "`--friction {other}`: there are viscous, coulomb, offset, none"
-                ))),
-            }
-        }
-        Ok(Wanted {
-            only: self.only.clone(),
-            columns,
-        })
-    }
-
     fn options(&self) -> Result<Options> {
         if !(self.prior > 0.0 && self.prior.is_finite()) {
             bail!(Usage(format!(
@@ -183,27 +148,6 @@ impl Identify {
             skip_below: speed,
         })
     }
-
-    fn read(&self, path: &Path, model: &Model<'_>, names: &ColumnNames) -> Result<Log> {
-        let text = crate::spec_file::read_text(path)?;
-        let joints = model.joints.iter().map(|j| (j.name.clone(), j.linear));
-        let unit = |text: &str, quantity: Quantity, linear: bool| {
-            unit(text, quantity, linear, self.gains.is_some())
-        };
-        let expected = Expected {
-            joints: joints.collect(),
-            names: names.clone(),
-            unit: &unit,
-        };
-        let mut log = read(text.as_bytes(), &expected).map_err(|faults| refusal(path, &faults))?;
-        if let Some(gains) = &self.gains {
-            let gains = read_gains(gains, model)?;
-            for (tau, gain) in log.tau.iter_mut().zip(gains) {
-                tau.iter_mut().for_each(|t| *t *= gain);
-            }
-        }
-        Ok(log)
-    }
 }
 
 fn run_steps(
@@ -216,67 +160,4 @@ fn run_steps(
     identify(model, log, test, options, &mut |_, share| {
         progress.at(share)
     })
-}
-
-/// Returns the factor of a unit of the second row.
-fn unit(text: &str, quantity: Quantity, linear: bool, current: bool) -> Result<f64, String> {
-    let (dimension, what) = match (quantity, linear) {
-        (Quantity::Time, _) => (Dimension::Time, "a time"),
-        (Quantity::Position, false) => (Dimension::Angle, "the position of a joint that turns"),
-        (Quantity::Position, true) => (Dimension::Length, "the position of a joint that slides"),
-        (Quantity::Effort, _) if current => (Dimension::Current, "a current, with --gains"),
-        (Quantity::Effort, false) => (Dimension::Torque, "the effort of a joint that turns"),
-        (Quantity::Effort, true) => (Dimension::Force, "the effort of a joint that slides"),
-    };
-    let text = if text == "Nm" { "N*m" } else { text };
-    let factor = value(&format!("1 {text}"), &[dimension]);
-    factor
-        .map(|f| f.to_f64())
-        .map_err(|why| format!("`{text}` is no unit of {what}: {why}"))
-}
-
-/// Reads factors from currents to efforts.
-fn read_gains(path: &Path, model: &Model<'_>) -> Result<Vec<f64>> {
-    let text = crate::spec_file::read_text(path)?;
-    let rows = crate::table::rows(&text);
-    let find = |name: &str| {
-        rows.iter()
-            .find(|row| row.cells.first().is_some_and(|cell| cell == name))
-    };
-    let gain = |name: &str| -> Result<f64, String> {
-        let row =
-            find(name).ok_or_else(|| format!("{}: no row for joint `{name}`", shown(path)))?;
-        let cell = row.cells.get(1).map_or("", String::as_str);
-        let (line, column) = row.position(1);
-        let number = cell
-            .parse::<f64>()
-            .ok()
-            .filter(|x| x.is_finite() && *x != 0.0);
-        number.ok_or_else(|| {
-            format!(
-                "{}:{line}:{column}: `{cell}` is no factor: write a number that is not 0",
-                shown(path)
-            )
-        })
-    };
-    let gains: Vec<Result<f64, String>> = model.joints.iter().map(|j| gain(&j.name)).collect();
-    let faults: Vec<String> = gains.iter().filter_map(|g| g.clone().err()).collect();
-    match faults.is_empty() {
-        true => Ok(gains.into_iter().flatten().collect()),
-        false => bail!("{}", faults.join("\nbgdyn: ")),
-    }
-}
-
-/// Converts faults of a log to an error; prints them.
-fn refusal(path: &Path, faults: &[LogFault]) -> anyhow::Error {
-    for fault in faults {
-        let separator = if fault.position.is_some() { ":" } else { ": " };
-        tell(&format!("{}{separator}{fault}\n", shown(path)));
-    }
-    let word = if faults.len() == 1 { "fault" } else { "faults" };
-    anyhow!(
-        "{} has {} {word}; nothing was written",
-        shown(path),
-        faults.len()
-    )
 }

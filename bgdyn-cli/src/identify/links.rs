@@ -41,7 +41,7 @@ impl IdentifiedMachine {
         let mechanism = &machine.mechanism;
         let graph = bond_graph::build(mechanism);
         let tree = GeneratedRows::new(mechanism, &graph).map_err(|what| {
-            vec![format!("{what}: `identify` knows trees of joints about and along axes. Identify such a part of it")]
+            vec![format!("{what}: what is identified is a tree of joints about and along axes. Take such a part of it")]
         })?;
         let (rows, places) = tree;
         let effects = effect_numbers(&machine.effects);
@@ -128,6 +128,7 @@ fn joints(
                 linear: coordinate.linear,
                 range: [limits.lower, limits.upper],
                 speed: limits.velocity,
+                effort: limits.effort,
                 file,
             }
         })

@@ -1,15 +1,16 @@
 //! The rows of the regressor of a tree by the generated method `regressor`, and where the links are.
 
 use bgdyn_codegen::bond_graph::{BondGraph, LinkFrame, PositionVariable};
-use bgdyn_codegen::engine::{Callable, Engine};
-use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::engine::{CallArguments, Callable};
 use bgdyn_codegen::mechanism::{LinkId, Mechanism, Motion, Pose};
 use bgdyn_codegen::method::{Method, Regressor};
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::selection;
-use bgdyn_codegen::tape::Tape;
 use bgdyn_identification::Rows;
+use bgdyn_identification::model::fill_by_rows;
 use nalgebra::{DMatrix, Matrix3, Vector3};
+
+use crate::engine::often_called;
 
 /// The regressor of a tree of joints about and along axes.
 pub(crate) struct GeneratedRows {
@@ -37,7 +38,7 @@ impl GeneratedRows {
         let rows = GeneratedRows {
             joints: graph.coordinates.len(),
             bodies: graph.moving_links().len(),
-            regressor: Tape.prepare(&function),
+            regressor: often_called().prepare(&function),
             parameters: parameters.map(|p| p.default.to_f64()).collect(),
         };
         Ok((rows, places(graph)))
@@ -114,19 +115,14 @@ impl Rows for GeneratedRows {
     }
 
     fn effort_rows(&self, q: &[f64], v: &[f64], a: &[f64], rows: &mut DMatrix<f64>) {
-        let inputs = Inputs {
-            q: q.to_vec(),
-            v: v.to_vec(),
-            a: a.to_vec(),
-            parameters: self.parameters.clone(),
-            ..Inputs::default()
-        };
-        let (values, _) = self.regressor.value(&(&inputs).into());
-        rows.copy_from(&DMatrix::from_row_slice(
-            self.joints,
-            10 * self.bodies,
-            &values,
-        ));
+        let (values, _) = self.regressor.value(&CallArguments {
+            q,
+            v,
+            a,
+            parameters: &self.parameters,
+            ..CallArguments::default()
+        });
+        fill_by_rows(rows, &values);
     }
 }
 
@@ -134,7 +130,10 @@ impl Rows for GeneratedRows {
 mod tests {
     use std::path::Path;
 
+    use bgdyn_codegen::engine::Engine;
+    use bgdyn_codegen::expr::Inputs;
     use bgdyn_codegen::read_machine;
+    use bgdyn_codegen::tape::Tape;
     use bgdyn_identification::model::Unknown;
 
     use super::super::{IdentifiedMachine, Wanted};

@@ -78,7 +78,7 @@ pub(crate) fn summary(machine: &IdentifiedMachine, found: &Identification) -> St
         .map(|p| p.name.as_str())
         .collect();
     if !unseen.is_empty() {
-        lines.push("not seen by this motion (deviation above 30 %): record one that moves these joints faster and farther".into());
+        lines.push("not seen by this motion (deviation above 30 %): record one that does, such as that of `bgdyn excite SPEC --prior LOG`".into());
         lines.extend(unseen.iter().map(|name| format!("  {name}")));
     }
     lines.push(match found.judgement.last_third {

@@ -174,6 +174,13 @@ fn courses() -> Vec<(&'static str, Value)> {
         ),
         ("harmonic", harmonic),
         (
+            "sum",
+            described(
+                "the sum of numbers and signals",
+                json!({ "type": "array", "items": { "$ref": "#/$defs/course" }, "minItems": 1 }),
+            ),
+        ),
+        (
             "table",
             described(
                 "points [time, value], straight lines between them",

@@ -135,3 +135,25 @@ fn a_function_that_the_scene_lacks() {
     );
     assert!(run.stderr.contains("are of mechanisms"), "{}", run.stderr);
 }
+
+/// A sum is the sum of its terms, and its faults are told at their places.
+#[test]
+fn signals_add_up() {
+    let input = |name: &str, signal: &str| {
+        scratch(name, "block.yaml", BLOCK);
+        let scene = SCENE.replace("{ ramp: { from: 4, rate: 10 } }", signal);
+        let scene = scratch(name, "pull.scene.yaml", scene);
+        let states = scratch(name, "states.json", r#"{"states": [{"t": 0.25}]}"#);
+        bgdyn(&["eval", &scene, "input", "--states", &states])
+    };
+    let terms =
+        "[1, { ramp: { from: 4, rate: 10 } }, { harmonic: { amplitude: 3, frequency: 1 Hz } }]";
+    let run = input("scene_sum", &format!("{{ sum: {terms} }}"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let sum = told(&run)["results"][0][0].as_f64().expect("a number");
+    assert!((sum - (1.0 + 6.5 + 3.0)).abs() < 1e-14, "{sum}");
+    let empty = input("scene_empty_sum", "{ sum: [] }").bad_input();
+    assert!(empty.contains("the sum has no terms"), "{empty}");
+    let wrong = input("scene_wrong_sum", "{ sum: [1 m, { wave: 2 }] }").bad_input();
+    assert!(wrong.contains("1 m") && wrong.contains("wave"), "{wrong}");
+}

@@ -85,18 +85,42 @@ fn motion(joint: usize, seed: u64, t: f64) -> [f64; 3] {
 
 /// Returns the header and rows of a log: time, positions, efforts.
 pub(crate) fn simulated(truth: &str, seed: u64, seconds: f64) -> Vec<Vec<f64>> {
-    let folder = temporary(&format!("identify_truth_{seed}_{}", truth.len()));
+    let name = format!("identify_{seed}_{}", truth.len());
+    let mut noise = Noise(seed + 99);
+    logged(
+        truth,
+        &name,
+        seconds,
+        &|j, t| motion(j, seed, t),
+        &mut noise,
+    )
+}
+
+/// Returns the rows of a log of another motion: position, velocity, acceleration of a joint at a time.
+pub(crate) fn log_of_states(
+    truth: &str,
+    name: &str,
+    seconds: f64,
+    motion: &dyn Fn(usize, f64) -> [f64; 3],
+) -> Vec<Vec<f64>> {
+    logged(truth, name, seconds, motion, &mut Noise(7))
+}
+
+fn logged(
+    truth: &str,
+    name: &str,
+    seconds: f64,
+    motion: &dyn Fn(usize, f64) -> [f64; 3],
+    noise: &mut Noise,
+) -> Vec<Vec<f64>> {
+    let folder = temporary(&format!("{name}_truth"));
     let spec = folder.join("arm.yaml");
     fs::write(&spec, truth).expect("a spec");
     let times: Vec<f64> = (0..(seconds * RATE) as usize)
         .map(|i| i as f64 / RATE)
         .collect();
     let states = times.iter().map(|&t| {
-        let of = |part: usize| {
-            (0..3)
-                .map(|j| motion(j, seed, t)[part])
-                .collect::<Vec<f64>>()
-        };
+        let of = |part: usize| (0..3).map(|j| motion(j, t)[part]).collect::<Vec<f64>>();
         json!({ "q": of(0), "v": of(1), "a": of(2) })
     });
     let states = json!({ "states": states.collect::<Vec<_>>() });
@@ -110,13 +134,12 @@ pub(crate) fn simulated(truth: &str, seed: u64, seconds: f64) -> Vec<Vec<f64>> {
         &text(&path),
     ]);
     let efforts: Value = serde_json::from_str(&run.good()).expect("JSON");
-    let mut noise = Noise(seed + 99);
     let step = TAU / 131_072.0;
     let row = |(i, t): (usize, &f64)| {
         let mut row = vec![*t];
-        row.extend((0..3).map(|j| (motion(j, seed, *t)[0] / step).round() * step));
+        row.extend((0..3).map(|j| (motion(j, *t)[0] / step).round() * step));
         row.extend((0..3).map(|j| {
-            let [_, v, a] = motion(j, seed, *t);
+            let [_, v, a] = motion(j, *t);
             let [rotor, viscous, coulomb, offset] = FRICTION.map(|f| f[j]);
             let clean = efforts["results"][i][j].as_f64().expect("a number");
             clean + rotor * a + viscous * v + coulomb * v.signum() + offset + 0.1 * noise.normal()

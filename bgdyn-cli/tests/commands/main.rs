@@ -8,6 +8,7 @@ mod engines;
 mod equations;
 mod eval;
 mod eval_scenes;
+mod excite;
 mod free_scenes;
 mod fuzz_invariants;
 mod generate;

@@ -119,7 +119,7 @@ impl InputSource {
 }
 
 /// The words that a drive may begin with.
-pub(super) const BUILT_IN: &str = "constant, ramp, harmonic, table, step, trapezoidal, quintic, pd, pid, computed_torque, or `given` for values from Rust code";
+pub(super) const BUILT_IN: &str = "constant, ramp, harmonic, sum, table, step, trapezoidal, quintic, pd, pid, computed_torque, or `given` for values from Rust code";
 
 /// The key of the limits of an input.
 pub(super) const LIMIT: &str = "limit";
@@ -259,6 +259,7 @@ fn course(only: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Wavef
             .map(|n| Waveform::Constant(n.value.value)),
         "ramp" => ramp(only, dimension, faults),
         "harmonic" => harmonic(only, dimension, faults),
+        "sum" => sum(only, dimension, faults),
         "table" => table(only, dimension, faults),
         "step" => profile::step(only, dimension, faults),
         "trapezoidal" => profile::trapezoidal(only, dimension, faults),
@@ -318,6 +319,20 @@ fn harmonic(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Wave
         phase,
         offset,
     })
+}
+
+/// The sum of numbers and courses.
+fn sum(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {
+    let items = raw.items(expected::TERMS, faults)?;
+    // Faults of all terms.
+    let terms = items.iter().map(|term| signal(term, dimension, faults));
+    let terms: Vec<Option<Waveform>> = terms.collect();
+    let terms: Vec<Waveform> = terms.into_iter().collect::<Option<_>>()?;
+    if terms.is_empty() {
+        faults.push(wording::empty_sum(&raw.location));
+        return None;
+    }
+    Some(Waveform::Sum(terms))
 }
 
 fn table(raw: &Raw, dimension: Dimension, faults: &mut Faults) -> Option<Waveform> {

@@ -36,6 +36,8 @@ pub enum Waveform {
         /// In the order of time.
         pieces: Vec<Piece>,
     },
+    /// The sum of courses.
+    Sum(Vec<Waveform>),
 }
 
 /// A polynomial Σ c_k (t − start)ᵏ, which holds from `start` on.
@@ -60,14 +62,13 @@ impl Piece {
 
 impl Waveform {
     /// The instants, s, at which it bends.
-    pub(super) fn corners(&self) -> impl Iterator<Item = Dd> {
-        let (points, pieces) = match self {
-            Waveform::Table(points) => (points.as_slice(), &[][..]),
-            Waveform::Pieces { pieces, .. } => (&[][..], pieces.as_slice()),
-            _ => (&[][..], &[][..]),
-        };
-        let points = points.iter().map(|point| point[0]);
-        points.chain(pieces.iter().map(|piece| piece.start))
+    pub(super) fn corners(&self) -> Vec<Dd> {
+        match self {
+            Waveform::Table(points) => points.iter().map(|point| point[0]).collect(),
+            Waveform::Pieces { pieces, .. } => pieces.iter().map(|piece| piece.start).collect(),
+            Waveform::Sum(terms) => terms.iter().flat_map(Waveform::corners).collect(),
+            _ => Vec::new(),
+        }
     }
 
     /// Returns whether its rate jumps, or its value.
@@ -79,6 +80,7 @@ impl Waveform {
                 let first = pieces.first().and_then(|piece| piece.coefficients.first());
                 first != Some(before)
             }
+            Waveform::Sum(terms) => terms.iter().any(Waveform::rate_jumps),
             _ => false,
         }
     }

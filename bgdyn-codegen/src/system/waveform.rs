@@ -47,6 +47,10 @@ pub(super) fn course<'g>(b: &'g Builder, signal: &Waveform) -> Expr<'g> {
             }
             value
         }
+        Waveform::Sum(terms) => {
+            let terms = terms.iter().map(|term| course(b, term));
+            terms.fold(b.zero(), |sum, term| sum + term)
+        }
     }
 }
 

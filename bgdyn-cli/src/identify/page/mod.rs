@@ -5,7 +5,7 @@ use bgdyn_identification::{Identification, deviations::UNSEEN};
 use serde_json::{Value, json};
 
 use super::json::number;
-use crate::template::{embedded, filled};
+use crate::template::{PLOTS, STYLE, embedded, filled};
 
 /// Largest number of rows of a plot: for more, rows are left out.
 const ROWS: usize = 1500;
@@ -15,8 +15,9 @@ pub(crate) fn page(name: &str, model: &Model<'_>, found: &Identification, summar
     let data = embedded(&data(name, model, found, summary).to_string());
     let parts = [
         ("@NAME@", name),
-        ("@STYLE@", include_str!("style.css")),
+        ("@STYLE@", STYLE),
         ("@DATA@", &data),
+        ("@PLOTS@", PLOTS),
         ("@SCRIPT@", include_str!("report.js")),
     ];
     filled(include_str!("page.html"), &parts)

@@ -94,6 +94,10 @@ pub(crate) const QUINTIC: Wanted<'static> = (
     "a motion of fifth order",
     "`{ from: 0, to: 1, duration: 2 s }`",
 );
+pub(crate) const TERMS: Wanted<'static> = (
+    "a list of courses",
+    "`[0.3, { harmonic: { amplitude: 2, frequency: 1 Hz } }]`",
+);
 pub(crate) const POINTS: Wanted<'static> = ("a list of points", "`[[0 s, 0], [1 s, 2]]`");
 pub(crate) const POINT: Wanted<'static> = ("a point", "`[0.5 s, 2]`");
 pub(crate) const CONTROLLER: Wanted<'static> = (

@@ -233,6 +233,11 @@ pub(crate) fn empty_table(location: &Location) -> Fault {
         .with_help("write `[[0 s, 0], [1 s, 2]]`")
 }
 
+pub(crate) fn empty_sum(location: &Location) -> Fault {
+    Fault::new(location, "drive", "the sum has no terms")
+        .with_help("write `[0.3, { harmonic: { amplitude: 2, frequency: 1 Hz } }]`")
+}
+
 // Integral parts and limits
 
 pub(crate) fn pid_without_integral(location: &Location) -> Fault {

@@ -115,7 +115,7 @@ pub(crate) fn prescribed_with_corners(location: &Location, joint: &str, step: bo
         "the course of the prescribed joint `{joint}` is {what}, which takes an infinite effort"
     );
     Fault::new(location, "prescribed-with-corners", message).with_help(
-        "write `constant`, `ramp`, `harmonic`, `trapezoidal` or `quintic`, or `given` with position, rate and acceleration from Rust code",
+        "write `constant`, `ramp`, `harmonic`, `sum`, `trapezoidal` or `quintic`, or `given` with position, rate and acceleration from Rust code",
     )
 }
 
