@@ -270,6 +270,12 @@ impl PyMethod {
                     &format!("the loop `{name}` is out of reach, or at the end of its reach"),
                 )
             },
+            Cause::Posture(name) => Singular::new(
+                index,
+                &format!(
+                    "no operational inertia: the direction `{name}` cannot be accelerated here, the posture is singular"
+                ),
+            ),
             Cause::NotActuated(name) => Singular {
                 joint: Some(name.clone()),
                 ..Singular::new(

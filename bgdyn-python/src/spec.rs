@@ -11,6 +11,7 @@ use bgdyn_codegen::format::{Number, ParsedValue};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::{Argument, Method, PARAMETERS_PER_BODY};
 use bgdyn_codegen::options::Options;
+use bgdyn_codegen::plan::operational_pivot_names;
 use bgdyn_codegen::selection;
 use bgdyn_codegen::tape::Tape;
 use bgdyn_runtime::Cause as Refused;
@@ -73,6 +74,8 @@ pub enum Cause {
     OutOfReach(String),
     /// A joint that does not follow the actuated ones.
     NotActuated(String),
+    /// A direction in which a frame cannot be accelerated.
+    Posture(String),
 }
 
 impl ModelData {
@@ -277,6 +280,13 @@ impl Spec {
         match Refused::of_pivot(pivot, joints) {
             (Refused::Pivot, k) => Cause::Joint(names(rates, k)),
             (Refused::Actuators, k) => Cause::NotActuated(names(own, k - joints - loops.len())),
+            (Refused::Posture, k) => {
+                let all = operational_pivot_names(closed, &self.graph);
+                Cause::Posture(
+                    all.get(k)
+                        .map_or_else(String::new, |name| (*name).to_owned()),
+                )
+            }
             (Refused::OutOfReach, k) => Cause::OutOfReach(named(k - joints)),
             (_, k) => Cause::Loop(named(k - joints)),
         }

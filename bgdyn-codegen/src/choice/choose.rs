@@ -264,8 +264,7 @@ fn differentiates(method: Method) -> bool {
     matches!(
         method,
         Method::CoriolisMatrix | Method::Directional(_) | Method::MassMatrixRate
-    )
-        || method.differentiates_dynamics()
+    ) || method.differentiates_dynamics()
 }
 
 /// Returns a function whose accuracy is not checked.

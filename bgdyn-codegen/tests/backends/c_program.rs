@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use bgdyn_codegen::backend::GeneratedFile;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::Argument;
+use bgdyn_codegen::method::{Argument, Method};
 use bgdyn_codegen::model::Model;
 
 use crate::values::CNumber;
@@ -221,7 +221,11 @@ impl CProgram {
             file: model.mechanism.name().into(),
             arrays: [("q", nq), ("v", n), ("a", n), ("tau", effort_count(model))]
                 .into_iter()
-                .chain(model.has_regressors().then_some(("v_r", n)))
+                .chain(
+                    extras(model)
+                        .into_iter()
+                        .flat_map(|()| [("v_r", n), ("modes", n)]),
+                )
                 .collect(),
             parameters: parameters.map(|p| p.name.clone()).collect(),
             calls,
@@ -326,10 +330,25 @@ int main(void)
     }
 }
 
+/// Returns a value if functions of the model have further arguments: other velocities, directions.
+pub fn extras(model: &Model) -> Option<()> {
+    let mut methods = model.all_methods();
+    let has = methods.any(|method| matches!(method, Method::Regressor(_) | Method::Directional(_)));
+    has.then_some(())
+}
+
 /// Returns a state of a mechanism as the numbers that its program reads.
 pub fn numbers<T: CNumber>(state: &Inputs<T>) -> Vec<T> {
-    let parts = [&state.q, &state.v, &state.a, &state.u, &state.x];
-    let parts = parts.into_iter().chain([&state.parameters]);
+    let parts = [
+        &state.q,
+        &state.v,
+        &state.a,
+        &state.u,
+        &state.x,
+        &state.modes,
+        &state.parameters,
+    ];
+    let parts = parts.into_iter();
     parts.flatten().copied().collect()
 }
 

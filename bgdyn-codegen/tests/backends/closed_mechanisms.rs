@@ -44,7 +44,10 @@ fn whole_model(path: &str) -> Model {
     let graph = bond_graph::build(&mechanism.expect("sound"));
     let closed = graph.closed.as_deref();
     let size = closed.map_or(graph.coordinates.len(), |c| c.tree.coordinates.len());
-    let wanted = |m: &Method| size <= SMALL || !m.differentiates_dynamics();
+    let slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
+    // One frame stands for all.
+    let repeats = |m: &Method| matches!(m, Method::Operational(of) if of.site() > Some(SiteId(0)));
+    let wanted = |m: &Method| (size <= SMALL || !slow(m)) && !repeats(m);
     let methods = Method::possible_of(&graph).into_iter().filter(wanted);
     let methods = methods.map(|m| m.name_in(closed, &graph.sites)).collect();
     let options = Options {

@@ -7,7 +7,7 @@ use bgdyn_codegen::model::Model;
 use bgdyn_codegen::random::Random;
 use bgdyn_runtime::{ACTUATORS, Dd, Scalar};
 
-use crate::c_program::{effort_count, velocity_count};
+use crate::c_program::{effort_count, extras, velocity_count};
 
 /// A type of numbers that C has as well.
 pub trait CNumber: Scalar<Refused = Option<usize>, Mask = bool> + Default + PartialEq {
@@ -77,7 +77,8 @@ pub fn state<T: CNumber>(random: &mut Random, model: &Model, reach: f64) -> Inpu
     let (nq, n) = (model.mechanism.nq(), velocity_count(model));
     let (q, v, a) = (some(nq, reach), some(n, 4.0), some(n, 9.0));
     let u = some(effort_count(model), 50.0);
-    let x = some(if model.has_regressors() { n } else { 0 }, 4.0);
+    let others = extras(model).map_or(0, |()| n);
+    let (x, modes) = (some(others, 4.0), some(others, 4.0));
     let parameters = model.mechanism.parameters().iter();
     let parameters =
         parameters.map(|p| T::from_f64(p.default.to_f64() * (1.0 + 0.3 * random.unit())));
@@ -88,6 +89,7 @@ pub fn state<T: CNumber>(random: &mut Random, model: &Model, reach: f64) -> Inpu
         a,
         u,
         x,
+        modes,
         ..Inputs::default()
     }
 }

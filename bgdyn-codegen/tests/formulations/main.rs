@@ -11,6 +11,7 @@ mod massless;
 mod motions;
 mod no_moving_joint;
 mod noisy_axes;
+mod operational;
 mod parameters;
 mod properties;
 mod regressions;

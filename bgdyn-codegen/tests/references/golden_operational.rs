@@ -71,7 +71,12 @@ fn check(name: &str, robot: &Robot) {
             (Operational::Bias(site), "operational_bias"),
         ] {
             let found = value(robot, Method::Operational(of), &at("a", "tau", "l"));
-            close(&found, &get(field), TOLERANCE * CONDITION, &format!("{name}: {field}"));
+            close(
+                &found,
+                &get(field),
+                TOLERANCE * CONDITION,
+                &format!("{name}: {field}"),
+            );
         }
         for of in Directional::ALL {
             let at = match of {
@@ -84,7 +89,12 @@ fn check(name: &str, robot: &Robot) {
                 false => TOLERANCE,
             };
             let found = value(robot, Method::Directional(of), &at);
-            close(&found, &get(of.name()), tolerance, &format!("{name}: {}", of.name()));
+            close(
+                &found,
+                &get(of.name()),
+                tolerance,
+                &format!("{name}: {}", of.name()),
+            );
         }
     }
 }
@@ -94,7 +104,12 @@ fn last_link(robot: &Robot) -> SiteId {
     let last = robot.mechanism.links().iter().rfind(|link| !link.hidden);
     let name = &last.expect("a link").name;
     let sites = &robot.graph.sites;
-    SiteId(sites.iter().position(|site| site.name == *name).expect("its site"))
+    SiteId(
+        sites
+            .iter()
+            .position(|site| site.name == *name)
+            .expect("its site"),
+    )
 }
 
 #[test]

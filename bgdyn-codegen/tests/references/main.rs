@@ -4,8 +4,8 @@
 mod common;
 mod golden;
 mod golden_centroidal;
-mod golden_poses;
 mod golden_operational;
+mod golden_poses;
 mod golden_regressors;
 mod lagrange_oracle;
 mod paper_oracle;

@@ -26,8 +26,13 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
         Method::JointReactions,
     ];
     let methods = Method::possible_of(&graph).into_iter().filter(|method| {
-        let first = method.site().is_none_or(|site| site.0 < SITES);
-        let is_slow = slow.contains(method) || matches!(method, Method::Regressor(_));
+        let operational = match method {
+            Method::Operational(of) => of.site(),
+            _ => None,
+        };
+        let site = method.site().or(operational);
+        let first = site.is_none_or(|site| site.0 < SITES);
+        let is_slow = slow.contains(method) || method.is_derived();
         first && (mechanism.nv() <= LARGE || !is_slow)
     });
     methods

@@ -1,0 +1,202 @@
+//! Tests operational space, derivatives along directions and adjoints: equal to equation (6) on random trees, joints of
+//! every type, loops and constraints; a singular posture is an error with a direction; counts of operations.
+
+use bgdyn_codegen::bond_graph::SiteId;
+use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::{Directional, Method, Operational};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::selection::model;
+use bgdyn_codegen::verify::{check_functions, check_model, explain};
+use bgdyn_runtime::{Cause, TASKS};
+
+use crate::common::random::Draft;
+use crate::common::rng::Rng;
+use crate::common::{Robot, golden};
+
+/// Returns the methods of a mechanism, those of a frame for its last one.
+fn methods(robot: &Robot) -> Vec<Method> {
+    let last = robot.graph.sites.len().checked_sub(1).map(SiteId);
+    let of_this = |method: &Method| match method {
+        Method::Operational(of) => of.site().is_none() || of.site() == last,
+        Method::Directional(_) => true,
+        _ => false,
+    };
+    let all = Method::possible_of(robot.graph).into_iter();
+    all.filter(of_this).collect()
+}
+
+fn options(robot: &Robot) -> Options {
+    let sites = &robot.graph.sites;
+    let names = methods(robot).into_iter().map(|method| method.name(sites));
+    Options {
+        methods: Some(names.collect()),
+        ..Options::default()
+    }
+}
+
+fn passes(robot: &Robot, what: &str) {
+    let model = model(robot.mechanism.clone(), &options(robot)).expect("a model");
+    assert_eq!(model.functions.len(), methods(robot).len(), "{what}");
+    let found = check_model(&model);
+    assert!(found.is_empty(), "{what}\n{}", explain(&found));
+}
+
+/// Returns the mechanisms of a folder, with their texts.
+fn of_folder(folder: &str) -> Vec<(String, String)> {
+    let folder = format!("{}/../{folder}", env!("CARGO_MANIFEST_DIR"));
+    let entries = std::fs::read_dir(folder).expect("the folder of specs");
+    let paths = entries.map(|entry| entry.expect("a file").path());
+    let mut specs: Vec<(String, String)> = paths
+        .filter(|path| path.extension().is_some_and(|end| end == "yaml"))
+        .map(|path| {
+            let text = std::fs::read_to_string(&path).expect("a spec");
+            let stem = path.file_stem().and_then(|stem| stem.to_str());
+            (stem.expect("a name").to_owned(), text)
+        })
+        .collect();
+    specs.sort();
+    specs
+}
+
+#[test]
+fn random_trees_equal_equation_6() {
+    let mut rng = Rng::new(223);
+    for _ in 0..16 {
+        let text = Draft::random(&mut rng, 8).yaml();
+        passes(&Robot::read(&text, None), &text);
+    }
+}
+
+#[test]
+fn every_spec_equals_equation_6() {
+    for (name, text) in of_folder("specs") {
+        passes(&Robot::read(&text, Some(&name)), &name);
+    }
+}
+
+/// Free bases, balls, screws: directions are along the velocities.
+#[test]
+fn joints_of_every_type_equal_equation_6() {
+    let specs = of_folder("tests/golden/joints");
+    assert!(specs.len() > 5);
+    let small = |text: &str| text.matches("joint:").count() <= 8;
+    for (name, text) in specs.iter().filter(|(_, text)| small(text)) {
+        passes(&Robot::read(text, Some(name)), name);
+    }
+}
+
+/// Mimics, gears, prescribed joints and wheels; with conditions on velocities alone without directions.
+#[test]
+fn constrained_mechanisms_equal_equation_6() {
+    let mut without = 0;
+    for (name, text) in of_folder("specs/constraints") {
+        let robot = Robot::read(&text, Some(&name));
+        without += usize::from(Method::directional_of(robot.graph).is_err());
+        passes(&robot, &name);
+    }
+    assert!(without > 2);
+}
+
+#[test]
+fn loops_equal_equation_6() {
+    let specs = of_folder("specs/loops");
+    let quick = ["four_bar", "five_bar", "slider_crank", "rssr", "six_bar"];
+    for (name, text) in specs.iter().filter(|(name, _)| quick.contains(&&name[..])) {
+        passes(&Robot::read(text, Some(name)), name);
+    }
+}
+
+#[test]
+fn every_turned_sign_is_refused() {
+    let robot = golden::robot("puma560");
+    let model = model(robot.mechanism.clone(), &options(&robot)).expect("a model");
+    let checked_only = |function: &Function| match function.shape().checked() {
+        true if function.method != Method::Directional(Directional::ForwardAlong) => robot.nv(),
+        _ => 0,
+    };
+    for function in &model.functions {
+        for k in checked_only(function)..function.output_count() {
+            let mut wrong: Function = function.clone();
+            let last = wrong.blocks.last_mut().expect("a block");
+            let output = &mut last.outputs[k];
+            if wrong.graph.constant_of(*output).is_some() {
+                continue;
+            }
+            output.negative = !output.negative;
+            let found = check_functions("puma560", &model.bond_graph, &[wrong]);
+            assert_eq!(found.len(), 1, "{} output {k}", function.name);
+        }
+    }
+}
+
+/// A stretched arm cannot move its hand outwards: Λ has no result, and the error names a direction. Λ⁻¹ has one.
+#[test]
+fn a_singular_posture_names_a_direction() {
+    let robot = golden::robot("puma560");
+    let site = SiteId(robot.graph.sites.len() - 1);
+    let at = Inputs {
+        q: vec![0.3, -0.4, 0.7, 0.2, 0.0, 0.5],
+        v: vec![0.1; 6],
+        ..Inputs::default()
+    };
+    for of in Operational::of_site(site) {
+        let function = robot.emitted(Method::Operational(of));
+        let refused = function.evaluate(at.clone()).1;
+        assert_eq!(refused.is_some(), of.inverts_task(), "{of:?}");
+        if let Some(pivot) = refused {
+            assert!((TASKS + 6..TASKS + 12).contains(&pivot), "{of:?}: {pivot}");
+            assert_eq!(Cause::of_pivot(pivot, 6).0, Cause::Posture);
+        }
+    }
+}
+
+#[test]
+fn a_frame_of_four_joints_has_an_inverse_inertia_only() {
+    let robot = golden::robot("scara4");
+    let last = &robot.graph.sites.last().expect("a site").name;
+    let named = |prefix: &str| Method::named(robot.graph, &format!("{prefix}_{last}"));
+    assert!(named("operational_inverse").is_ok());
+    let why = named("operational_inertia").expect_err("too few joints");
+    assert!(why.contains("has 4 velocities"), "{why}");
+}
+
+/// Multiplications and additions by robot, before loops and blocks: M⁻¹; Λ⁻¹, Λ, J̄ and μ of the last link; along a
+/// direction and adjoint, of inverse dynamics and then of forward dynamics. Zeros: no such method.
+const COUNTS: [(&str, [usize; 9]); 6] = [
+    ("scara_rrpr", [0; 9]),
+    ("stanford_gen", [0; 9]),
+    ("puma_gen", [0; 9]),
+    ("ur5_gen", [0; 9]),
+    ("panda_gen", [0; 9]),
+    ("iiwa_gen", [0; 9]),
+];
+
+#[test]
+fn counts_do_not_grow() {
+    let counted = COUNTS.map(|(name, _)| {
+        let robot = golden::robot(name);
+        let [a, b, c, d] = Operational::of_site(SiteId(robot.graph.sites.len() - 1));
+        let operational = [Operational::InverseMassMatrix, a, b, c, d].map(Method::Operational);
+        let [e, f, g, h] = [
+            Directional::InverseAlong,
+            Directional::InverseAdjoint,
+            Directional::ForwardAlong,
+            Directional::ForwardAdjoint,
+        ];
+        let directional = [e, f, g, h].map(Method::Directional);
+        let possible = Method::possible_of(robot.graph);
+        let mut counts = [0; 9];
+        for (count, method) in counts
+            .iter_mut()
+            .zip(operational.into_iter().chain(directional))
+        {
+            if possible.contains(&method) {
+                let operations = robot.emitted(method).operations();
+                *count = operations.mul + operations.add;
+            }
+        }
+        (name, counts)
+    });
+    assert_eq!(counted, COUNTS);
+}
