@@ -11,6 +11,7 @@ import sys
 
 import numpy as np
 import pinocchio as pin
+import yaml
 
 from centroidal import ANGULAR_FIRST, HERE, model_of_spec, numbers
 
@@ -60,6 +61,9 @@ def main():
     models = [(n, pin.buildModelFromUrdf(str(HERE / "urdf" / f"{n}.urdf"))) for n in URDFS]
     models += [(n, model_of_spec(n)) for n in SPECS]
     for k, (name, model) in enumerate(models):
+        spec = HERE / "joints" / f"{name}.yaml"
+        if spec.exists():
+            model.gravity.linear = np.array(yaml.safe_load(spec.read_text())["gravity"], float)
         data, rng = model.createData(), np.random.default_rng(60 + k)
         states = [state(model, data, rng) for _ in range(STATES)]
         content = {

@@ -1,5 +1,7 @@
 //! The bodies, joints, rotors and sites of a mechanism, as the recursion reads them.
 
+use std::collections::BTreeSet;
+
 use bgdyn_runtime::{Dd, Scalar};
 
 use crate::math::{Mat3, Vec3};
@@ -187,6 +189,23 @@ impl Multibody {
             .filter(|(_, moves)| *moves)
             .map(|(i, _)| LinkId(i))
             .collect()
+    }
+
+    /// Returns the number of velocities that move a site.
+    pub fn velocities_of(&self, site: &Site) -> usize {
+        let mut moving = BTreeSet::new();
+        let mut on_path = site.link;
+        while let Some(link) = on_path {
+            let frame = &self.frames[link.0];
+            moving.extend(
+                frame
+                    .columns()
+                    .into_iter()
+                    .map(|(coordinate, _)| coordinate),
+            );
+            on_path = frame.parent;
+        }
+        moving.len()
     }
 
     /// Returns whether one of [`Multibody::links_that_move`] has a mass, or may have one at run time.

@@ -184,7 +184,12 @@ impl Subject<'_> {
             };
             states.iter().all(refused)
         };
-        if states.is_empty() || !self.function.shape().checked() || !refuses(self.function) {
+        let method = self.function.method;
+        if states.is_empty() || !method.shape().checked() || !refuses(self.function) {
+            return None;
+        }
+        // The joints that move the frame may have parallel axes.
+        if method.inverts_task() {
             return None;
         }
         let literal = self.literal.form(Method::ForwardDynamics)?;

@@ -20,6 +20,10 @@ struct Literal<'a> {
 }
 
 impl Literal<'_> {
+    fn is_regular(&self) -> bool {
+        self.forward.evaluate(self.at.clone()).1.is_none()
+    }
+
     fn accelerations(&self, efforts: &[Dd]) -> Vec<Dd> {
         let inputs = Inputs {
             u: efforts.to_vec(),
@@ -50,7 +54,8 @@ impl Literal<'_> {
     }
 }
 
-/// Returns the law of a method of operational space.
+/// Returns the law of a method of operational space; none where the literal mass matrix is singular, as that of a branch may
+/// be that does not move the frame.
 pub(super) fn law(
     form: &dyn Fn(Method) -> Option<Function>,
     of: Operational,
@@ -72,6 +77,7 @@ pub(super) fn law(
         jacobian_dot_v,
         at,
     };
+    literal.is_regular().then_some(())?;
     let mut random = Random(31);
     let mut any = |n: usize| -> Vec<Dd> {
         let number = |_| Dd::from_f64(random.signed());

@@ -4,6 +4,7 @@
 use std::fs;
 use std::path::Path;
 
+use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
