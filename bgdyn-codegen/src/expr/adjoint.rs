@@ -13,7 +13,7 @@ use super::{Graph, Leaf, Node, NodeId, Signed, reachable};
 pub fn adjoints(g: &mut Graph, results: &[(Signed, Signed)]) -> BTreeMap<Leaf, Signed> {
     let outputs: Vec<Signed> = results.iter().map(|(result, _)| *result).collect();
     let needed = reachable(g, &outputs);
-    let mut sweep = Sweep {
+    let mut sweep = AdjointSweep {
         adjoints: vec![None; needed.len()],
     };
     for &(result, factor) in results {
@@ -35,11 +35,11 @@ pub fn adjoints(g: &mut Graph, results: &[(Signed, Signed)]) -> BTreeMap<Leaf, S
 }
 
 /// The adjoints of the nodes that were reached.
-struct Sweep {
+struct AdjointSweep {
     adjoints: Vec<Option<Signed>>,
 }
 
-impl Sweep {
+impl AdjointSweep {
     /// Adds to the adjoint of an expression.
     fn add(&mut self, g: &mut Graph, to: Signed, more: Signed) {
         let more = more.flipped(to.negative);

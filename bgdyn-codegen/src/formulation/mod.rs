@@ -25,6 +25,7 @@ mod prepared;
 mod prescribed;
 mod recursion;
 mod site;
+mod slopes;
 mod solve;
 mod subspaces;
 mod velocity_map;
@@ -70,7 +71,7 @@ pub(crate) static DERIVED: [&dyn Formulation; 12] = [
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
     &derivatives::AlongDirections,
-    &operational::Driven,
+    &operational::ByDrives,
     &operational::Factored,
     &recursion::ParameterColumns,
     &derivatives::MassMatrixRate,

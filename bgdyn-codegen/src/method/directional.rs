@@ -1,7 +1,6 @@
 //! Derivatives of the dynamics along one direction, and their adjoints.
 
-use super::{Argument, Entries, Method, Shape};
-use crate::bond_graph::BondGraph;
+use super::{Argument, Entries, Shape};
 
 /// A derivative along a direction, or an adjoint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -88,27 +87,4 @@ impl Directional {
             }
         }
     }
-}
-
-impl Method {
-    /// Returns the derivatives along directions that a mechanism can have.
-    ///
-    /// # Errors
-    /// Why it has none.
-    pub fn directional_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
-        let mut closed = graph.closed.iter();
-        match closed.any(|closed| closed.closure.nonholonomic()) {
-            true => Err(
-                "where conditions on velocities alone leave more ways to move than velocities, there is no derivative along one direction; use `inverse_dynamics_derivatives` and `forward_dynamics_derivatives`",
-            ),
-            false => Ok(Directional::ALL.map(Method::Directional).to_vec()),
-        }
-    }
-}
-
-/// Returns why a mechanism does not have this method, if it is a derivative along a direction.
-pub(super) fn without_direction(graph: &BondGraph, name: &str) -> Option<String> {
-    let known = Directional::ALL.iter().any(|of| of.name() == name);
-    let why = Method::directional_of(graph).err().filter(|_| known)?;
-    Some(format!("`{name}`: {why}"))
 }

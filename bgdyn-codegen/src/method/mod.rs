@@ -8,6 +8,7 @@ mod bundled;
 mod centroidal;
 mod derivatives;
 mod directional;
+mod directions;
 mod loads;
 mod momenta;
 mod operational;
@@ -271,8 +272,8 @@ impl Method {
             if let Some(message) =
                 without_multipliers(graph, name)
                 .or_else(|| without_regressor(graph, name))
-                .or_else(|| operational::without_task(graph, name))
-                .or_else(|| directional::without_direction(graph, name))
+                .or_else(|| Method::without_task(graph, name))
+                .or_else(|| Method::without_direction(graph, name))
             {
                 return message;
             }

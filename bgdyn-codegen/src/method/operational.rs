@@ -2,8 +2,8 @@
 //!
 //! The task is the velocity of a frame, angular part first, in world axes at its origin: J v.
 
-use super::{Argument, Entries, Method, Shape};
-use crate::bond_graph::{BondGraph, Site, SiteId};
+use super::{Argument, Entries, Shape};
+use crate::bond_graph::{Site, SiteId};
 
 /// A method of operational space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -113,51 +113,4 @@ impl Operational {
             Operational::Bias(_) => "N·m (three components), N",
         }
     }
-}
-
-impl Method {
-    /// Returns whether it has no result where a frame cannot move in some direction.
-    pub fn inverts_task(self) -> bool {
-        matches!(self, Method::Operational(of) if of.inverts_task())
-    }
-
-    /// Returns the methods of operational space that a mechanism can have. A frame has an inertia only if the joints can
-    /// move it in six directions.
-    pub(super) fn operational_of(graph: &BondGraph) -> Vec<Method> {
-        let sites = (0..graph.sites.len()).map(SiteId);
-        let mut all = vec![Operational::InverseMassMatrix];
-        all.extend(sites.flat_map(|site| {
-            let enough = velocities_of(graph, site) >= DIRECTIONS;
-            let of_site = Operational::of_site(site).into_iter();
-            of_site.filter(move |of| enough || !of.inverts_task())
-        }));
-        all.into_iter().map(Method::Operational).collect()
-    }
-}
-
-/// The number of directions of a frame.
-const DIRECTIONS: usize = 6;
-
-/// Returns the number of velocities that may move a site; with loops, of all.
-fn velocities_of(graph: &BondGraph, site: SiteId) -> usize {
-    match graph.closed {
-        Some(_) => graph.coordinates.len(),
-        None => graph.velocities_of(&graph.sites[site.0]),
-    }
-}
-
-/// Returns why a mechanism does not have the inertia of a frame, if this is the name of one.
-pub(super) fn without_task(graph: &BondGraph, name: &str) -> Option<String> {
-    let sites = (0..graph.sites.len()).map(SiteId);
-    let named = |of: &Operational| Method::Operational(*of).name(&graph.sites) == name;
-    let mut inverting = sites
-        .flat_map(Operational::of_site)
-        .filter(|of| of.inverts_task());
-    let site = inverting.find(named)?.site()?;
-    let velocities = velocities_of(graph, site);
-    (velocities < DIRECTIONS).then(|| {
-        format!(
-            "`{name}`: the mechanism moves it by {velocities} velocities, and a frame has an inertia only where it can move in six directions; `operational_inverse_X` is its inverse, of which you can invert the rows of your task"
-        )
-    })
 }

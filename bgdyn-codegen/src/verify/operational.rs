@@ -12,14 +12,14 @@ use crate::random::Random;
 pub(super) type OperationalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
 /// The functions by equation (6), at a state.
-struct Literal<'a> {
+struct LiteralTask<'a> {
     forward: Function,
     jacobian: Vec<Dd>,
     jacobian_dot_v: Vec<Dd>,
     at: &'a Inputs<Dd>,
 }
 
-impl Literal<'_> {
+impl LiteralTask<'_> {
     fn is_regular(&self) -> bool {
         self.forward.evaluate(self.at.clone()).1.is_none()
     }
@@ -71,7 +71,7 @@ pub(super) fn law(
             value(Method::JacobianDotV(site))?,
         ),
     };
-    let literal = Literal {
+    let literal = LiteralTask {
         forward: form(Method::ForwardDynamics)?,
         jacobian,
         jacobian_dot_v,

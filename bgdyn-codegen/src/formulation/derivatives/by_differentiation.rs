@@ -2,10 +2,11 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{derivatives, finish, position_derivatives, reopen};
+use super::differentiate::{finish, position_derivatives, reopen};
 use super::forward_dynamics::ForwardDerivatives;
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Expr, Leaf, Signed};
+use crate::formulation::slopes::derivatives;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::{BondGraph, ClosedTree, Multibody};
-use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent};
+use crate::expr::{Builder, Expr, Leaf, Signed, Tangent};
 use crate::formulation::joint_motion::{along, tangents, unit_tangents};
 use crate::formulation::loop_rows::{LoopForm, loop_rows};
 use crate::formulation::velocity_map::VelocityMap;
@@ -16,37 +16,6 @@ pub(super) fn reopen(function: &Function) -> (Builder, Vec<Signed>) {
         Builder::from(function.graph.clone()),
         function.blocks[0].outputs.clone(),
     )
-}
-
-/// Returns ∂x/∂leaf_j: a column per coordinate j.
-pub(in crate::formulation) fn derivatives(
-    b: &Builder,
-    x: &[Signed],
-    n: usize,
-    leaf: fn(usize) -> Leaf,
-) -> Vec<Vec<Signed>> {
-    let column = |j: usize| {
-        let mut tangent =
-            Tangent::new(|g: &mut Graph, l| (l == leaf(j)).then(|| g.constant(Dd::ONE)));
-        x.iter()
-            .map(|&e| b.with_graph(|g| tangent.of(g, e)))
-            .collect()
-    };
-    (0..n).map(column).collect()
-}
-
-/// Returns the derivatives of accelerations along efforts: they are linear in these.
-pub(in crate::formulation) fn along_efforts(
-    b: &Builder,
-    accelerations: &[Signed],
-    drive: &[Signed],
-) -> Vec<Signed> {
-    let mut tangent = Tangent::new(|_: &mut Graph, leaf| match leaf {
-        Leaf::Input(j) => Some(drive[j]),
-        _ => None,
-    });
-    let all = accelerations.iter();
-    b.with_graph(|g| all.map(|&e| tangent.of(g, e)).collect())
 }
 
 /// Returns the derivatives along the tangent: column j is d/dε x(q + ε q̇) with q̇ = N(q) e_j. Where conditions on

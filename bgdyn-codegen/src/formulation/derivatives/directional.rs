@@ -11,9 +11,10 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{along_efforts, finish, position_tangents, reopen};
+use super::differentiate::{finish, position_tangents, reopen};
 use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, adjoints, copy_into};
+use crate::formulation::slopes::along_efforts;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::{Directional, Method};

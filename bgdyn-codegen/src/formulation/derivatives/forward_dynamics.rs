@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{along_efforts, derivatives, finish, reopen};
+use super::differentiate::{finish, reopen};
 use crate::bond_graph::Multibody;
 use crate::column_loop::{self, ColumnLoop, LoopedResult, ResultSource};
 use crate::expr::{Builder, Graph, Leaf, Signed, copy_into};
+use crate::formulation::slopes::{along_efforts, derivatives};
 use crate::function::Function;
 use crate::method::Method;
 

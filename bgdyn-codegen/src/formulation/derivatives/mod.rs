@@ -17,6 +17,5 @@ mod forward_dynamics;
 mod mass_matrix_rate;
 
 pub(super) use by_differentiation::{Differentiated, ForwardDynamicsDerivatives};
-pub(super) use differentiate::{along_efforts, derivatives};
 pub(super) use directional::AlongDirections;
 pub(super) use mass_matrix_rate::MassMatrixRate;

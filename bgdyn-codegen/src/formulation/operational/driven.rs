@@ -8,16 +8,16 @@ use bgdyn_runtime::Dd;
 use super::task::{ROWS, Task, copied, dot, results};
 use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
-use crate::formulation::derivatives::{along_efforts, derivatives};
+use crate::formulation::slopes::{along_efforts, derivatives};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::{Method, Operational};
 use crate::passes::cheapest;
 
 /// Operational space from forward dynamics.
-pub(in crate::formulation) struct Driven;
+pub(in crate::formulation) struct ByDrives;
 
-impl Formulation for Driven {
+impl Formulation for ByDrives {
     fn name(&self) -> &'static str {
         "driven"
     }

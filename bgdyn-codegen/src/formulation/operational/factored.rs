@@ -6,8 +6,7 @@
 use super::task::{ROWS, Task, copied, dot, results};
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
-use crate::formulation::recursion::Articulated;
-use crate::formulation::solve::PivotFactor;
+use crate::formulation::solve::{ARTICULATED, PivotFactor};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::{Function, in_triangle};
 use crate::method::{Method, Operational};
@@ -60,7 +59,7 @@ impl Formulation for Factored {
             return None;
         };
         let forward = prepared.candidates(Method::ForwardDynamics);
-        let by_factors = |f: &Function| !f.formulation.starts_with(Articulated::PREFIX);
+        let by_factors = |f: &Function| !f.formulation.starts_with(ARTICULATED);
         let mut accepted = forward.accepted.iter();
         if prepared.graph.closed.is_some() || !accepted.any(|c| by_factors(&c.plain)) {
             return None;

@@ -10,5 +10,5 @@ mod driven;
 mod factored;
 mod task;
 
-pub(super) use driven::Driven;
+pub(super) use driven::ByDrives;
 pub(super) use factored::Factored;

@@ -30,6 +30,7 @@ use super::{expressions, inverse_dynamics};
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{self, Builder, Cost, Graph, Signed};
 use crate::formulation::arguments::Arguments;
+use crate::formulation::solve::ARTICULATED;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
@@ -45,15 +46,10 @@ pub(in crate::formulation) enum Articulated {
     Base,
 }
 
-impl Articulated {
-    /// The names of both begin with it.
-    pub(in crate::formulation) const PREFIX: &'static str = "articulated";
-}
-
 impl Formulation for Articulated {
     fn name(&self) -> &'static str {
         match self {
-            Articulated::Own => Articulated::PREFIX,
+            Articulated::Own => ARTICULATED,
             Articulated::Base => "articulated_base",
         }
     }
