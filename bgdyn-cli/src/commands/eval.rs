@@ -109,6 +109,8 @@ fn evaluate(call: &MethodCall<'_>, state: &Value) -> Result<Value, Failure> {
             }
             Argument::BodyParameters => vector(&body_parameters(graph), state, "pi")?,
             // Adjoints have the same field.
+            // The third direction may be called `da` for both dynamics.
+            Argument::AlongTau if state.get("dtau").is_none() => vector(rates, state, "da")?,
             Argument::Direction if state.get("s").is_none() => vector(rates, state, "l")?,
             _ => vector(rates, state, field(argument))?,
         };
