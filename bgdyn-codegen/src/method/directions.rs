@@ -12,31 +12,31 @@ impl Method {
         matches!(self, Method::Operational(of) if of.inverts_task())
     }
 
-    /// Returns the methods of operational space that a mechanism can have. A frame has an inertia only if the joints can
-    /// move it in six directions.
+    /// Returns the methods of operational space that a mechanism can have. A frame has them only if joints move it, and an
+    /// inertia only if they can move it in six directions.
     pub(super) fn operational_of(graph: &BondGraph) -> Vec<Method> {
         let sites = (0..graph.sites.len()).map(SiteId);
         let mut all = vec![Operational::InverseMassMatrix];
         all.extend(sites.flat_map(|site| {
-            let enough = velocities_of(graph, site) >= DIRECTIONS;
+            let velocities = velocities_of(graph, site);
             let of_site = Operational::of_site(site).into_iter();
-            of_site.filter(move |of| enough || !of.inverts_task())
+            of_site.filter(move |of| velocities >= if of.inverts_task() { DIRECTIONS } else { 1 })
         }));
         all.into_iter().map(Method::Operational).collect()
     }
 
-    /// Returns why a mechanism does not have the inertia of a frame, if this is the name of one.
+    /// Returns why a mechanism does not have this method of a frame, if it is one of operational space.
     pub(super) fn without_task(graph: &BondGraph, name: &str) -> Option<String> {
         let sites = (0..graph.sites.len()).map(SiteId);
         let named = |of: &Operational| Method::Operational(*of).name(&graph.sites) == name;
-        let mut inverting = sites
-            .flat_map(Operational::of_site)
-            .filter(|of| of.inverts_task());
-        let site = inverting.find(named)?.site()?;
-        let velocities = velocities_of(graph, site);
-        (velocities < DIRECTIONS).then(|| {
+        let of = sites.flat_map(Operational::of_site).find(named)?;
+        let velocities = velocities_of(graph, of.site()?);
+        if velocities == 0 {
+            return Some(format!("`{name}`: no joint moves this frame"));
+        }
+        (of.inverts_task() && velocities < DIRECTIONS).then(|| {
             format!(
-                "`{name}`: the mechanism moves it by {velocities} velocities, and a frame has an inertia only where it can move in six directions; `operational_inverse_X` is its inverse, of which you can invert the rows of your task"
+                "`{name}`: the mechanism moves this frame by {velocities} velocities, and a frame has an inertia only where it can move in six directions; `operational_inverse_X` is its inverse, of which you can invert the rows of your task"
             )
         })
     }

@@ -30,10 +30,12 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
             Method::Operational(of) => of.site(),
             _ => None,
         };
-        let site = method.site().or(operational);
-        let first = site.is_none_or(|site| site.0 < SITES);
+        let first = method.site().is_none_or(|site| site.0 < SITES)
+            && operational.is_none_or(|site| site.0 == 0);
         let is_slow = slow.contains(method) || method.is_derived();
-        first && (mechanism.nv() <= LARGE || !is_slow)
+        // They have formulations of their own.
+        let chosen = formulation.is_none() || !method.is_derived();
+        first && chosen && (mechanism.nv() <= LARGE || !is_slow)
     });
     methods
         .filter_map(|method| prefer(&choice, method, Preference::default()))

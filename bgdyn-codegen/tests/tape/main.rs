@@ -121,6 +121,7 @@ fn calls_from_several_threads_do_not_disturb_each_other() {
             v: some(4),
             a: some(4),
             x: some(4),
+            modes: some(4),
             // Ten parameters of each body are the longest argument.
             u: some(40),
             ..Inputs::default()
