@@ -16,10 +16,12 @@ const OPTIONS: &str = "out, threads, on_singular: as in bgdyn.Method";
 /// Returns what a method of a mechanism returns, in a sentence.
 pub fn summary(method: Method, sites: &[Site]) -> String {
     // Names of Rust's constants; a model has them in lower case.
-    const NAMES: [(&str, &str); 4] = [
+    const NAMES: [(&str, &str); 6] = [
         ("[`CONSTRAINT_NAMES`]", "`constraint_names`"),
         ("[`REACTION_NAMES`]", "`reaction_names`"),
         ("[`LINK_NAMES`]", "`link_names`"),
+        (" as in [`BODY_NAMES`]", ""),
+        (", as in [`BASE_PARAMETERS`]", ""),
         ("[`ACTUATED`]", "`actuated_names`"),
     ];
     let replaced = |text: String, (rust, python): &(&str, &str)| text.replace(rust, python);

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -13,11 +14,20 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+import bgdyn
+
 ROOT = Path(__file__).parents[2]
 SPECS = ROOT / "specs"
 GOLDEN = ROOT / "tests" / "golden"
 
 Command = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+def width(method: bgdyn.Method, argument: str) -> int:
+    """Returns the number of components of an argument of a method, as its documentation says."""
+    size = re.search(rf"^    {argument}: \(\.\.\., (\d+)\), \S", method.__doc__ or "", re.MULTILINE)
+    assert size, (method, argument)
+    return int(size.group(1))
 
 
 @pytest.fixture

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import bgdyn
-from conftest import ROOT, SPECS
+from conftest import ROOT, SPECS, width
 
 
 @pytest.fixture(scope="module")
@@ -183,15 +183,13 @@ def test_batches_have_the_bits_of_single_calls(path: str, random: np.random.Gene
     size = np.array([1.0, 1.0, 1e3, 1.0, 1e6, 1.0, 1.0, 1e9, 1.0])[:, None]
     q = model.neutral() + size * random.uniform(-0.3, 0.3, (9, model.nq))
     q[5, 0] = np.inf
-    tree = [name for name in model.methods if not name.startswith(("pose_", "velocity_", "jacobian_"))]
+    tree = [name for name in model.methods if not name.startswith(("pose_", "velocity_", "jacobian_", "operational_", "consistent_"))]
     if model.nv > 16:
         tree = ["mass_matrix", "forward_dynamics"]  # the others take long to choose
     frame = model.frame_names[-1]
-    for name in [*tree, f"pose_{frame}", f"jacobian_dot_v_world_{frame}"]:
+    for name in [*tree, f"pose_{frame}", f"jacobian_dot_v_world_{frame}", f"operational_inverse_{frame}"]:
         method = getattr(model, name)
-        tree_of = len(model.tree_joint_names)
-        width = {"v": model.nv, "a": model.nv, "qd": tree_of, "tau": tree_of if "qd" in method.arguments else model.nv}
-        arguments = [q if n == "q" else random.uniform(-3, 3, (9, width[n])) for n in method.arguments]
+        arguments = [q if n == "q" else random.uniform(-3, 3, (9, width(method, n))) for n in method.arguments]
         many, mask = method(*arguments, on_singular="nan")
         for k in range(9):
             one, singular = method(*(x[k] for x in arguments), on_singular="nan")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import bgdyn
-from conftest import SPECS
+from conftest import SPECS, width
 
 FILES = ("scara", "loops/five_bar", "constraints/whipple_bicycle")
 
@@ -31,12 +31,11 @@ def test_shapes_are_those_of_results(file: str) -> None:
         method = getattr(model, name)
         text = method.__doc__
         arguments = []
-        for argument in method.arguments[1:]:
-            size = re.search(rf"^    {argument}: \(\.\.\., (\d+)\), .*(rad|N)", text, re.MULTILINE)
-            assert size, (name, argument)
-            arguments.append(np.zeros(int(size.group(1))))
-        assert f"    q: (..., {model.nq}), positions: rad, m" in text
-        result, _ = method(q, *arguments, on_singular="nan")
+        for argument in method.arguments:
+            arguments.append(q if argument == "q" else np.zeros((2, width(method, argument))))
+        if "q" in method.arguments:
+            assert f"    q: (..., {model.nq}), positions: rad, m" in text
+        result, _ = method(*arguments, on_singular="nan")
         found = result._asdict() if hasattr(result, "_asdict") else {"": result}
         assert described(text) == {field: array.shape[1:] for field, array in found.items()}, name
         if hasattr(result, "_asdict"):

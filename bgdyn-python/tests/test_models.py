@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 
 import bgdyn
-from conftest import GOLDEN, ROOT, SPECS, Command
+from conftest import GOLDEN, ROOT, SPECS, Command, width
 
 # A pendulum with a load that is known at run time.
 PENDULUM = """
@@ -49,10 +49,7 @@ def test_every_method_can_be_called(random: np.random.Generator) -> None:
         model = bgdyn.load(SPECS / f"{name}.yaml")
         q = model.neutral()
         for method in (getattr(model, name) for name in model.methods):
-            widths = {"q": model.nq, "v": model.nv, "a": model.nv, "qd": len(model.tree_joint_names)}
-            of_tree = "qd" in method.arguments
-            widths["tau"] = len(model.tree_joint_names) if of_tree else model.nv
-            arguments = [q if n == "q" else random.uniform(-1, 1, widths[n]) for n in method.arguments]
+            arguments = [q if n == "q" else random.uniform(-1, 1, width(method, n)) for n in method.arguments]
             one, _ = method(*arguments, on_singular="nan")
             many, mask = method(*([x, x] for x in arguments), on_singular="nan")
             ones, manys = (x if isinstance(x, tuple) else (x,) for x in (one, many))
