@@ -1,6 +1,7 @@
 //! What `help` prints of methods: arguments and results with shapes, units and frames.
 
 use bgdyn_codegen::bond_graph::Site;
+use bgdyn_codegen::choice::Choice;
 use bgdyn_codegen::method::{
     Argument, Centroidal, Directional, Entries, Method, Operational, ParameterSet, Regressor, Shape,
 };
@@ -38,6 +39,9 @@ pub fn of(spec: &Spec, method: Method) -> String {
         ("nc", _) => sizes.nc,
         ("na", _) => spec.mechanism.actuated_names().len(),
         ("np", Method::DriveEfforts(number)) => number,
+        ("nbp", _) => Choice::new(&spec.graph, None)
+            .base_parameter_formulas()
+            .len(),
         ("10 nb", _) => 10 * spec.graph.moving_links().len(),
         ("n", Method::JointReactions | Method::ActuatedJointReactions(_)) => {
             spec.link_names().len()
