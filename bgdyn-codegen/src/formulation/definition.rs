@@ -13,20 +13,32 @@ pub trait Formulation: Sync {
     /// Returns one line: how it groups equation (6).
     fn summary(&self) -> &'static str;
 
+    /// Returns whether it only combines functions of other methods ([`Formulation::reads`]): it knows the methods for which
+    /// it reads some, and serves the joints and the loops that these functions serve.
+    fn combines(&self) -> bool {
+        false
+    }
+
     /// Returns whether it supports the method, or the method that this one is derived from.
     fn knows(&self, method: Method) -> bool {
-        !method.is_derived()
+        match self.combines() {
+            true => !self.reads(method).is_empty(),
+            false => !method.is_derived(),
+        }
     }
 
     /// Returns the first link whose joint it does not serve. By default it serves rotations and translations
     /// that follow no other joint.
     fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {
-        graph.first_compound()
+        match self.combines() {
+            true => None,
+            false => graph.first_compound(),
+        }
     }
 
     /// Returns whether it serves mechanisms with loops. Other formulations serve their open tree.
     fn serves_loops(&self) -> bool {
-        false
+        self.combines()
     }
 
     /// Returns whether it serves this mechanism.
@@ -35,7 +47,9 @@ pub trait Formulation: Sync {
     }
 
     /// Returns its offer for a method that it supports, if no formulation is selected.
-    fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer;
+    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
+        Offer::Candidate
+    }
 
     /// Returns the other methods whose functions it uses: [`Prepared::function`] returns them when
     /// [`Formulation::function`] is called.

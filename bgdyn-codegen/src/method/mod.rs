@@ -8,17 +8,15 @@ mod bundled;
 mod centroidal;
 mod derivatives;
 mod directional;
-mod directions;
 mod loads;
-mod momenta;
 mod operational;
+mod possible;
 mod regressor;
 mod scene_function;
 mod shape;
 mod words;
 
-use crate::bond_graph::{BondGraph, ClosedTree, Site, SiteId};
-use crate::fault::unknown_name;
+use crate::bond_graph::{ClosedTree, Site, SiteId};
 pub use argument::Argument;
 pub use centroidal::Centroidal;
 pub use directional::Directional;
@@ -188,126 +186,9 @@ impl Method {
         ]
     }
 
-    /// Returns every method that this mechanism can have.
-    pub fn possible_of(graph: &BondGraph) -> Vec<Method> {
-        let drives = graph.released.iter().map(|r| r.prescribed.len());
-        let drives = drives.map(Method::DriveEfforts);
-        let (own, of_sites): (Vec<_>, Vec<_>) = Method::possible(&graph.sites)
-            .into_iter()
-            .partition(|method| method.site().is_none());
-        let regressors = Method::regressors_of(graph).unwrap_or_default();
-        let own = own.into_iter().chain(drives).chain(regressors);
-        let own = own.chain(Method::operational_of(graph));
-        let own = own.chain(Method::directional_of(graph).unwrap_or_default());
-        let own = own.chain(Method::centroidal_of(graph).unwrap_or_default());
-        let own = own.chain(Method::mass_matrix_rate_of(graph).ok());
-        let mut all: Vec<Method> = own.chain(of_sites).collect();
-        let [inverse, forward] = Method::derivatives_of(graph);
-        for method in &mut all {
-            *method = match *method {
-                Method::InverseDynamicsDerivatives => inverse,
-                Method::ForwardDynamicsDerivatives => forward,
-                other => other,
-            };
-        }
-        if let Some(closed) = &graph.closed {
-            all.extend(Method::of_closed(closed));
-            all.extend(Method::ON_REQUEST);
-            if let Some(actuated) = closed.closure.drives() {
-                // Loads depend on where the drives are.
-                all.retain(|m| !matches!(m, Method::Reactions | Method::JointReactions));
-                all.extend(Method::of_actuated(closed));
-                let number = actuated.joints.len();
-                all.push(Method::ActuatedReactions(number));
-                all.push(Method::ActuatedJointReactions(number));
-            }
-        }
-        // Joints carry the loads of these loops, which no equation contains.
-        all.retain(|method| graph.parallel.is_empty() || !method.loads_joints());
-        all
-    }
-
-    /// Returns the regressors of a mechanism.
-    ///
-    /// # Errors
-    /// Why it has none.
-    pub fn regressors_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
-        match (&graph.closed, &graph.released) {
-            (Some(_), _) => Err(
-                "a mechanism with loops, wheels or knife edges has no regressors; write its open tree as a file of its own, generate them there, and combine their rows by the `velocity_map`",
-            ),
-            (_, Some(_)) => Err(
-                "a mechanism with prescribed joints has no regressors; write these joints as free ones in a file of its own, and generate them there",
-            ),
-            _ => Ok(Regressor::ALL.map(Method::Regressor).to_vec()),
-        }
-    }
-
-    /// Returns every method that a mechanism without loops and prescribed joints can have.
-    pub fn possible(sites: &[Site]) -> Vec<Method> {
-        let own = [
-            Method::CoriolisMatrix,
-            Method::InverseDynamicsDerivatives,
-            Method::ForwardDynamicsDerivatives,
-            Method::JointReactions,
-        ];
-        let of_sites = (0..sites.len()).flat_map(|i| Method::of_site(SiteId(i)));
-        Method::OF_TRAIT
-            .into_iter()
-            .chain(own)
-            .chain(of_sites)
-            .collect()
-    }
-
-    /// Returns the method with this name, if the mechanism can have it.
-    ///
-    /// # Errors
-    /// A sentence with the nearest name, or with all names.
-    pub fn named(graph: &BondGraph, name: &str) -> Result<Method, String> {
-        let (possible, sites) = (Method::possible_of(graph), &graph.sites);
-        let closed = graph.closed.as_deref();
-        let own_name = |m: &Method| m.name_in(closed, sites);
-        let found = possible.iter().find(|m| own_name(m) == name);
-        found.copied().ok_or_else(|| {
-            if let Some(message) =
-                without_multipliers(graph, name)
-                .or_else(|| without_regressor(graph, name))
-                .or_else(|| Method::without_task(graph, name))
-                .or_else(|| Method::without_direction(graph, name))
-            {
-                return message;
-            }
-            if let Some(why) = Method::without_momentum(graph, name) {
-                return why;
-            }
-            if let Some(why) = closed.and_then(|closed| Method::lacking(closed, name)) {
-                return why;
-            }
-            let known: Vec<String> = possible.iter().map(own_name).collect();
-            let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            let own = possible.iter().zip(&known).filter(|(m, _)| !m.of_a_site());
-            let own: Vec<&str> = own.map(|(_, name)| *name).collect();
-            let places: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
-            let all = format!(
-                "{}; and pose_X, velocity_X, jacobian_world_X, jacobian_dot_v_world_X, operational_inverse_X, operational_inertia_X, consistent_inverse_X, operational_bias_X for X = {}",
-                own.join(", "),
-                places.join(", ")
-            );
-            unknown_name("method", name, &known, &all)
-        })
-    }
-
     /// Returns whether the trait `Dynamics` has it.
     pub fn of_trait(self) -> bool {
         Method::OF_TRAIT.contains(&self)
-    }
-
-    /// Returns whether it is a method of a site.
-    fn of_a_site(self) -> bool {
-        match self {
-            Method::Operational(of) => of.site().is_some(),
-            other => other.site().is_some(),
-        }
     }
 
     /// Returns the site whose motion the method computes.
@@ -480,26 +361,4 @@ impl Method {
             Method::Bundle { checked: true, .. } => Shape::CheckedBundle,
         }
     }
-}
-
-/// Returns why a mechanism with a loop on its parallel branch does not have this method, if that is the reason: the
-/// efforts of such a loop are in no equation, and it has no rows.
-fn without_multipliers(graph: &BondGraph, name: &str) -> Option<String> {
-    let closes = graph.parallel.first()?;
-    let mut of_loops = (Method::OF_LOOPS.into_iter())
-        .chain(Method::ON_REQUEST)
-        .chain([Method::JointReactions]);
-    let asked = of_loops.any(|method| method.name(&graph.sites) == name);
-    asked.then(|| {
-        format!(
-            "`{name}`: the loop `{closes}` has no rows and no multipliers, because with `branch: parallel` it is closed by joints that follow; write `branch: left` or `branch: right`, or `near`, for the efforts that close it"
-        )
-    })
-}
-
-/// Returns why a mechanism does not have this regressor, if it is the name of one.
-fn without_regressor(graph: &BondGraph, name: &str) -> Option<String> {
-    let known = Regressor::ALL.iter().any(|of| of.name() == name);
-    let why = Method::regressors_of(graph).err().filter(|_| known)?;
-    Some(format!("`{name}`: {why}"))
 }

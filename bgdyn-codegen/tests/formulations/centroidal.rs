@@ -2,12 +2,10 @@
 //! joints of every type and loops; relations between them; counts of operations.
 
 use bgdyn_codegen::formulation::by_name;
-use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Centroidal, Method};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::selection::model;
-use bgdyn_codegen::verify::{check_functions, check_model, explain};
 
+use crate::checked::{checked, every_turned_sign_is_refused, of_folder, quick_loops};
 use crate::common::random::Draft;
 use crate::common::rng::Rng;
 use crate::common::{Robot, golden};
@@ -27,28 +25,8 @@ fn options(robot: &Robot) -> Options {
 }
 
 fn passes(robot: &Robot, what: &str) {
-    let options = options(robot);
-    let model = model(robot.mechanism.clone(), &options).expect("a model");
+    let model = checked(robot, &options(robot), what);
     assert_eq!(model.functions.len(), methods(robot).len(), "{what}");
-    let found = check_model(&model);
-    assert!(found.is_empty(), "{what}\n{}", explain(&found));
-}
-
-/// Returns the mechanisms of a folder, with their texts.
-fn of_folder(folder: &str) -> Vec<(String, String)> {
-    let folder = format!("{}/../{folder}", env!("CARGO_MANIFEST_DIR"));
-    let entries = std::fs::read_dir(folder).expect("the folder of specs");
-    let paths = entries.map(|entry| entry.expect("a file").path());
-    let mut specs: Vec<(String, String)> = paths
-        .filter(|path| path.extension().is_some_and(|end| end == "yaml"))
-        .map(|path| {
-            let text = std::fs::read_to_string(&path).expect("a spec");
-            let stem = path.file_stem().and_then(|stem| stem.to_str());
-            (stem.expect("a name").to_owned(), text)
-        })
-        .collect();
-    specs.sort();
-    specs
 }
 
 #[test]
@@ -68,22 +46,10 @@ fn golden_robots_equal_the_definitions() {
 }
 
 #[test]
-fn every_turned_sign_is_refused() {
+fn turned_signs_are_refused() {
     let robot = golden::robot("puma560");
-    let model = model(robot.mechanism.clone(), &options(&robot)).expect("a model");
-    for function in &model.functions {
-        for k in 0..function.output_count() {
-            let mut wrong: Function = function.clone();
-            let last = wrong.blocks.last_mut().expect("a block");
-            let output = &mut last.outputs[k];
-            if wrong.graph.constant_of(*output).is_some() {
-                continue;
-            }
-            output.negative = !output.negative;
-            let found = check_functions("puma560", &model.bond_graph, &[wrong]);
-            assert_eq!(found.len(), 1, "{} output {k}", function.name);
-        }
-    }
+    let model = checked(&robot, &options(&robot), "puma560");
+    every_turned_sign_is_refused(&model, |_, _| true);
 }
 
 /// Robots on a base whose motion is given, and with joints of every type.
@@ -120,10 +86,8 @@ fn constrained_mechanisms_equal_the_definitions() {
 /// The columns of the open tree, combined by the map of the loops.
 #[test]
 fn loops_equal_the_definitions() {
-    let specs = of_folder("specs/loops");
-    let quick = ["four_bar", "five_bar", "slider_crank", "rssr", "six_bar"];
-    for (name, text) in specs.iter().filter(|(name, _)| quick.contains(&&name[..])) {
-        passes(&Robot::read(text, Some(name)), name);
+    for (name, text) in quick_loops() {
+        passes(&Robot::read(&text, Some(&name)), &name);
     }
 }
 
@@ -137,15 +101,9 @@ fn own_inertia_has_the_same_momentum() {
                 formulation: by_name(of),
                 ..options(&robot)
             };
-            let model = model(robot.mechanism.clone(), &options).expect("a model");
-            assert!(
-                model
-                    .functions
-                    .iter()
-                    .any(|f| f.formulation.starts_with(of))
-            );
-            let found = check_model(&model);
-            assert!(found.is_empty(), "{name}, {of}\n{}", explain(&found));
+            let model = checked(&robot, &options, &format!("{name}, {of}"));
+            let mut functions = model.functions.iter();
+            assert!(functions.any(|f| f.formulation.starts_with(of)));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 mod bundles;
 mod centroidal;
+mod checked;
 #[path = "../common/mod.rs"]
 mod common;
 mod derivatives_vs_literal;

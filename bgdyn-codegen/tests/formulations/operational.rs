@@ -4,12 +4,11 @@
 use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::function::Function;
-use bgdyn_codegen::method::{Directional, Method, Operational};
+use bgdyn_codegen::method::{Directional, Method, Operational, Shape};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::selection::model;
-use bgdyn_codegen::verify::{check_functions, check_model, explain};
 use bgdyn_runtime::{Cause, TASKS};
 
+use crate::checked::{checked, every_turned_sign_is_refused, of_folder, quick_loops};
 use crate::common::random::Draft;
 use crate::common::rng::Rng;
 use crate::common::{Robot, golden};
@@ -36,27 +35,8 @@ fn options(robot: &Robot) -> Options {
 }
 
 fn passes(robot: &Robot, what: &str) {
-    let model = model(robot.mechanism.clone(), &options(robot)).expect("a model");
+    let model = checked(robot, &options(robot), what);
     assert_eq!(model.functions.len(), methods(robot).len(), "{what}");
-    let found = check_model(&model);
-    assert!(found.is_empty(), "{what}\n{}", explain(&found));
-}
-
-/// Returns the mechanisms of a folder, with their texts.
-fn of_folder(folder: &str) -> Vec<(String, String)> {
-    let folder = format!("{}/../{folder}", env!("CARGO_MANIFEST_DIR"));
-    let entries = std::fs::read_dir(folder).expect("the folder of specs");
-    let paths = entries.map(|entry| entry.expect("a file").path());
-    let mut specs: Vec<(String, String)> = paths
-        .filter(|path| path.extension().is_some_and(|end| end == "yaml"))
-        .map(|path| {
-            let text = std::fs::read_to_string(&path).expect("a spec");
-            let stem = path.file_stem().and_then(|stem| stem.to_str());
-            (stem.expect("a name").to_owned(), text)
-        })
-        .collect();
-    specs.sort();
-    specs
 }
 
 #[test]
@@ -100,21 +80,15 @@ fn constrained_mechanisms_equal_equation_6() {
 
 #[test]
 fn loops_equal_equation_6() {
-    let specs = of_folder("specs/loops");
-    let quick = ["four_bar", "five_bar", "slider_crank", "rssr", "six_bar"];
-    for (name, text) in specs.iter().filter(|(name, _)| quick.contains(&&name[..])) {
-        passes(&Robot::read(text, Some(name)), name);
+    for (name, text) in quick_loops() {
+        passes(&Robot::read(&text, Some(&name)), &name);
     }
 }
 
 #[test]
-fn every_turned_sign_is_refused() {
+fn turned_signs_are_refused() {
     let robot = golden::robot("puma560");
-    let model = model(robot.mechanism.clone(), &options(&robot)).expect("a model");
-    let checked_only = |function: &Function| match function.shape().checked() {
-        true if function.method != Method::Directional(Directional::ForwardAlong) => robot.nv(),
-        _ => 0,
-    };
+    let model = checked(&robot, &options(&robot), "puma560");
     // Some entries are zero in every posture, but no constants.
     let at = Inputs {
         q: vec![0.3, -0.4, 0.7, 0.2, 0.9, 0.5],
@@ -125,20 +99,14 @@ fn every_turned_sign_is_refused() {
         modes: vec![0.2, -0.6, 0.9, 1.4, -0.3, 0.5],
         ..Inputs::default()
     };
-    for function in &model.functions {
+    let only_checked = |function: &Function| match function.shape() {
+        Shape::Checked(_) => robot.nv(),
+        _ => 0,
+    };
+    every_turned_sign_is_refused(&model, |function, k| {
         let values: Vec<f64> = function.evaluate(at.clone()).0;
-        for k in checked_only(function)..function.output_count() {
-            if values[k].abs() < 1e-9 {
-                continue;
-            }
-            let mut wrong: Function = function.clone();
-            let last = wrong.blocks.last_mut().expect("a block");
-            let output = &mut last.outputs[k];
-            output.negative = !output.negative;
-            let found = check_functions("puma560", &model.bond_graph, &[wrong]);
-            assert_eq!(found.len(), 1, "{} output {k}", function.name);
-        }
-    }
+        k >= only_checked(function) && values[k].abs() > 1e-9
+    });
 }
 
 /// A stretched arm cannot move its hand outwards: Λ has no result, and the error names a direction. Λ⁻¹ has one.

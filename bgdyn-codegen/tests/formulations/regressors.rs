@@ -2,13 +2,11 @@
 //! parameters; counts of operations.
 
 use bgdyn_codegen::expr::Inputs;
-use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Method, Regressor};
 use bgdyn_codegen::options::Options;
-use bgdyn_codegen::selection::model;
-use bgdyn_codegen::verify::{check_functions, check_model, explain};
 use nalgebra::DMatrix;
 
+use crate::checked::{checked, every_turned_sign_is_refused};
 use crate::common::random::Draft;
 use crate::common::rng::Rng;
 use crate::common::{Robot, golden};
@@ -29,10 +27,8 @@ fn regressors() -> Options {
     }
 }
 
-fn passes(robot: Robot, what: &str) {
-    let model = model(robot.mechanism, &regressors()).expect("a model");
-    let found = check_model(&model);
-    assert!(found.is_empty(), "{what}\n{}", explain(&found));
+fn passes(robot: &Robot, what: &str) {
+    checked(robot, &regressors(), what);
 }
 
 #[test]
@@ -40,14 +36,14 @@ fn regressors_of_random_trees_equal_equation_6() {
     let mut rng = Rng::new(101);
     for _ in 0..24 {
         let text = Draft::random(&mut rng, 6).yaml();
-        passes(Robot::read(&text, None), &text);
+        passes(&Robot::read(&text, None), &text);
     }
 }
 
 #[test]
 fn regressors_of_the_golden_robots_equal_equation_6() {
     for (name, robot) in golden::robots_up_to(8) {
-        passes(robot, &name);
+        passes(&robot, &name);
     }
 }
 
@@ -61,7 +57,7 @@ fn regressors_of_coupled_joints_equal_equation_6() {
         let text = std::fs::read_to_string(&path).expect("a spec");
         let robot = Robot::read(&text, path.file_stem().and_then(|stem| stem.to_str()));
         if Method::regressors_of(robot.graph).is_ok() {
-            passes(robot, &path.display().to_string());
+            passes(&robot, &path.display().to_string());
             checked += 1;
         }
     }
@@ -69,22 +65,9 @@ fn regressors_of_coupled_joints_equal_equation_6() {
 }
 
 #[test]
-fn every_turned_sign_is_refused() {
-    let robot = golden::robot("puma560");
-    let model = model(robot.mechanism, &regressors()).expect("a model");
-    for function in &model.functions {
-        for k in (0..function.output_count()).step_by(7) {
-            let mut wrong: Function = function.clone();
-            let last = wrong.blocks.last_mut().expect("a block");
-            let output = &mut last.outputs[k];
-            if wrong.graph.constant_of(*output).is_some() {
-                continue;
-            }
-            output.negative = !output.negative;
-            let found = check_functions("puma560", &model.bond_graph, &[wrong]);
-            assert_eq!(found.len(), 1, "{} output {k}", function.name);
-        }
-    }
+fn turned_signs_are_refused() {
+    let model = checked(&golden::robot("puma560"), &regressors(), "puma560");
+    every_turned_sign_is_refused(&model, |_, k| k % 7 == 0);
 }
 
 /// Returns the rank of the columns of all parameters at random states, each scaled to length 1; `None` where axes that are

@@ -4,35 +4,15 @@
 use bgdyn_codegen::bond_graph::SiteId;
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::{Directional, Method, Operational, Shape};
-use serde_json::Value;
 
 use crate::common::{Robot, golden};
+use crate::golden_values::{close, numbers, robot_of_joints, values};
 
 /// Relative to the largest entry, times the condition of what was inverted.
 const TOLERANCE: f64 = 1e-12;
 
 /// Largest factor by which inverse matrices of these robots enlarge rounding errors.
 const CONDITION: f64 = 1e4;
-
-/// Returns the numbers of a vector or of a matrix, row by row.
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Array(all) => all.iter().flat_map(numbers).collect(),
-        other => vec![other.as_f64().expect("a number")],
-    }
-}
-
-fn close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    let size = expected.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
-    for (k, (x, y)) in found.iter().zip(expected).enumerate() {
-        let off = (x - y).abs();
-        assert!(
-            off <= tolerance * size,
-            "{what}: entry {k}: {x} against {y}"
-        );
-    }
-}
 
 /// Returns the result of a method as it is returned, without what is only checked.
 fn value(robot: &Robot, method: Method, at: &Inputs<f64>) -> Vec<f64> {
@@ -46,9 +26,7 @@ fn value(robot: &Robot, method: Method, at: &Inputs<f64>) -> Vec<f64> {
 }
 
 fn check(name: &str, robot: &Robot) {
-    let folder = format!("{}/../tests/golden/operational", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(format!("{folder}/{name}.json"));
-    let reference: Value = serde_json::from_str(&text.expect("golden values")).expect("JSON");
+    let reference = values("operational", name);
     let states = reference["states"].as_array().expect("states");
     assert_eq!(states.len(), 3);
     let site = last_link(robot);
@@ -121,8 +99,5 @@ fn operational_space_of_arms_is_that_of_pinocchio() {
 
 #[test]
 fn operational_space_of_a_free_base_is_that_of_pinocchio() {
-    let folder = format!("{}/../tests/golden/joints", env!("CARGO_MANIFEST_DIR"));
-    let text = std::fs::read_to_string(format!("{folder}/satellite_arm6.yaml"));
-    let robot = Robot::read(&text.expect("a spec"), Some("satellite_arm6"));
-    check("satellite_arm6", &robot);
+    check("satellite_arm6", &robot_of_joints("satellite_arm6"));
 }

@@ -7,25 +7,12 @@ use nalgebra::DMatrix;
 use serde_json::Value;
 
 use crate::common::{Robot, golden};
+use crate::golden_values::{close, numbers, values};
 
 /// Relative to the largest entry.
 const TOLERANCE: f64 = 1e-13;
 
 const ROBOTS: [&str; 3] = ["scara4", "puma560", "panda7"];
-
-fn values(name: &str) -> Value {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/golden/regressors");
-    let text = std::fs::read_to_string(format!("{folder}/{name}.json"));
-    serde_json::from_str(&text.expect("golden values")).expect("golden values are JSON")
-}
-
-/// Returns the numbers of a vector or of a matrix, row by row.
-fn numbers(value: &Value) -> Vec<f64> {
-    match value {
-        Value::Array(all) => all.iter().flat_map(numbers).collect(),
-        other => vec![other.as_f64().expect("a number")],
-    }
-}
 
 fn inputs(state: &Value) -> Inputs<f64> {
     let of = |key: &str| numbers(&state[key]);
@@ -36,18 +23,6 @@ fn inputs(state: &Value) -> Inputs<f64> {
         x: of("v_r"),
         u: of("adjoint"),
         ..Inputs::default()
-    }
-}
-
-fn close(found: &[f64], expected: &[f64], what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}");
-    let size = expected.iter().fold(1.0, |m: f64, x| m.max(x.abs()));
-    for (k, (x, y)) in found.iter().zip(expected).enumerate() {
-        let off = (x - y).abs();
-        assert!(
-            off <= TOLERANCE * size,
-            "{what}: entry {k}: {x} against {y}"
-        );
     }
 }
 
@@ -68,7 +43,7 @@ fn transport(robot: &Robot, count: usize) -> DMatrix<f64> {
 }
 
 fn check(name: &str) {
-    let (robot, reference) = (golden::robot(name), values(name));
+    let (robot, reference) = (golden::robot(name), values("regressors", name));
     let joints: Vec<&str> = (reference["joints"].as_array().expect("joints").iter())
         .filter_map(Value::as_str)
         .collect();
@@ -85,7 +60,7 @@ fn check(name: &str) {
         function.evaluate(at.clone()).0
     };
     let pi = value(Regressor::Parameters, &Inputs::default());
-    close(&pi, &parameters, &format!("{name}: parameters"));
+    close(&pi, &parameters, TOLERANCE, &format!("{name}: parameters"));
     for state in reference["states"].as_array().expect("states") {
         let at = inputs(state);
         let reference_a = Inputs {
@@ -101,7 +76,12 @@ fn check(name: &str) {
         ];
         for (of, key) in of_all {
             let expected = numbers(&state[key]);
-            close(&value(of, &at), &expected, &format!("{name}: {key}"));
+            close(
+                &value(of, &at),
+                &expected,
+                TOLERANCE,
+                &format!("{name}: {key}"),
+            );
         }
         let of_base = [
             (Regressor::Base, "regressor", &at),
@@ -113,7 +93,12 @@ fn check(name: &str) {
             let columns = DMatrix::from_row_slice(robot.nv(), k.nrows(), &value(of, at));
             let all = (columns * &k).transpose();
             let expected = numbers(&state[key]);
-            close(all.as_slice(), &expected, &format!("{name}: {key} by K"));
+            close(
+                all.as_slice(),
+                &expected,
+                TOLERANCE,
+                &format!("{name}: {key} by K"),
+            );
         }
         let transposed = [
             (Regressor::TransposedTimes, "regressor", &at),
@@ -129,7 +114,7 @@ fn check(name: &str) {
             let products = DMatrix::from_row_slice(1, k.nrows(), &value(of, at)) * &k;
             let expected = s * whole;
             let what = format!("{name}: products with {key}");
-            close(products.as_slice(), expected.as_slice(), &what);
+            close(products.as_slice(), expected.as_slice(), TOLERANCE, &what);
         }
     }
 }

@@ -4,7 +4,7 @@ use bgdyn_runtime::Dd;
 
 use super::differentiate::{finish, position_derivatives, reopen};
 use super::forward_dynamics::ForwardDerivatives;
-use crate::bond_graph::{LinkFrame, Multibody};
+use crate::bond_graph::Multibody;
 use crate::expr::{Expr, Leaf, Signed};
 use crate::formulation::slopes::derivatives;
 use crate::formulation::{Formulation, Offer, Prepared};
@@ -27,16 +27,8 @@ impl Formulation for Differentiated {
         "derivatives of the expressions of inverse dynamics and of the bias"
     }
 
-    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
-        None
-    }
-
-    fn serves_loops(&self) -> bool {
+    fn combines(&self) -> bool {
         true
-    }
-
-    fn knows(&self, method: Method) -> bool {
-        !self.reads(method).is_empty()
     }
 
     fn offer(&self, prepared: &Prepared<'_>, method: Method) -> Offer {
@@ -93,20 +85,8 @@ impl Formulation for ForwardDynamicsDerivatives {
         "derivatives of forward dynamics from those of inverse dynamics"
     }
 
-    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
-        None
-    }
-
-    fn serves_loops(&self) -> bool {
+    fn combines(&self) -> bool {
         true
-    }
-
-    fn knows(&self, method: Method) -> bool {
-        !self.reads(method).is_empty()
-    }
-
-    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
-        Offer::Candidate
     }
 
     fn reads(&self, method: Method) -> Vec<Method> {

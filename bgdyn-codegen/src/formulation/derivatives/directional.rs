@@ -12,10 +12,10 @@
 use bgdyn_runtime::Dd;
 
 use super::differentiate::{finish, position_tangents, reopen};
-use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
+use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, adjoints, copy_into};
 use crate::formulation::slopes::along_efforts;
-use crate::formulation::{Formulation, Offer, Prepared};
+use crate::formulation::{Formulation, Prepared};
 use crate::function::Function;
 use crate::method::{Directional, Method};
 use crate::passes::cheapest;
@@ -32,20 +32,8 @@ impl Formulation for AlongDirections {
         "derivatives along one direction and adjoints, by one pass over the expressions of the dynamics"
     }
 
-    fn knows(&self, method: Method) -> bool {
-        matches!(method, Method::Directional(_))
-    }
-
-    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
-        None
-    }
-
-    fn serves_loops(&self) -> bool {
+    fn combines(&self) -> bool {
         true
-    }
-
-    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
-        Offer::Candidate
     }
 
     fn reads(&self, method: Method) -> Vec<Method> {

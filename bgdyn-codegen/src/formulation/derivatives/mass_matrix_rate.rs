@@ -1,12 +1,12 @@
 //! The rate of the mass matrix along the velocities: Ṁ = C + Cᵀ, or M differentiated along v.
 
 use super::differentiate::{finish, reopen};
-use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
+use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Leaf, Signed, Tangent};
 use crate::formulation::joint_motion::{along, tangents};
 use crate::formulation::loop_rows::{LoopForm, loop_rows};
 use crate::formulation::velocity_map::VelocityMap;
-use crate::formulation::{Formulation, Offer, Prepared};
+use crate::formulation::{Formulation, Prepared};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
 use crate::passes::factor;
@@ -23,20 +23,8 @@ impl Formulation for MassMatrixRate {
         "the mass matrix differentiated along v, or the sum of the Coriolis matrix and its transpose"
     }
 
-    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
-        None
-    }
-
-    fn serves_loops(&self) -> bool {
+    fn combines(&self) -> bool {
         true
-    }
-
-    fn knows(&self, method: Method) -> bool {
-        method == Method::MassMatrixRate
-    }
-
-    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
-        Offer::Candidate
     }
 
     fn reads(&self, method: Method) -> Vec<Method> {

@@ -6,10 +6,10 @@
 use bgdyn_runtime::Dd;
 
 use super::task::{ROWS, Task, copied, dot, results};
-use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
+use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
 use crate::formulation::slopes::{along_efforts, derivatives};
-use crate::formulation::{Formulation, Offer, Prepared};
+use crate::formulation::{Formulation, Prepared};
 use crate::function::Function;
 use crate::method::{Method, Operational};
 use crate::passes::cheapest;
@@ -26,20 +26,8 @@ impl Formulation for ByDrives {
         "operational space: forward dynamics under the efforts of each row of the task"
     }
 
-    fn knows(&self, method: Method) -> bool {
-        matches!(method, Method::Operational(_))
-    }
-
-    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
-        None
-    }
-
-    fn serves_loops(&self) -> bool {
+    fn combines(&self) -> bool {
         true
-    }
-
-    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
-        Offer::Candidate
     }
 
     fn reads(&self, method: Method) -> Vec<Method> {

@@ -4,10 +4,9 @@
 //! offered where that keeps enough.
 
 use super::task::{ROWS, Task, copied, dot, results};
-use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::formulation::solve::{ARTICULATED, PivotFactor};
-use crate::formulation::{Formulation, Offer, Prepared};
+use crate::formulation::{Formulation, Prepared};
 use crate::function::{Function, in_triangle};
 use crate::method::{Method, Operational};
 use crate::passes::cheapest;
@@ -24,29 +23,23 @@ impl Formulation for Factored {
         "operational space: M = Lᵀ D L, Y = J L⁻¹, Λ⁻¹ = Y D⁻¹ Yᵀ"
     }
 
-    fn knows(&self, method: Method) -> bool {
-        matches!(method, Method::Operational(of) if of.site().is_some())
-    }
-
-    fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
-        None
-    }
-
-    fn serves_loops(&self) -> bool {
+    fn combines(&self) -> bool {
         true
-    }
-
-    fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {
-        Offer::Candidate
     }
 
     fn reads(&self, method: Method) -> Vec<Method> {
         let Method::Operational(of) = method else {
             return Vec::new();
         };
-        let mut all = vec![Method::ForwardDynamics, Method::MassMatrix];
-        all.extend(of.site().map(Method::Jacobian));
-        if let Operational::Bias(site) = of {
+        let Some(site) = of.site() else {
+            return Vec::new();
+        };
+        let mut all = vec![
+            Method::ForwardDynamics,
+            Method::MassMatrix,
+            Method::Jacobian(site),
+        ];
+        if let Operational::Bias(_) = of {
             all.extend([Method::Bias, Method::JacobianDotV(site)]);
         }
         all
