@@ -24,7 +24,7 @@ use crate::usage::Usage;
 /// Plan a motion from which `identify` finds masses, friction and rotors
 ///
 /// The motion of each joint is a Fourier series, periodic and at rest at its start, within the limits of the spec. It is
-/// the best of random ones, improved until the base parameters are told apart as well as possible (D-optimal).
+/// the best of random ones, improved until the deviations of the base parameters are as small as possible (D-optimal).
 #[derive(Args)]
 #[command(
     after_help = "Example:\n  bgdyn excite arm.yaml --rotors --keep 'tool.z>0.1 m' -o motion\n  bgdyn simulate motion/arm_motion.scene.yaml --out run\n\nExit 1 if no motion keeps to the limits; nothing is written then."
@@ -126,13 +126,13 @@ impl Excite {
         let prior = self.prior.as_ref();
         let prior = prior.map(|path| sound_log(path, &model, &names));
         // Faults of all parts, before one stops.
-        let mut told = Vec::new();
-        let keeps = keeps.map_err(|why| told.push(why)).unwrap_or_default();
-        let limits = limits.map_err(|why| told.push(why)).ok();
-        let prior = prior.transpose().map_err(|why| told.push(why)).ok();
-        let (Some((limits, chosen)), Some(prior), true) = (limits, prior, told.is_empty()) else {
-            let told: Vec<String> = told.iter().map(|why| format!("{why:#}")).collect();
-            bail!("{}", told.join("\nbgdyn: "));
+        let mut reasons = Vec::new();
+        let keeps = keeps.map_err(|why| reasons.push(why)).unwrap_or_default();
+        let limits = limits.map_err(|why| reasons.push(why)).ok();
+        let prior = prior.transpose().map_err(|why| reasons.push(why)).ok();
+        let (Some((limits, chosen)), Some(prior), true) = (limits, prior, reasons.is_empty()) else {
+            let reasons: Vec<String> = reasons.iter().map(|why| format!("{why:#}")).collect();
+            bail!("{}", reasons.join("\nbgdyn: "));
         };
         let request = Request {
             limits: &limits,

@@ -1,4 +1,4 @@
-//! The limits of a motion: those of the file, with margins, and what stands for those that it does not have.
+//! The limits of a motion: those of the file, with margins, and the values that replace missing ones.
 
 use std::f64::consts::PI;
 

@@ -136,7 +136,7 @@ fn a_function_that_the_scene_lacks() {
     assert!(run.stderr.contains("are of mechanisms"), "{}", run.stderr);
 }
 
-/// A sum is the sum of its terms, and its faults are told at their places.
+/// A sum has the values of its terms, added up; its faults have the places of the terms.
 #[test]
 fn signals_add_up() {
     let input = |name: &str, signal: &str| {

@@ -46,7 +46,7 @@ fn whole_model(path: &str) -> Model {
     let closed = graph.closed.as_deref();
     let size = closed.map_or(graph.coordinates.len(), |c| c.tree.coordinates.len());
     let slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
-    // One frame stands for all.
+    // The functions of other frames are alike.
     let repeats = |m: &Method| matches!(m, Method::Operational(of) if of.site() > Some(SiteId(0)));
     let wanted = |m: &Method| (size <= SMALL || !slow(m)) && !repeats(m);
     let methods = Method::possible_of(&graph).into_iter().filter(wanted);

@@ -9,8 +9,8 @@ use crate::model::{
     BODY_PARAMETERS, JOINT_COLUMNS, Model, SIGN_WIDTH, Unknown, joint_columns_within,
 };
 
-/// Share of the columns' sizes in what rises. Scaled columns alone say nothing of sizes: a small motion that tells
-/// parameters apart would be as good as a large one. With the whole sizes ascents end far from the best condition.
+/// Weight of the logarithms of the columns' sizes in the objective. Scaled columns do not depend on sizes: a small motion
+/// could be as good as a large one. With the whole sizes ascents end far from the best condition.
 const SIZE: f64 = 0.1;
 /// Step of central differences by positions, rad or m: their error is of the size 1e-8.
 const STEP: f64 = 1e-4;

@@ -205,7 +205,7 @@ pub fn efforts_of_file(model: &Model<'_>, state: &State) -> Vec<f64> {
     information.efforts(state).as_slice().to_vec()
 }
 
-/// Returns AᵀA of the rows of a log, prepared as `identify` does it; a row counts as the time that it stands for, in
+/// Returns AᵀA of the rows of a log, prepared as `identify` does it; the weight of a row is the time to the next one, in
 /// rows of `step` seconds.
 fn of_log(
     model: &Model<'_>,
