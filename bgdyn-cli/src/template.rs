@@ -5,6 +5,12 @@ pub(crate) const STYLE: &str = include_str!("template/style.css");
 /// Their scripts: elements, tables, plots.
 pub(crate) const PLOTS: &str = include_str!("template/plot.js");
 
+/// Returns the beginning of a page, up to its body: with a policy by which it loads nothing.
+pub(crate) fn head(name: &str, style: &str) -> String {
+    let parts = [("@NAME@", name), ("@STYLE@", style)];
+    filled(include_str!("template/head.html"), &parts)
+}
+
 /// Returns JSON as it can be written into a page: `<` could end its element.
 pub(crate) fn embedded(json: &str) -> String {
     json.replace('<', "\\u003c")

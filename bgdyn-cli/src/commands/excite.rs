@@ -130,7 +130,8 @@ impl Excite {
         let keeps = keeps.map_err(|why| reasons.push(why)).unwrap_or_default();
         let limits = limits.map_err(|why| reasons.push(why)).ok();
         let prior = prior.transpose().map_err(|why| reasons.push(why)).ok();
-        let (Some((limits, chosen)), Some(prior), true) = (limits, prior, reasons.is_empty()) else {
+        let (Some((limits, chosen)), Some(prior), true) = (limits, prior, reasons.is_empty())
+        else {
             let reasons: Vec<String> = reasons.iter().map(|why| format!("{why:#}")).collect();
             bail!("{}", reasons.join("\nbgdyn: "));
         };

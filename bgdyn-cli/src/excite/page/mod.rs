@@ -5,7 +5,7 @@ use bgdyn_identification::excite::{Excitation, JointLimits};
 use serde_json::{Value, json};
 
 use super::text::nearest;
-use crate::template::{PLOTS, STYLE, embedded, filled};
+use crate::template::{PLOTS, STYLE, embedded, filled, head};
 
 /// Rows of a plot.
 const ROWS: usize = 400;
@@ -21,9 +21,9 @@ pub(crate) fn page(
 ) -> String {
     let data = data(name, model, limits, found, efforts, summary);
     let data = embedded(&data.to_string());
+    let head = head(name, STYLE);
     let parts = [
-        ("@NAME@", name),
-        ("@STYLE@", STYLE),
+        ("@HEAD@", head.as_str()),
         ("@DATA@", &data),
         ("@PLOTS@", PLOTS),
         ("@SCRIPT@", include_str!("motion.js")),

@@ -5,7 +5,7 @@ use bgdyn_identification::{Identification, deviations::UNSEEN};
 use serde_json::{Value, json};
 
 use super::json::number;
-use crate::template::{PLOTS, STYLE, embedded, filled};
+use crate::template::{PLOTS, STYLE, embedded, filled, head};
 
 /// Largest number of rows of a plot: for more, rows are left out.
 const ROWS: usize = 1500;
@@ -13,9 +13,9 @@ const ROWS: usize = 1500;
 /// Returns the page.
 pub(crate) fn page(name: &str, model: &Model<'_>, found: &Identification, summary: &str) -> String {
     let data = embedded(&data(name, model, found, summary).to_string());
+    let head = head(name, STYLE);
     let parts = [
-        ("@NAME@", name),
-        ("@STYLE@", STYLE),
+        ("@HEAD@", head.as_str()),
         ("@DATA@", &data),
         ("@PLOTS@", PLOTS),
         ("@SCRIPT@", include_str!("report.js")),

@@ -16,7 +16,7 @@ use self::poses::{TURN, poses, turns};
 use super::difference::range;
 use super::report::{changes, short};
 use super::run_table::{Column, Record, Row};
-use crate::template::{embedded, filled};
+use crate::template::{embedded, filled, head};
 
 /// Largest number of poses in a page: for more, rows are omitted.
 const POSES: usize = 36_000;
@@ -96,9 +96,9 @@ struct Energy {
 pub fn page(system: &SceneEquations, columns: &[Column], run: &Record, words: &Words) -> String {
     let data = serde_json::to_string(&data(system, columns, run, words));
     let data = embedded(&data.unwrap_or_default());
+    let head = head(&words.name, include_str!("style.css"));
     let parts = [
-        ("@NAME@", words.name.as_str()),
-        ("@STYLE@", include_str!("style.css")),
+        ("@HEAD@", head.as_str()),
         ("@DATA@", &data),
         ("@SCRIPT@", &PARTS.concat()),
     ];
