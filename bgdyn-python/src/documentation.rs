@@ -2,9 +2,7 @@
 
 use bgdyn_codegen::bond_graph::Site;
 use bgdyn_codegen::choice::Choice;
-use bgdyn_codegen::method::{
-    Argument, Centroidal, Directional, Entries, Method, Operational, ParameterSet, Regressor, Shape,
-};
+use bgdyn_codegen::method::{Argument, Entries, Method, ParameterSet, Regressor, Shape};
 
 use crate::spec::Spec;
 
@@ -60,11 +58,7 @@ pub fn of_class() -> Vec<(String, Vec<&'static str>, String)> {
     let all = of_every
         .chain(of_loops)
         .chain([Method::DriveEfforts(0)])
-        .chain(Regressor::ALL.map(Method::Regressor))
-        .chain(Centroidal::ALL.map(Method::Centroidal))
-        .chain([Method::MassMatrixRate])
-        .chain([Method::Operational(Operational::InverseMassMatrix)])
-        .chain(Directional::ALL.map(Method::Directional))
+        .chain(Method::on_request())
         // The class has a property of this name.
         .filter(|method| *method != Method::Regressor(Regressor::Parameters));
     let one = |method: Method| {

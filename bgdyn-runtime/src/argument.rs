@@ -19,6 +19,14 @@ pub enum Argument {
     A,
     /// Joint efforts `tau`.
     Tau,
+    /// Direction `dq` of the positions.
+    Dq,
+    /// Direction `dv` of the velocities.
+    Dv,
+    /// Direction `dtau` of the efforts.
+    Dtau,
+    /// Factors `l` of an adjoint.
+    L,
     /// The `state` of a scene.
     State,
     /// The `input` of a scene.
@@ -42,6 +50,10 @@ impl Argument {
             Argument::Qd => "qd",
             Argument::A => "a",
             Argument::Tau => "tau",
+            Argument::Dq => "dq",
+            Argument::Dv => "dv",
+            Argument::Dtau => "dtau",
+            Argument::L => "l",
             Argument::State => "state",
             Argument::Input => "input",
             Argument::Modes => "modes",

@@ -47,7 +47,8 @@ pub enum Cause {
     /// answers; [`Singular::name`] is the independent joint whose equation follows from others.
     Actuators,
     /// The joints cannot move the frame of an operational inertia in every direction here: the posture is singular, and
-    /// the inertia is infinite. [`Singular::name`] is a direction whose inverse inertia follows from those before it.
+    /// the inertia is infinite. [`Singular::name`] is a direction in which the inverse inertia follows from those
+    /// after it, from `angular x` to `linear z`.
     Posture,
     /// An argument of the function is NaN or infinite.
     Argument {

@@ -209,6 +209,7 @@ impl<'a> Choice<'a> {
     ) -> Vec<CheckedCandidate> {
         let make = |(formulation, offer): &Offered| {
             let (report, mut candidate) = check(self.make(*formulation, method)?);
+            candidate.factors_mass = formulation.factors_mass();
             if let Offer::Instead(Some(reason)) = offer {
                 candidate.generated.formulation += &format!("; {reason}");
             }
@@ -270,5 +271,10 @@ fn differentiates(method: Method) -> bool {
 /// Returns a function whose accuracy is not checked.
 fn unchecked(plain: Function) -> CheckedCandidate {
     let generated = factor(plain.clone());
-    (BoundReport::default(), Candidate { plain, generated })
+    let candidate = Candidate {
+        plain,
+        generated,
+        factors_mass: true,
+    };
+    (BoundReport::default(), candidate)
 }

@@ -36,7 +36,12 @@ pub(super) type CheckedCandidate = (BoundReport, Candidate);
 /// arguments; but if no digit is lost, the extra cost is limited to [`PRICE`].
 pub(super) fn check(bounds: &ErrorBounds, plain: Function) -> CheckedCandidate {
     let (report, generated) = factor_with_care(bounds, &plain);
-    (report, Candidate { plain, generated })
+    let candidate = Candidate {
+        plain,
+        generated,
+        factors_mass: true,
+    };
+    (report, candidate)
 }
 
 fn factor_with_care(bounds: &ErrorBounds, plain: &Function) -> (BoundReport, Function) {

@@ -98,6 +98,8 @@ pub(crate) fn in_double_double(state: &Inputs<f64>) -> Inputs<Dd> {
         v: all(&state.v),
         a: all(&state.a),
         u: all(&state.u),
+        x: all(&state.x),
+        modes: all(&state.modes),
         parameters: all(&state.parameters),
         ..Inputs::default()
     }

@@ -56,6 +56,8 @@ pub(crate) fn rounded(state: &Inputs<Dd>) -> Inputs<f64> {
         v: all(&state.v),
         a: all(&state.a),
         u: all(&state.u),
+        x: all(&state.x),
+        modes: all(&state.modes),
         parameters: all(&state.parameters),
         ..Inputs::default()
     }

@@ -128,12 +128,10 @@ fn look(argument: Argument, naming: &Naming<'_>) -> TokenStream {
         Argument::ReferenceV | Argument::ReferenceA => quote! {},
         Argument::Direction | Argument::BodyParameters => quote! {},
         Argument::AlongA => quote! {},
-        // A direction that is NaN or infinite is named as its argument.
-        Argument::AlongQ => look(quote! { Q }, joints, quote! { #name.as_slice() }),
-        Argument::AlongV => look(quote! { V }, joints, quote! { #name.as_slice() }),
-        Argument::AlongTau | Argument::Cotangent => {
-            look(quote! { Tau }, joints, quote! { #name.as_slice() })
-        }
+        Argument::AlongQ => look(quote! { Dq }, joints, quote! { #name.as_slice() }),
+        Argument::AlongV => look(quote! { Dv }, joints, quote! { #name.as_slice() }),
+        Argument::AlongTau => look(quote! { Dtau }, joints, quote! { #name.as_slice() }),
+        Argument::Cotangent => look(quote! { L }, joints, quote! { #name.as_slice() }),
         Argument::Canonical => look(quote! { Canonical }, states, quote! { #name.as_slice() }),
         Argument::Time => look(quote! { Time }, quote! { &["t"] }, quote! { &[t] }),
         Argument::Accelerations => {

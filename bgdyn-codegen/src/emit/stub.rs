@@ -18,7 +18,7 @@ use crate::bond_graph::{JointSegment, Site, SiteId};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
-use crate::method::{Argument, Centroidal, Directional, Method, Operational, Regressor};
+use crate::method::{Argument, Method, Operational};
 use crate::name::is_identifier;
 
 /// Returns the module with bodies that never run.
@@ -38,13 +38,9 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     let prescribed = interface.prescribed.len();
     let mut possible = Method::possible(&sites);
     possible.extend((prescribed > 0).then_some(Method::DriveEfforts(prescribed)));
-    possible.extend(Regressor::ALL.map(Method::Regressor));
-    possible.extend(Directional::ALL.map(Method::Directional));
-    possible.push(Method::Operational(Operational::InverseMassMatrix));
+    possible.extend(Method::on_request());
     let of_sites = (0..sites.len()).flat_map(|site| Operational::of_site(SiteId(site)));
     possible.extend(of_sites.map(Method::Operational));
-    possible.extend(Centroidal::ALL.map(Method::Centroidal));
-    possible.push(Method::MassMatrixRate);
     let methods = possible.iter();
     let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();

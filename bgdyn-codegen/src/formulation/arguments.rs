@@ -49,7 +49,7 @@ impl<'g> Arguments<'g> {
         let takes = |argument| method.arguments().contains(&argument);
         // Kinetic energy and velocities of frames always use the true velocities, also without velocity
         // products.
-        let kinematic = method.site().is_some()
+        let kinematic = method.placed_site().is_some()
             || matches!(
                 method,
                 Method::KineticEnergy

@@ -19,6 +19,11 @@ pub trait Formulation: Sync {
         false
     }
 
+    /// Returns whether its forward dynamics eliminates with the factors of the mass matrix.
+    fn factors_mass(&self) -> bool {
+        true
+    }
+
     /// Returns whether it supports the method, or the method that this one is derived from.
     fn knows(&self, method: Method) -> bool {
         match self.combines() {

@@ -61,7 +61,8 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 ];
 
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
-/// make offers for any selected formulation, because those functions belong to it. Regressors have one formulation.
+/// make offers for any selected formulation, because those functions belong to it; or the only formulations of methods, as
+/// that of regressors.
 pub(crate) static DERIVED: [&dyn Formulation; 12] = [
     &loops::Elimination,
     &base_twist::BaseTwist(0),

@@ -14,7 +14,7 @@ pub(super) fn outputs<'g>(
     method: Method,
     x: &Arguments<'g>,
 ) -> Option<Vec<Expr<'g>>> {
-    let site = &graph.sites[method.site()?.0];
+    let site = &graph.sites[method.placed_site()?.0];
     let axes = site.pose.rotation.map(|x| b.constant(x));
     let point = b.vector(site.pose.translation);
     let placement = Placement::new(b, graph, &x.q);

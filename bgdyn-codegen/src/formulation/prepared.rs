@@ -19,6 +19,8 @@ pub(crate) struct Candidate {
     pub plain: Function,
     /// In the generated form.
     pub generated: Function,
+    /// Whether it eliminates with the factors of the mass matrix ([`super::Formulation::factors_mass`]).
+    pub factors_mass: bool,
 }
 
 /// The functions for a method, sorted by `choice/`.

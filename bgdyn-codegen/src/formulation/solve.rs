@@ -4,9 +4,6 @@ use bgdyn_runtime::Dd;
 
 use crate::expr::{Builder, Expr};
 
-/// The names of formulations without these factors begin with it: articulated bodies.
-pub(super) const ARTICULATED: &str = "articulated";
-
 /// The factors of M = Lᵀ D L, from the last coordinate to the first, which preserves the zeros of a
 /// branching mechanism (Featherstone 2005). Every pivot is checked.
 pub(super) struct PivotFactor<'g> {

@@ -20,7 +20,7 @@ use crate::bond_graph::{ClosedTree, Site, SiteId};
 pub use argument::Argument;
 pub use centroidal::Centroidal;
 pub use directional::Directional;
-pub use operational::Operational;
+pub use operational::{Operational, TASK_DIRECTIONS};
 pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
 pub use shape::{Entries, ParameterSet, Shape};
@@ -123,11 +123,7 @@ pub fn names() -> Vec<String> {
     all.chain(Method::OF_LOOPS)
         .chain(Method::ON_REQUEST)
         .chain([Method::DriveEfforts(0)])
-        .chain(Regressor::ALL.map(Method::Regressor))
-        .chain([Method::Operational(Operational::InverseMassMatrix)])
-        .chain(Directional::ALL.map(Method::Directional))
-        .chain(Centroidal::ALL.map(Method::Centroidal))
-        .chain([Method::MassMatrixRate])
+        .chain(Method::on_request())
         .map(|method| method.name(&[]))
         .chain(Method::reduced_names())
         .collect()
@@ -144,6 +140,17 @@ impl Method {
         Method::KineticEnergy,
         Method::PotentialEnergy,
     ];
+
+    /// Returns the methods, without those of sites, that a mechanism of any kind may have, and that are generated if they are
+    /// asked for.
+    pub fn on_request() -> impl Iterator<Item = Method> {
+        let regressors = Regressor::ALL.map(Method::Regressor).into_iter();
+        regressors
+            .chain([Method::Operational(Operational::InverseMassMatrix)])
+            .chain(Directional::ALL.map(Method::Directional))
+            .chain(Centroidal::ALL.map(Method::Centroidal))
+            .chain([Method::MassMatrixRate])
+    }
 
     /// The methods of mechanisms with loops.
     pub const OF_LOOPS: [Method; 7] = [
@@ -191,8 +198,16 @@ impl Method {
         Method::OF_TRAIT.contains(&self)
     }
 
-    /// Returns the site whose motion the method computes.
+    /// Returns the site in its name.
     pub fn site(self) -> Option<SiteId> {
+        match self {
+            Method::Operational(of) => of.site(),
+            other => other.placed_site(),
+        }
+    }
+
+    /// Returns the site whose pose or motion the method computes.
+    pub fn placed_site(self) -> Option<SiteId> {
         match self {
             Method::Pose(site)
             | Method::Velocity(site)

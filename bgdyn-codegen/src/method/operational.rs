@@ -5,6 +5,16 @@
 use super::{Argument, Entries, Shape};
 use crate::bond_graph::{Site, SiteId};
 
+/// The directions of a task: of the angular velocity, then of the velocity of the frame's origin.
+pub const TASK_DIRECTIONS: [&str; 6] = [
+    "angular x",
+    "angular y",
+    "angular z",
+    "linear x",
+    "linear y",
+    "linear z",
+];
+
 /// A method of operational space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operational {

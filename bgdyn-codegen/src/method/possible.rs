@@ -1,11 +1,8 @@
 //! Which methods a mechanism can have, and why it does not have others.
 
-use super::{Centroidal, Directional, Method, Operational, Regressor};
+use super::{Centroidal, Directional, Method, Operational, Regressor, TASK_DIRECTIONS};
 use crate::bond_graph::{BondGraph, Site, SiteId};
 use crate::fault::unknown_name;
-
-/// The number of directions of a frame.
-const DIRECTIONS: usize = 6;
 
 impl Method {
     /// Returns every method that this mechanism can have.
@@ -94,7 +91,7 @@ impl Method {
             }
             let known: Vec<String> = possible.iter().map(own_name).collect();
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
-            let own = possible.iter().zip(&known).filter(|(m, _)| !m.of_a_site());
+            let own = possible.iter().zip(&known).filter(|(m, _)| m.site().is_none());
             let own: Vec<&str> = own.map(|(_, name)| *name).collect();
             let places: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
             let all = format!(
@@ -117,14 +114,6 @@ impl Method {
             .or_else(|| Method::lacking(closed?, name))
     }
 
-    /// Returns whether it is a method of a site.
-    fn of_a_site(self) -> bool {
-        match self {
-            Method::Operational(of) => of.site().is_some(),
-            other => other.site().is_some(),
-        }
-    }
-
     /// Returns whether it has no result where a frame cannot move in some direction.
     pub fn inverts_task(self) -> bool {
         matches!(self, Method::Operational(of) if of.inverts_task())
@@ -138,7 +127,14 @@ impl Method {
         all.extend(sites.flat_map(|site| {
             let velocities = velocities_of(graph, site);
             let of_site = Operational::of_site(site).into_iter();
-            of_site.filter(move |of| velocities >= if of.inverts_task() { DIRECTIONS } else { 1 })
+            of_site.filter(move |of| {
+                velocities
+                    >= if of.inverts_task() {
+                        TASK_DIRECTIONS.len()
+                    } else {
+                        1
+                    }
+            })
         }));
         all.into_iter().map(Method::Operational).collect()
     }
@@ -152,9 +148,9 @@ impl Method {
         if velocities == 0 {
             return Some(format!("`{name}`: no joint moves this frame"));
         }
-        (of.inverts_task() && velocities < DIRECTIONS).then(|| {
+        (of.inverts_task() && velocities < TASK_DIRECTIONS.len()).then(|| {
             format!(
-                "`{name}`: the mechanism moves this frame by {velocities} velocities, and a frame has an inertia only where it can move in six directions; `operational_inverse_X` is its inverse, of which you can invert the rows of your task"
+                "`{name}`: the mechanism moves this frame by {velocities} of its velocities, and a frame has an inertia only where it can move in six directions; `operational_inverse_X` is its inverse, of which you can invert the rows of your task"
             )
         })
     }

@@ -4,6 +4,7 @@ use bgdyn_runtime::closure::Dependent;
 
 use crate::bond_graph::{ClosedTree, Multibody};
 use crate::mechanism::CoordinateId;
+use crate::method::TASK_DIRECTIONS;
 
 /// Returns the joint of a dependent velocity.
 pub fn dependent_joint(closed: &ClosedTree, j: CoordinateId) -> Dependent {
@@ -40,17 +41,9 @@ pub fn operational_pivot_names<'a>(
     closed: Option<&'a ClosedTree>,
     graph: &'a Multibody,
 ) -> Vec<&'a str> {
-    const DIRECTIONS: [&str; 6] = [
-        "angular x",
-        "angular y",
-        "angular z",
-        "linear x",
-        "linear y",
-        "linear z",
-    ];
     let joints = graph.coordinates.iter().map(|c| c.name.as_str());
     let loops = closed.into_iter().flat_map(loop_names);
-    joints.chain(loops).chain(DIRECTIONS).collect()
+    joints.chain(loops).chain(TASK_DIRECTIONS).collect()
 }
 
 /// Returns the same for functions of the open tree.

@@ -121,8 +121,13 @@ impl<'a> Naming<'a> {
             Argument::AlongV => Leaf::Mode(j),
             Argument::AlongA => Leaf::Input(j),
             Argument::AlongTau => Leaf::Acceleration(j),
-            // v_r, dq, l
-            _ => Leaf::State(j),
+            Argument::ReferenceV | Argument::AlongQ | Argument::Cotangent => Leaf::State(j),
+            Argument::State
+            | Argument::Input
+            | Argument::Accelerations
+            | Argument::Canonical
+            | Argument::Modes
+            | Argument::Time => unreachable!("it belongs to a scene"),
         };
         let names = self.component_names(argument).into_iter().enumerate();
         let named = |(j, name): (usize, String)| (leaf(j), format!("{}_{name}", argument.name()));

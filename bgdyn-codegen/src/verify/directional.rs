@@ -11,10 +11,10 @@ use crate::random::Random;
 /// A law, its two sides, and the size of their terms.
 pub(super) type DirectionalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
-/// Returns any directions dq, dv and a third one; the first one is the factors of an adjoint as well.
-fn directions(n: usize) -> [Vec<Dd>; 3] {
+/// Returns any directions dq, dv and a third one, and the factors l of an adjoint.
+fn directions(n: usize) -> [Vec<Dd>; 4] {
     let mut random = Random(37);
-    [(); 3].map(|()| {
+    [(); 4].map(|()| {
         let number = |_| Dd::from_f64(2.0 * random.signed());
         (0..n).map(number).collect()
     })
@@ -22,16 +22,16 @@ fn directions(n: usize) -> [Vec<Dd>; 3] {
 
 /// Returns the state with directions, as a method reads them.
 pub(super) fn extended(of: Directional, at: &Inputs<Dd>) -> Inputs<Dd> {
-    let [x, modes, third] = directions(at.v.len());
+    let [first, modes, third, factors] = directions(at.v.len());
     let mut at = Inputs {
-        x,
+        x: first,
         modes,
         ..at.clone()
     };
     match of {
         Directional::InverseAlong => at.u = third,
         Directional::ForwardAlong => at.a = third,
-        Directional::InverseAdjoint | Directional::ForwardAdjoint => {}
+        Directional::InverseAdjoint | Directional::ForwardAdjoint => at.x = factors,
     }
     at
 }
@@ -45,7 +45,8 @@ pub(super) fn law(
     let at = &state.at;
     let n = at.v.len();
     let all = directions(n);
-    let [first, second, third] = all.each_ref().map(|x| &x[..]);
+    let [first, second, third, factors] = all.each_ref().map(|x| &x[..]);
+    let along_all = |found: &[Dd]| vec![dot(found, &all[..3].concat())];
     let rates = literal.prepared.graph.rates_along(&at.q, first);
     let efforts_along = |a: (&[Dd], &[Dd])| literal.effort_rates(at, &rates, second, a);
     let accelerations = |u: &[Dd]| {
@@ -55,7 +56,6 @@ pub(super) fn law(
         };
         Some(literal.form(Method::ForwardDynamics)?.evaluate(inputs).0)
     };
-    // The efforts and accelerations move along random directions; factors l are other numbers.
     let forward = || {
         let solution = accelerations(&at.u)?;
         let moved = efforts_along((&solution, &state.zero()));
@@ -72,24 +72,18 @@ pub(super) fn law(
             let text = "dq̈ = M⁻¹ (dτ − ∂P/∂q dq − ∂P/∂v dv) at q̈";
             (text, found.to_vec(), forward()?, 0.0)
         }
-        // l is the same as dq here.
         Directional::InverseAdjoint => {
-            let expected = dot(first, &efforts_along((&at.a, third)));
+            let expected = dot(factors, &efforts_along((&at.a, third)));
             let text = "(∂P/∂q)ᵀ l · dq + (∂P/∂v)ᵀ l · dv + (M l) · da = l · dτ";
             let size = size.max(largest(found));
-            (text, vec![dot(found, &all.concat())], vec![expected], size)
+            (text, along_all(found), vec![expected], size)
         }
         Directional::ForwardAdjoint => {
             let along = forward()?;
             let found = &found[n..];
             let text = "(∂q̈/∂q)ᵀ l · dq + (∂q̈/∂v)ᵀ l · dv + (M⁻¹ l) · dτ = l · dq̈";
             let size = largest(found).max(largest(&along));
-            (
-                text,
-                vec![dot(found, &all.concat())],
-                vec![dot(first, &along)],
-                size,
-            )
+            (text, along_all(found), vec![dot(factors, &along)], size)
         }
     })
 }

@@ -5,7 +5,7 @@ use bgdyn_runtime::Dd;
 use super::compare::{largest, minus, plus, times};
 use crate::expr::Inputs;
 use crate::function::Function;
-use crate::method::{Method, Operational};
+use crate::method::{Method, Operational, Shape};
 use crate::random::Random;
 
 /// A law, its two sides, and the size of their terms.
@@ -83,11 +83,10 @@ pub(super) fn law(
         let number = |_| Dd::from_f64(random.signed());
         (0..n).map(number).collect()
     };
-    let entries = match found.len() - n {
-        _ if of.site().is_none() => crate::method::Entries::Joints.spread(entries, n),
-        21 => crate::method::Entries::Task.spread(entries, n),
-        _ => entries.to_vec(),
+    let Shape::Checked(shape) = Method::Operational(of).shape() else {
+        return None;
     };
+    let entries = shape.spread(entries, n);
     Some(match of {
         Operational::InverseMassMatrix => {
             let f = any(n);

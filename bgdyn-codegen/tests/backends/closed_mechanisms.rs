@@ -47,7 +47,7 @@ fn whole_model(path: &str) -> Model {
     let size = closed.map_or(graph.coordinates.len(), |c| c.tree.coordinates.len());
     let slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
     // The functions of other frames are alike.
-    let repeats = |m: &Method| matches!(m, Method::Operational(of) if of.site() > Some(SiteId(0)));
+    let repeats = |m: &Method| m.is_derived() && m.site() > Some(SiteId(0));
     let wanted = |m: &Method| (size <= SMALL || !slow(m)) && !repeats(m);
     let methods = Method::possible_of(&graph).into_iter().filter(wanted);
     let methods = methods.map(|m| m.name_in(closed, &graph.sites)).collect();

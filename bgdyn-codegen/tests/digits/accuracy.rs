@@ -49,6 +49,17 @@ fn heavy(last: f64) -> Robot {
     crate::common::hard::robot(&Chain::of_ratio(6, last))
 }
 
+/// Errors are measured at states with every argument.
+#[test]
+fn every_method_has_a_most_accurate_function() {
+    let robot = crate::common::golden::robot("scara4");
+    let methods = Method::possible_of(robot.graph);
+    assert!(methods.len() > 30);
+    for method in methods {
+        assert!(accurate(&robot, method).output_count() > 0, "{method:?}");
+    }
+}
+
 /// A gimbal with light rings: if its first and last axis coincide, only the rings have inertia.
 fn gimbal(ring: &str) -> Robot {
     let ring = format!("inertia: {{ xx: {ring}, yy: {ring}, zz: {ring} }}");

@@ -2,11 +2,12 @@
 //! every type, loops and constraints; a singular posture is an error with a direction; counts of operations.
 
 use bgdyn_codegen::bond_graph::SiteId;
-use bgdyn_codegen::expr::Inputs;
+use bgdyn_codegen::expr::{Builder, Graph, Inputs, Leaf, copy_into};
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::method::{Directional, Method, Operational, Shape};
 use bgdyn_codegen::options::Options;
-use bgdyn_runtime::{Cause, TASKS};
+use bgdyn_codegen::verify::check_functions;
+use bgdyn_runtime::{Cause, Dd, TASKS};
 
 use crate::checked::{checked, every_turned_sign_is_refused, of_folder, quick_loops};
 use crate::common::random::Draft;
@@ -109,7 +110,7 @@ fn turned_signs_are_refused() {
     });
 }
 
-/// A stretched arm cannot move its hand outwards: Λ has no result, and the error names a direction. Λ⁻¹ has one.
+/// A stretched wrist turns in two directions only: Λ has no result, and the error names a direction. Λ⁻¹ has one.
 #[test]
 fn a_singular_posture_names_a_direction() {
     let robot = golden::robot("puma560");
@@ -137,7 +138,29 @@ fn a_frame_of_four_joints_has_an_inverse_inertia_only() {
     let named = |prefix: &str| Method::named(robot.graph, &format!("{prefix}_{last}"));
     assert!(named("operational_inverse").is_ok());
     let why = named("operational_inertia").expect_err("too few joints");
-    assert!(why.contains("by 4 velocities"), "{why}");
+    assert!(why.contains("by 4 of its velocities"), "{why}");
+}
+
+/// ∂P/∂q l is no (∂P/∂q)ᵀ l.
+#[test]
+fn a_transposed_adjoint_is_refused() {
+    let robot = golden::robot("puma560");
+    let emitted = |of| robot.emitted(Method::Directional(of));
+    let along = emitted(Directional::InverseAlong);
+    let mut wrong = emitted(Directional::InverseAdjoint);
+    let b = Builder::from(wrong.graph.clone());
+    // The direction of the positions has the leaves of the factors.
+    let only_positions = |g: &mut Graph, leaf| match leaf {
+        Leaf::Mode(_) | Leaf::Input(_) => Some(g.constant(Dd::ZERO)),
+        _ => None,
+    };
+    let products =
+        b.with_graph(|g| copy_into(g, &along.graph, &along.blocks[0].outputs, only_positions));
+    let right = check_functions("adjoint", robot.graph, std::slice::from_ref(&wrong));
+    assert!(right.is_empty());
+    wrong.blocks[0].outputs[..robot.nv()].copy_from_slice(&products);
+    wrong.graph = b.into_graph();
+    assert_eq!(check_functions("adjoint", robot.graph, &[wrong]).len(), 1);
 }
 
 /// Multiplications and additions by robot, before loops and blocks: M⁻¹; Λ⁻¹, Λ, J̄ and μ of the last link; along a

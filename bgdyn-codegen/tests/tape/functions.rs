@@ -26,12 +26,8 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
         Method::JointReactions,
     ];
     let methods = Method::possible_of(&graph).into_iter().filter(|method| {
-        let operational = match method {
-            Method::Operational(of) => of.site(),
-            _ => None,
-        };
-        let first = method.site().is_none_or(|site| site.0 < SITES)
-            && operational.is_none_or(|site| site.0 == 0);
+        let sites = if method.is_derived() { 1 } else { SITES };
+        let first = method.site().is_none_or(|site| site.0 < sites);
         let is_slow = slow.contains(method) || method.is_derived();
         // They have formulations of their own.
         let chosen = formulation.is_none() || !method.is_derived();

@@ -140,6 +140,9 @@ fn causes(function: &Function, context: &ModelContext<'_>) -> Vec<String> {
         _ => "pivot_names",
     };
     let what = match method {
+        _ if method.inverts_task() => {
+            "a joint whose pivot vanishes where the mass matrix is singular, or a direction in which the frame cannot be accelerated"
+        }
         Method::ActuatedInverse(_) => "a joint that does not follow the actuated ones",
         _ => "a joint whose pivot vanishes where the mass matrix is singular",
     };
@@ -148,6 +151,10 @@ fn causes(function: &Function, context: &ModelContext<'_>) -> Vec<String> {
             "Returns 0; the number, from 1, of the cause among {}: {what},",
             context.style.global(names)
         ),
-        "or a loop or contact at a singular position or beyond one; or -1 where the result is not finite.".into(),
+        match context.model.bond_graph.closed {
+            Some(_) => "or a loop or contact at a singular position or beyond one; or -1 where the result is not finite.",
+            None => "or -1 where the result is not finite.",
+        }
+        .into(),
     ]
 }

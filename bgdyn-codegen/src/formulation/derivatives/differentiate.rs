@@ -57,6 +57,20 @@ pub(super) fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signe
         .collect()
 }
 
+/// Returns the rates of all positions along velocities: with loops along those of the open tree, S v.
+pub(super) fn rates_along(b: &Builder, graph: &BondGraph, v: &[Expr<'_>]) -> Vec<Signed> {
+    let Some(closed) = &graph.closed else {
+        return tangents(b, graph, v);
+    };
+    let q: Vec<Expr<'_>> = (0..graph.positions.len())
+        .map(|p| b.leaf(Leaf::Position(p)))
+        .collect();
+    let (form, closure) = (LoopForm::default(), &closed.closure);
+    let rows = loop_rows(b, closure, &q, form);
+    let map = VelocityMap::new(b, closure, (rows, form), None);
+    tangents(b, &closed.tree, &map.velocities(v))
+}
+
 /// Returns, for each velocity k of the open tree, the rates of all positions along e_k − J⁺ J e_k, with the rows J of
 /// the conditions on positions and the least change J⁺ of the velocities along which they close.
 fn closed_tangents(b: &Builder, closed: &ClosedTree, q: &[Expr<'_>]) -> Vec<Vec<Signed>> {

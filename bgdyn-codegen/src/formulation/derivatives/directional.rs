@@ -11,7 +11,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{finish, position_tangents, reopen};
+use super::differentiate::{finish, position_tangents, rates_along, reopen};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, adjoints, copy_into};
 use crate::formulation::slopes::along_efforts;
@@ -52,17 +52,21 @@ impl Formulation for AlongDirections {
         };
         let graph = prepared.graph;
         let inverse = prepared.candidates(Method::InverseDynamics);
-        let inverse = inverse.accepted.iter().map(|candidate| &candidate.plain);
+        let mut inverse = inverse.accepted.iter().map(|candidate| &candidate.plain);
         if !of.is_forward() {
             return cheapest(inverse.map(|from| of_inverse(graph, of, from)));
         }
         let forward = prepared.candidates(Method::ForwardDynamics);
         let forward = forward.accepted.iter().chain(&forward.borderline);
-        let inverse: Vec<&Function> = inverse.collect();
-        cheapest(forward.flat_map(|forward| {
-            let pairs = inverse.iter();
-            pairs.map(move |inverse| of_forward(graph, of, (inverse, &forward.plain)))
-        }))
+        let forward: Vec<&Function> = forward.map(|candidate| &candidate.plain).collect();
+        // Each of forward dynamics with the cheapest of inverse dynamics, and the cheapest with each other one.
+        let first = inverse.next()?;
+        let pairs = forward.iter().map(|forward| (first, *forward));
+        let others = forward
+            .first()
+            .map(|forward| inverse.map(|inverse| (inverse, *forward)));
+        let pairs = pairs.chain(others.into_iter().flatten());
+        cheapest(pairs.map(|pair| of_forward(graph, of, pair)))
     }
 }
 
@@ -72,17 +76,17 @@ type AlongA = fn(usize) -> Leaf;
 /// Returns a method of inverse dynamics from its expressions.
 fn of_inverse(graph: &BondGraph, of: Directional, from: &Function) -> Function {
     let (b, efforts) = reopen(from);
-    let n = graph.coordinates.len();
     let outputs = match of {
         Directional::InverseAlong => {
-            let rates = rates_along(&b, graph);
+            let rates = rates_along(&b, graph, &first_direction(&b, graph));
             along(&b, &efforts, &rates, Some(Leaf::Input))
         }
-        _ => {
-            let l = (0..n)
-                .map(|j| b.leaf(Leaf::State(j)).signed())
-                .collect::<Vec<_>>();
+        Directional::InverseAdjoint => {
+            let l = signed(&first_direction(&b, graph));
             adjoint(&b, graph, (&efforts, &l)).concat()
+        }
+        Directional::ForwardAlong | Directional::ForwardAdjoint => {
+            unreachable!("they are methods of forward dynamics")
         }
     };
     finish(graph, Method::Directional(of), from, b, outputs)
@@ -94,7 +98,6 @@ fn of_forward(
     of: Directional,
     (inverse, forward): (&Function, &Function),
 ) -> Function {
-    let n = graph.coordinates.len();
     let (b, accelerations) = reopen(forward);
     // The efforts of inverse dynamics at the accelerations; these are independent of the direction.
     let efforts =
@@ -109,7 +112,7 @@ fn of_forward(
     };
     let outputs = match of {
         Directional::ForwardAlong => {
-            let rates = rates_along(&b, graph);
+            let rates = rates_along(&b, graph, &first_direction(&b, graph));
             let moved = at_accelerations(&along(&b, &efforts, &rates, None));
             let drive: Vec<Signed> = moved
                 .iter()
@@ -118,32 +121,30 @@ fn of_forward(
                 .collect();
             along_efforts(&b, &accelerations, &drive)
         }
-        _ => {
-            let l: Vec<Signed> = (0..n).map(|j| b.leaf(Leaf::State(j)).signed()).collect();
+        Directional::ForwardAdjoint => {
+            let l = signed(&first_direction(&b, graph));
             let solved = along_efforts(&b, &accelerations, &l);
             let minus: Vec<Signed> = solved.iter().map(|&e| (-b.expr(e)).signed()).collect();
             let [by_q, by_v, _] = adjoint(&b, graph, (&efforts, &minus));
-            let mut outputs = accelerations.clone();
-            outputs.extend(at_accelerations(&by_q));
-            outputs.extend(at_accelerations(&by_v));
+            // The result is finite if q̈ and M⁻¹ l are.
+            let both = accelerations.iter().zip(&solved);
+            let both = both.map(|(&x, &y)| (b.expr(x) + b.expr(y)).signed());
+            let mut outputs: Vec<Signed> = both.collect();
+            outputs.extend(at_accelerations(&[by_q, by_v].concat()));
             outputs.extend(solved);
             outputs
+        }
+        Directional::InverseAlong | Directional::InverseAdjoint => {
+            unreachable!("they are methods of inverse dynamics")
         }
     };
     finish(graph, Method::Directional(of), forward, b, outputs)
 }
 
-/// Returns the rates of the positions for the velocities dq of the arguments.
-fn rates_along(b: &Builder, graph: &BondGraph) -> Vec<Signed> {
-    let tangents = position_tangents(b, graph);
-    let rate = |p: usize| {
-        let terms = tangents.iter().enumerate();
-        let sum = terms.fold(b.zero(), |sum: Expr<'_>, (j, tangent)| {
-            sum + b.expr(tangent[p]) * b.leaf(Leaf::State(j))
-        });
-        sum.signed()
-    };
-    (0..graph.positions.len()).map(rate).collect()
+/// Returns the leaves of the first direction, which are the factors of an adjoint as well.
+fn first_direction<'g>(b: &'g Builder, graph: &BondGraph) -> Vec<Expr<'g>> {
+    let n = graph.coordinates.len();
+    (0..n).map(|j| b.leaf(Leaf::State(j))).collect()
 }
 
 /// Returns the derivatives of efforts along the arguments dq and dv, and along da if there is a leaf for it.
@@ -188,4 +189,8 @@ fn adjoint(
         (0..n).map(|j| of(Leaf::Velocity(j))).collect(),
         (0..n).map(|j| of(Leaf::Acceleration(j))).collect(),
     ]
+}
+
+fn signed(all: &[Expr<'_>]) -> Vec<Signed> {
+    all.iter().map(|e| e.signed()).collect()
 }

@@ -1,11 +1,9 @@
 //! The rate of the mass matrix along the velocities: Ṁ = C + Cᵀ, or M differentiated along v.
 
-use super::differentiate::{finish, reopen};
+use super::differentiate::{finish, rates_along, reopen};
 use crate::bond_graph::BondGraph;
-use crate::expr::{Builder, Expr, Leaf, Signed, Tangent};
-use crate::formulation::joint_motion::{along, tangents};
-use crate::formulation::loop_rows::{LoopForm, loop_rows};
-use crate::formulation::velocity_map::VelocityMap;
+use crate::expr::{Expr, Leaf, Signed, Tangent};
+use crate::formulation::joint_motion::along;
 use crate::formulation::{Formulation, Prepared};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
@@ -83,27 +81,14 @@ fn symmetric_part(graph: &BondGraph, coriolis: &Function) -> Function {
 /// Returns the derivative of M along v, the lower triangle.
 fn differentiated(graph: &BondGraph, mass: &Function) -> Function {
     let (b, entries) = reopen(mass);
-    let rates = position_rates(&b, graph);
+    let v: Vec<Expr<'_>> = (0..graph.coordinates.len())
+        .map(|j| b.leaf(Leaf::Velocity(j)))
+        .collect();
+    let rates = rates_along(&b, graph, &v);
     let mut tangent = Tangent::new(along(rates));
     let outputs = entries
         .iter()
         .map(|&e| b.with_graph(|g| tangent.of(g, e)))
         .collect();
     finish(graph, Method::MassMatrixRate, mass, b, outputs)
-}
-
-/// Returns the rates of all positions for the velocities: with loops for those of the open tree, S v.
-fn position_rates(b: &Builder, graph: &BondGraph) -> Vec<Signed> {
-    let leaves = |n: usize, leaf: fn(usize) -> Leaf| -> Vec<Expr<'_>> {
-        (0..n).map(|k| b.leaf(leaf(k))).collect()
-    };
-    let v = leaves(graph.coordinates.len(), Leaf::Velocity);
-    let Some(closed) = &graph.closed else {
-        return tangents(b, graph, &v);
-    };
-    let q = leaves(graph.positions.len(), Leaf::Position);
-    let (form, closure) = (LoopForm::default(), &closed.closure);
-    let rows = loop_rows(b, closure, &q, form);
-    let map = VelocityMap::new(b, closure, (rows, form), None);
-    tangents(b, &closed.tree, &map.velocities(&v))
 }

@@ -5,7 +5,7 @@
 
 use super::task::{ROWS, Task, copied, dot, results};
 use crate::expr::{Builder, Expr};
-use crate::formulation::solve::{ARTICULATED, PivotFactor};
+use crate::formulation::solve::PivotFactor;
 use crate::formulation::{Formulation, Prepared};
 use crate::function::{Function, in_triangle};
 use crate::method::{Method, Operational};
@@ -45,18 +45,19 @@ impl Formulation for Factored {
         all
     }
 
-    /// `None` where forward dynamics by these factors does not meet the error bounds, and with loops, whose pivots only
-    /// forward dynamics checks.
+    /// Only forward dynamics checks the pivots of loops.
+    fn serves_loops(&self) -> bool {
+        false
+    }
+
+    /// `None` where forward dynamics by these factors does not meet the error bounds.
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let Method::Operational(of) = method else {
             return None;
         };
         let forward = prepared.candidates(Method::ForwardDynamics);
-        let by_factors = |f: &Function| !f.formulation.starts_with(ARTICULATED);
         let mut accepted = forward.accepted.iter();
-        if prepared.graph.closed.is_some() || !accepted.any(|c| by_factors(&c.plain)) {
-            return None;
-        }
+        accepted.find(|candidate| candidate.factors_mass)?;
         let mass = prepared.candidates(Method::MassMatrix);
         let mass = mass.accepted.iter();
         cheapest(mass.filter_map(|mass| from(prepared, of, &mass.plain)))

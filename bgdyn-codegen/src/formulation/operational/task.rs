@@ -6,10 +6,10 @@ use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr};
 use crate::formulation::solve;
 use crate::function::{Function, in_triangle};
-use crate::method::Operational;
+use crate::method::{Operational, TASK_DIRECTIONS};
 
 /// The number of rows of a task.
-pub(super) const ROWS: usize = 6;
+pub(super) const ROWS: usize = TASK_DIRECTIONS.len();
 
 /// What the results are made of; each is called for if it is needed.
 pub(super) struct Task<'a, 'g> {

@@ -40,7 +40,7 @@ impl Formulation for Recursion {
         if !makes(graph, method) {
             return None;
         }
-        if let Some(site) = method.site() {
+        if let Some(site) = method.placed_site() {
             return Some(kinematics::function(graph, geometry, method, site));
         }
         let best = best_plans(prepared, method)?;

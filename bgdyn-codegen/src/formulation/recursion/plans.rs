@@ -19,7 +19,7 @@ const SMALL: usize = 4;
 pub(super) fn best_plans(prepared: &Prepared<'_>, method: Method) -> Option<BestPlan> {
     match method {
         Method::ForwardDynamicsDerivatives => None,
-        method if method.site().is_some() => None,
+        method if method.placed_site().is_some() => None,
         _ => Some(cheapest_plans(prepared, method)),
     }
 }

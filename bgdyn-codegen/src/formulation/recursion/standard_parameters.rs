@@ -28,7 +28,7 @@ impl Formulation for OwnInertia {
     }
 
     fn knows(&self, method: Method) -> bool {
-        method.site().is_none() && !method.is_derived()
+        method.placed_site().is_none() && !method.is_derived()
     }
 
     fn offer(&self, _: &Prepared<'_>, _: Method) -> Offer {

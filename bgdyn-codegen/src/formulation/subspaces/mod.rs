@@ -69,7 +69,9 @@ impl Formulation for Subspaces {
         let outputs: Vec<Signed> = {
             let x = Arguments::new(&b, graph, method);
             let outputs = match method {
-                method if method.site().is_some() => placed_sites::outputs(&b, graph, method, &x)?,
+                method if method.placed_site().is_some() => {
+                    placed_sites::outputs(&b, graph, method, &x)?
+                }
                 method => outputs(&b, graph, method, &x)?,
             };
             outputs.into_iter().map(Expr::signed).collect()

@@ -30,7 +30,6 @@ use super::{expressions, inverse_dynamics};
 use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{self, Builder, Cost, Graph, Signed};
 use crate::formulation::arguments::Arguments;
-use crate::formulation::solve::ARTICULATED;
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::Method;
@@ -49,7 +48,7 @@ pub(in crate::formulation) enum Articulated {
 impl Formulation for Articulated {
     fn name(&self) -> &'static str {
         match self {
-            Articulated::Own => ARTICULATED,
+            Articulated::Own => "articulated",
             Articulated::Base => "articulated_base",
         }
     }
@@ -59,6 +58,10 @@ impl Formulation for Articulated {
             Articulated::Own => "articulated bodies: small pivots keep their digits",
             Articulated::Base => "articulated bodies over base parameters",
         }
+    }
+
+    fn factors_mass(&self) -> bool {
+        false
     }
 
     fn unserved<'a>(&self, graph: &'a Multibody) -> Option<&'a LinkFrame> {

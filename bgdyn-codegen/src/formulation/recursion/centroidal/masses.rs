@@ -47,7 +47,7 @@ impl<'g> Masses<'g> {
             if frame.parent.is_some() {
                 return;
             }
-            // What base parameters moved to the base rests there, on the axes of the joint.
+            // The first moment that base parameters moved to the base is constant there, on the axes of the joint.
             let twist = frame.twist.map(|x| b.constant(x));
             let on_base = twist.transpose() * frames.on_base[body].map(|h| h * plan.unit);
             let own = &geometry.bodies[body];

@@ -34,7 +34,7 @@ use crate::method::Centroidal;
 use masses::Masses;
 
 /// Returns the bodies for the centre of mass and the momentum about it. The efforts of a body that moves in a plane and
-/// along its normal do not depend on where its mass is along the normal; they do.
+/// along its normal do not depend on where its mass is along the normal; the centre of mass and the momentum depend on it.
 pub(in crate::formulation) fn geometry_of_momenta(graph: &Multibody) -> Geometry {
     let mut made = geometry(graph);
     made.bodies.iter_mut().for_each(|body| body.planar = false);
