@@ -29,10 +29,16 @@ pub(super) fn most_accurate(
     method: Method,
     asked: Option<&'static dyn Formulation>,
 ) -> Option<Function> {
-    let asked = asked.filter(|f| f.knows(method));
+    if let Method::Regressor(_) = method {
+        // They have one formulation, whatever the others are.
+        let function = Choice::by_elimination(graph, asked).function(method);
+        return function.map(|function| (*function).clone());
+    }
+    let knows = |f: &dyn Formulation| f.knows(method) || method.is_derived();
+    let asked = asked.filter(|f| knows(*f));
     let tried = FORMULATIONS.into_iter().filter(|f| match asked {
         Some(asked) => f.name() == asked.name(),
-        None => f.knows(method) && f.serves(computed(graph)) && is_affordable(graph, method, *f),
+        None => knows(*f) && f.serves(computed(graph)) && is_affordable(graph, method, *f),
     });
     let candidates: Vec<Function> = tried.flat_map(|f| variants(graph, method, f)).collect();
     let exact = exact_results(&candidates, graph);
@@ -49,8 +55,8 @@ fn computed(graph: &BondGraph) -> &BondGraph {
 
 fn is_affordable(graph: &BondGraph, method: Method, formulation: &dyn Formulation) -> bool {
     let most = match method {
-        Method::CoriolisMatrix => MAX_LITERAL_DERIVED,
-        method if method.differentiates_dynamics() => MAX_LITERAL_DERIVED,
+        Method::CoriolisMatrix | Method::MassMatrixRate => MAX_LITERAL_DERIVED,
+        method if method.differentiates_dynamics() || method.is_derived() => MAX_LITERAL_DERIVED,
         _ => MAX_LITERAL,
     };
     formulation.name() != LITERAL || computed(graph).coordinates.len() <= most
@@ -68,6 +74,9 @@ fn variants(
         Method::CoriolisMatrix
         | Method::InverseDynamicsDerivatives
         | Method::InverseDerivativesByTree => choice.function(method).map(|f| (*f).clone()),
+        // They combine functions of the formulation.
+        Method::MassMatrixRate => choice.function(method).map(|f| (*f).clone()),
+        method if method.is_derived() => choice.function(method).map(|f| (*f).clone()),
         _ if graph.closed.is_some() => choice.function(method).map(|f| (*f).clone()),
         _ => choice.asked_plain(method),
     };

@@ -3,7 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use super::sample_states::{near_singular, random};
-use super::tree_states::{of_method, rounded, takes_others};
+use super::tree_states::{add_further_arguments, of_method, rounded, takes_others};
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -45,6 +45,11 @@ pub(crate) fn exact_results(ways: &[Function], graph: &BondGraph) -> Vec<ExactRe
     let mut states = random(graph);
     if ways.iter().any(|way| way.shape().checked()) {
         states.extend(near_singular(graph));
+    }
+    if let Some(first) = ways.first() {
+        for (state, seed) in states.iter_mut().zip(1..) {
+            add_further_arguments(graph, first.method, state, seed);
+        }
     }
     let of_tree = ways.iter().find(|way| takes_others(way.method));
     if let Some(way) = of_tree {

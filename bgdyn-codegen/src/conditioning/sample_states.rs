@@ -16,7 +16,6 @@ use crate::formulation::geometry::{Body, geometry};
 use crate::math::{Vec3, angle_of};
 use crate::mechanism::closure::Closure;
 use crate::mechanism::{BaseMotion, Motion, Value};
-use crate::method::PARAMETERS_PER_BODY;
 use crate::random::Random;
 
 /// Number of random states.
@@ -175,21 +174,11 @@ fn random_state(graph: &BondGraph, seed: u64) -> Inputs<f64> {
             parameters[p.0] = random.signed() * size;
         }
     }
-    // Other velocities, directions and parameters of bodies. They are drawn last: efforts and run-time parameters are the
-    // same without them.
-    let mut more = |n: usize| -> Vec<f64> { (0..n).map(|_| 2.0 * random.signed()).collect() };
-    let (x, modes) = (more(nv), more(nv));
-    let mut u = u;
-    u.extend(more(
-        (PARAMETERS_PER_BODY * graph.moving_links().len()).saturating_sub(nv),
-    ));
     Inputs {
         q,
         v,
         a,
         u,
-        x,
-        modes,
         parameters,
         ..Inputs::default()
     }

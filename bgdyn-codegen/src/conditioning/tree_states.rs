@@ -1,14 +1,36 @@
-//! The arguments of methods that take velocities of the open tree of a mechanism with loops.
+//! The arguments of methods that take others than most: velocities of the open tree of a mechanism with loops, directions,
+//! parameters of bodies.
 
 use bgdyn_runtime::Dd;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::Inputs;
-use crate::method::Method;
+use crate::method::{Argument, Method, PARAMETERS_PER_BODY};
+use crate::random::Random;
 
 /// Returns whether a method takes velocities of the open tree, or efforts of actuated joints.
 pub(crate) fn takes_others(method: Method) -> bool {
     method.of_tree() || method.of_actuated_joints()
+}
+
+/// Adds what some methods read beside positions, velocities, accelerations and efforts: other velocities, directions,
+/// parameters of bodies.
+pub(crate) fn add_further_arguments(
+    graph: &BondGraph,
+    method: Method,
+    state: &mut Inputs<f64>,
+    seed: u64,
+) {
+    if !method.is_derived() {
+        return;
+    }
+    let mut random = Random(seed);
+    let mut some = |n: usize| -> Vec<f64> { (0..n).map(|_| 2.0 * random.signed()).collect() };
+    let n = state.v.len();
+    (state.x, state.modes) = (some(n), some(n));
+    if method.arguments().contains(&Argument::BodyParameters) {
+        state.u = some(PARAMETERS_PER_BODY * graph.moving_links().len());
+    }
 }
 
 /// Returns the state with the velocities and efforts of all joints of the open tree, if the method takes these: the
