@@ -32,7 +32,7 @@ pub(crate) fn missing_effects(
             continue;
         }
         let message = format!(
-            "{what}, so that the limit of effort cannot be checked of {}",
+            "{what}, so that limits of effort cannot be checked: joints {}",
             limited.join(", ")
         );
         faults.push(LogFault::whole("effort-incomplete", message).with_help(
