@@ -123,11 +123,14 @@ fn effects_that_efforts_do_not_contain_are_told() {
     for text in wanted {
         assert!(told.contains(text), "{told}");
     }
-    // Between links all joints are concerned.
-    let between = "  coil: { type: spring, between: [world, bob], stiffness: 5 }\n";
-    let spec = swings(folder, BOUNDED, between);
+    // At a link all joints are concerned.
+    let drag = "  air: { type: drag, at: bob, linear: 0.5 }\n";
+    let spec = swings(folder, BOUNDED, drag);
     let told = bgdyn(&["excite", &spec]).bad_input();
-    assert!(told.contains("[effort-incomplete]"), "{told}");
+    assert!(
+        told.contains("`air` (drag)") && told.contains("joints swing"),
+        "{told}"
+    );
     // Without a limit a remark; which limits of position are missing, too.
     let spec = swings(folder, BOUNDED, &spring("nod"));
     let said = bgdyn(&[&["excite", &spec], &SEARCH[..]].concat()).good();

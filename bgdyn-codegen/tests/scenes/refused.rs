@@ -200,10 +200,10 @@ fn every_refused_scene_has_a_stand_in() {
 #[test]
 fn a_sum_is_called_what_it_contains() {
     let mechanism =
-        format!("{MECHANISM}constraints:\n  motor: {{ type: prescribed, joint: wrist }}\n");
+        format!("{MECHANISM}constraints:\n  motor: {{ type: prescribed, joint: elbow }}\n");
     let told = |course: &str| {
         let text = format!(
-            "scene: 1\nmechanism: arm.yaml\neffects: [inertia]\ninputs:\n  wrist: {course}\n"
+            "scene: 1\nmechanism: arm.yaml\neffects: [inertia]\ninputs:\n  elbow: {course}\n"
         );
         match try_scene(&text, &mechanism) {
             Err(refusal) => told(&refusal, &text),
