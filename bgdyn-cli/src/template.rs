@@ -27,3 +27,8 @@ pub(crate) fn filled(template: &str, parts: &[(&str, &str)]) -> String {
     }
     page + rest
 }
+
+/// Returns a number with five digits, as many as a plot shows.
+pub(crate) fn rounded(x: f64) -> f64 {
+    format!("{x:.4e}").parse().unwrap_or(x)
+}

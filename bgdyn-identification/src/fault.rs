@@ -104,6 +104,6 @@ impl LogFaults {
 }
 
 /// Returns a number with four digits.
-pub(crate) fn short(x: f64) -> String {
+pub fn short(x: f64) -> String {
     Digits::new(x, 4).to_string()
 }

@@ -10,6 +10,8 @@ pub const PARAMETER_NAMES: [&str; BODY_PARAMETERS] = [
 ];
 /// Names of the columns of a joint, in order.
 pub const JOINT_COLUMNS: [&str; 4] = ["rotor", "viscous", "coulomb", "offset"];
+/// Coulomb friction in [`JOINT_COLUMNS`].
+pub const COULOMB: usize = 2;
 
 /// m, m c, and the tensor about the origin: the effort is linear in them.
 pub type Parameters = SVector<f64, BODY_PARAMETERS>;

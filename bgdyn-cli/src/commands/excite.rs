@@ -2,23 +2,25 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, anyhow, bail};
+use anyhow::{Result, anyhow, bail};
 use bgdyn_codegen::bond_graph;
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::machine::Machine;
-use bgdyn_identification::excite::{
-    Effort, Excitation, JointLimits, Keep, Noise, Request, efforts_of_file, excite,
-};
+use bgdyn_identification::excite::{Effort, Keep, Noise, Request, efforts_of_file, excite};
 use bgdyn_identification::log::{ColumnNames, Log, quality, unsound};
 use bgdyn_identification::{LogFault, Model};
 use clap::{Args, ValueEnum};
 
-use super::logs::{Parts, column_names, machine, read_log};
-use crate::excite::{Asked, FramePoints, joint_limits, json, keep, page, scene, summary, table};
-use crate::output::{print, tell};
+use super::logs::{Parts, column_names, machine, read_log, refusal};
+use crate::excite::{
+    Asked, FramePoints, Plane, Planned, check, joint_limits, json, missing_effects, page, scene,
+    summary, table, write,
+};
+use crate::identify::of_each_joint;
+use crate::output::print;
 use crate::quantity::positive;
 use crate::simulate::progress::Progress;
-use crate::spec_file::{SpecFile, shown};
+use crate::spec_file::SpecFile;
 use crate::usage::Usage;
 
 /// Plan a motion from which `identify` finds masses, friction and rotors
@@ -67,10 +69,10 @@ pub(crate) struct Excite {
     /// Noise of the efforts: in proportion to their limits, or equal for all joints
     #[arg(long, value_enum, value_name = "NOISE", default_value_t)]
     noise: NoiseOption,
-    /// Random motions from which the best is taken
+    /// Number of random motions
     #[arg(long, value_name = "N", default_value = "60")]
     starts: usize,
-    /// So many of the best of them are improved
+    /// Number of the best ones that are improved
     #[arg(long, value_name = "N", default_value = "3")]
     ascents: usize,
     /// Steps of an ascent at most
@@ -94,16 +96,17 @@ enum NoiseOption {
     Equal,
 }
 
-/// What was asked for and found.
-struct Plan<'a> {
-    machine: &'a Machine,
-    model: &'a Model<'a>,
-    limits: &'a [JointLimits],
-    keeps: &'a [Keep],
-    found: &'a Excitation,
-    summary: String,
-    rate: f64,
+impl From<NoiseOption> for Noise {
+    fn from(noise: NoiseOption) -> Self {
+        match noise {
+            NoiseOption::Relative => Noise::Relative,
+            NoiseOption::Equal => Noise::Equal,
+        }
+    }
 }
+
+/// Rows of the table at most.
+const MOST_ROWS: f64 = 1e6;
 
 impl Excite {
     pub(crate) fn run(self) -> Result<()> {
@@ -114,64 +117,75 @@ impl Excite {
             self.acceleration.as_deref(),
         );
         let asked = asked.map_err(Usage)?;
+        let planes = self.planes()?;
         let wanted = self.parts.wanted()?;
         let names = column_names(self.columns.as_deref())?;
         let file = SpecFile::open(&self.spec)?;
         let (machine, identified) = machine(&file, &wanted)?;
         let model = identified.model();
         let mut points = FramePoints::default();
-        let keeps = self.keeps(&machine, &mut points);
-        let limits =
-            joint_limits(&model.joints, &asked).map_err(|faults| refusal(&self.spec, &faults));
-        let prior = self.prior.as_ref();
-        let prior = prior.map(|path| sound_log(path, &model, &names));
         // Faults of all parts, before one stops.
         let mut reasons = Vec::new();
-        let keeps = keeps.map_err(|why| reasons.push(why)).unwrap_or_default();
-        let limits = limits.map_err(|why| reasons.push(why)).ok();
-        let prior = prior.transpose().map_err(|why| reasons.push(why)).ok();
-        let (Some((limits, chosen)), Some(prior), true) = (limits, prior, reasons.is_empty())
+        let mut kept = |why: anyhow::Error| reasons.push(format!("{why:#}"));
+        let keeps = keeps(&planes, &machine, &mut points).map_err(&mut kept);
+        let refused = |faults: Vec<LogFault>| refusal(&self.spec, &faults);
+        let limits = joint_limits(&model.joints, &asked).map_err(refused);
+        let limits = limits.map_err(&mut kept);
+        let effects = of_each_joint(&machine);
+        let missing = missing_effects(&effects, &identified.effects, &model.joints);
+        let missing = missing.map_err(refused).map_err(&mut kept);
+        let prior = self.prior.as_ref();
+        let prior = prior.map(|path| sound_log(path, &model, &names));
+        let prior = prior.transpose().map_err(&mut kept);
+        let targets = self.output.as_ref().map_or(Ok(()), |folder| {
+            let (names, copy) = (file_names(&file.stem), (&file.stem, &file.text));
+            check(folder, &names, (&format!("{}.yaml", copy.0), copy.1))
+        });
+        let targets = targets.map_err(&mut kept);
+        let (Ok(keeps), Ok((limits, mut remarks)), Ok(missing), Ok(prior), Ok(())) =
+            (keeps, limits, missing, prior, targets)
         else {
-            let reasons: Vec<String> = reasons.iter().map(|why| format!("{why:#}")).collect();
             bail!("{}", reasons.join("\nbgdyn: "));
         };
+        remarks.extend(missing);
         let request = Request {
             limits: &limits,
             keeps: &keeps,
             points: &points,
             harmonics: self.harmonics,
             period,
-            effort: Effort {
-                starts: self.starts,
-                ascents: self.ascents,
-                steps: self.steps,
-                seed: self.seed,
-            },
-            noise: match self.noise {
-                NoiseOption::Relative => Noise::Relative,
-                NoiseOption::Equal => Noise::Equal,
-            },
+            effort: self.effort(),
+            noise: self.noise.into(),
             prior: prior.as_ref(),
         };
         let mut progress = Progress::new("planning");
         let found = excite(&model, &request, &mut |share| progress.at(share));
         drop(progress);
-        let found = found.map_err(|faults| refusal(&self.spec, &faults))?;
-        let plan = Plan {
-            machine: &machine,
+        let found = found.map_err(refused)?;
+        let plan = Planned {
             model: &model,
             limits: &limits,
+            margin: asked.margin,
             keeps: &keeps,
-            summary: summary(&model, &limits, &keeps, &found, &chosen),
             found: &found,
-            rate,
+            remarks: &remarks,
         };
         if let Some(folder) = &self.output {
-            write(folder, &file, &plan)?;
+            write(folder, &files(&file, &machine, &plan, rate))?;
         }
         match self.json {
-            true => print(&format!("{:#}\n", json(&model, &limits, &keeps, &found))),
-            false => print(&plan.summary),
+            true => print(&format!("{:#}\n", json(&plan))),
+            false => print(&summary(&plan)),
+        }
+    }
+
+    /// Returns how far the search goes.
+    fn effort(&self) -> Effort {
+        Effort {
+            starts: self.starts,
+            ascents: self.ascents,
+            steps: self.steps,
+            seed: self.seed,
         }
     }
 
@@ -197,59 +211,79 @@ impl Excite {
                 self.rate, self.harmonics, self.period
             )));
         }
+        let rows = rate * period;
+        if rows > MOST_ROWS {
+            bail!(Usage(format!(
+                "`--rate {}`: {rows:.0} rows in {}: write at most {:.0} Hz, for {MOST_ROWS} rows",
+                self.rate,
+                self.period,
+                MOST_ROWS / period
+            )));
+        }
         Ok((period, rate))
     }
 
-    fn keeps(&self, machine: &Machine, points: &mut FramePoints) -> Result<Vec<Keep>> {
-        let graph = bond_graph::build(&machine.mechanism);
-        let read = |text: &String, points: &mut FramePoints| {
-            keep(text, &machine.mechanism, &graph, points)
-                .map_err(|why| format!("`--keep {text}`: {why}"))
-        };
-        let all: Vec<Result<Keep, String>> = self.keep.iter().map(|t| read(t, points)).collect();
-        let faults: Vec<String> = all.iter().filter_map(|k| k.clone().err()).collect();
-        match faults.is_empty() {
-            true => Ok(all.into_iter().flatten().collect()),
-            false => bail!("{}", faults.join("\nbgdyn: ")),
-        }
+    /// Reads the planes.
+    fn planes(&self) -> Result<Vec<Plane>> {
+        let all = self.keep.iter().map(|text| Plane::read(text));
+        Ok(all_or_faults(all).map_err(Usage)?)
     }
 }
 
-/// Writes all files, after all of them are made.
-fn write(folder: &Path, file: &SpecFile, plan: &Plan<'_>) -> Result<()> {
-    let Plan { model, found, .. } = plan;
-    let name = format!("{}_motion", file.stem);
-    let spec = format!("{}.yaml", file.stem);
-    let efforts = |t: f64| efforts_of_file(model, &found.motion.at(t));
-    let json = json(model, plan.limits, plan.keeps, found);
-    let files = [
-        (
-            format!("{name}.csv"),
-            table(&file.stem, model, found, &efforts, plan.rate),
-        ),
-        (format!("{name}.json"), format!("{json:#}\n")),
-        (
-            format!("{name}.scene.yaml"),
-            scene(&spec, plan.machine, model, found),
-        ),
-        (
-            format!("{name}.html"),
-            page::page(&name, model, plan.limits, found, &efforts, &plan.summary),
-        ),
-        (spec, file.text.clone()),
-    ];
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("{} cannot be created", folder.display()))?;
-    for (name, text) in files {
-        let path = folder.join(name);
-        // The spec beside the scene; where it is there already, it stays as it is.
-        if path.exists() && std::fs::read_to_string(&path).is_ok_and(|old| old == text) {
-            continue;
+/// Returns all values, or all faults, a line each.
+fn all_or_faults<T>(all: impl Iterator<Item = Result<T, String>>) -> Result<Vec<T>, String> {
+    let (mut values, mut faults) = (Vec::new(), Vec::new());
+    for one in all {
+        match one {
+            Ok(value) => values.push(value),
+            Err(fault) => faults.push(fault),
         }
-        std::fs::write(&path, text)
-            .with_context(|| format!("{} cannot be written", path.display()))?;
     }
-    Ok(())
+    match faults.is_empty() {
+        true => Ok(values),
+        false => Err(faults.join("\nbgdyn: ")),
+    }
+}
+
+/// Returns the planes with the points that are kept.
+fn keeps(planes: &[Plane], machine: &Machine, points: &mut FramePoints) -> Result<Vec<Keep>> {
+    let graph = bond_graph::build(&machine.mechanism);
+    let all = planes.iter();
+    all_or_faults(all.map(|plane| plane.keep(&machine.mechanism, &graph, points)))
+        .map_err(|faults| anyhow!(faults))
+}
+
+/// Returns the names of the files of a motion: table, coefficients, scene, page, the copy of the spec.
+fn file_names(stem: &str) -> [String; 5] {
+    let of = |end: &str| format!("{stem}{end}");
+    [
+        "_motion.csv",
+        "_motion.json",
+        "_motion.scene.yaml",
+        "_motion.html",
+        ".yaml",
+    ]
+    .map(of)
+}
+
+/// Returns the files of a motion, in the order of [`file_names`].
+fn files(
+    file: &SpecFile,
+    machine: &Machine,
+    plan: &Planned<'_>,
+    rate: f64,
+) -> Vec<(String, String)> {
+    let names = file_names(&file.stem);
+    let Planned { model, found, .. } = plan;
+    let efforts = |t: f64| efforts_of_file(model, &found.motion.at(t));
+    let texts = [
+        table(&file.stem, model, found, &efforts, rate),
+        format!("{:#}\n", json(plan)),
+        scene(&names[4], machine, model, found),
+        page::page(&format!("{}_motion", file.stem), plan, &efforts),
+        file.text.clone(),
+    ];
+    names.into_iter().zip(texts).collect()
 }
 
 /// Reads an earlier log, and refuses what `identify` would refuse.
@@ -258,19 +292,6 @@ fn sound_log(path: &Path, model: &Model<'_>, names: &ColumnNames) -> Result<Log>
     let faults = unsound(&log, &quality(&log, &model.joints), &model.joints);
     match faults.is_empty() {
         true => Ok(log),
-        false => Err(super::logs::refusal(path, &faults)),
+        false => Err(refusal(path, &faults)),
     }
-}
-
-/// Converts faults to an error; prints them.
-fn refusal(path: &Path, faults: &[LogFault]) -> anyhow::Error {
-    for fault in faults {
-        tell(&format!("{}: {fault}\n", shown(path)));
-    }
-    let word = if faults.len() == 1 { "fault" } else { "faults" };
-    anyhow!(
-        "no motion for {}: {} {word}; nothing was written",
-        shown(path),
-        faults.len()
-    )
 }

@@ -13,6 +13,9 @@ const SPEED: [f64; 2] = [2.0, 0.5];
 /// Acceleration without `--acceleration`: rad/s², m/s².
 const ACCELERATION: [f64; 2] = [7.0, 2.0];
 
+/// How sizes of both kinds are written.
+const EXAMPLES: [&str; 2] = ["such as `2 rad/s,0.5 m/s`", "such as `7 rad/s^2,2 m/s^2`"];
+
 /// What the options say of limits; pairs are of joints that turn, and that slide.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Asked {
@@ -59,13 +62,15 @@ impl Asked {
     }
 }
 
-/// Reads one or two sizes separated by a comma, of joints that turn and that slide.
+/// Reads a size of joints that turn, one of joints that slide, or both, separated by a comma; a number without a unit is
+/// that of all joints, and stands alone.
 fn pair(
     option: &str,
     text: Option<&str>,
     dimensions: &[Dimension; 2],
 ) -> Result<[Option<f64>; 2], String> {
     let mut found = [None; 2];
+    let whole = text.unwrap_or_default();
     for part in text.iter().flat_map(|text| text.split(',')).map(str::trim) {
         // The format of files has no unit of angular acceleration.
         let angular = part.strip_suffix("rad/s^2");
@@ -85,6 +90,12 @@ fn pair(
             if size.is_some_and(|x| x <= 0.0) {
                 return Err(format!(
                     "`--{option} {part}`: write a number greater than 0"
+                ));
+            }
+            if kept.is_some() && size.is_some() {
+                return Err(format!(
+                    "`--{option} {whole}`: write one number for joints that turn and one for joints that slide, with their units, {}",
+                    EXAMPLES[usize::from(option != "speed")]
                 ));
             }
             *kept = size.or(*kept);
@@ -148,6 +159,11 @@ fn of_joint(
             "a joint that does not move shows nothing: raise its limit, or make it `fixed`",
         ));
     }
+    if let Some(effort) = joint.effort.filter(|effort| *effort <= 0.0) {
+        let message = format!("joint `{name}` has the limit of effort {effort}");
+        return Err(LogFault::whole("no-effort", message)
+            .with_help("such a joint cannot move: raise its limit, or leave it out"));
+    }
     Ok(JointLimits {
         position: [middle - half, middle + half],
         speed,
@@ -165,8 +181,13 @@ fn range(joint: &JointPart, chosen: &mut Vec<String>) -> Result<[f64; 2], LogFau
             // Without one of both, a turn from the other.
             let low = low.unwrap_or_else(|| high.map_or(-PI, |high| high - 2.0 * PI));
             let high = high.unwrap_or(low + 2.0 * PI);
+            let missing = match joint.range {
+                [Some(_), None] => "no upper limit",
+                [None, Some(_)] => "no lower limit",
+                _ => "no limits",
+            };
             chosen.push(format!(
-                "joint `{name}` has no limits of position on both sides: {low:.4} … {high:.4} rad"
+                "joint `{name}` has {missing} of position: {low:.4} … {high:.4} rad"
             ));
             Ok([low, high])
         }

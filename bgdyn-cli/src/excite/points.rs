@@ -45,35 +45,64 @@ impl Points for FramePoints {
     }
 }
 
-/// Reads `tool.z>0.1m`: a frame or link, an axis of the world, a side, a height.
-///
-/// # Errors
-/// What is wrong with it.
-pub(crate) fn keep(
-    text: &str,
-    mechanism: &Mechanism,
-    graph: &BondGraph,
-    points: &mut FramePoints,
-) -> Result<Keep, String> {
-    let form = || "write FRAME.AXIS>LENGTH or FRAME.AXIS<LENGTH, such as `tool.z>0.1 m`".to_owned();
-    let (place, length) = text.split_once(['<', '>']).ok_or_else(form)?;
-    let (frame, axis) = place.trim().rsplit_once('.').ok_or_else(form)?;
-    let axis = ["x", "y", "z"].iter().position(|own| *own == axis.trim());
-    let axis = axis.ok_or_else(form)?;
-    let level = value(length.trim(), &[Dimension::Length])?.to_f64();
-    let site = graph
-        .sites
-        .iter()
-        .position(|site| site.name == frame.trim());
-    let site = site.ok_or_else(|| {
-        let known: Vec<&str> = graph.sites.iter().map(|s| s.name.as_str()).collect();
-        format!("no frame or link `{frame}`: there are {}", known.join(", "))
-    })?;
-    Ok(Keep {
-        name: text.to_owned(),
-        point: points.index(mechanism, site),
-        axis,
-        side: if text.contains('>') { 1.0 } else { -1.0 },
-        level,
-    })
+/// A plane as it is written: `tool.z>0.1 m`, a frame or link, an axis of the world, a side, a height.
+pub(crate) struct Plane {
+    text: String,
+    frame: String,
+    axis: usize,
+    side: f64,
+    /// m
+    level: f64,
+}
+
+impl Plane {
+    /// Reads a plane.
+    ///
+    /// # Errors
+    /// What is wrong with the text.
+    pub(crate) fn read(text: &str) -> Result<Self, String> {
+        let wrong = |why: String| format!("`--keep {text}`: {why}");
+        let form =
+            || wrong("write FRAME.AXIS>LENGTH or FRAME.AXIS<LENGTH, such as `tool.z>0.1 m`".into());
+        let (place, length) = text.split_once(['<', '>']).ok_or_else(form)?;
+        let (frame, axis) = place.trim().rsplit_once('.').ok_or_else(form)?;
+        let axis = ["x", "y", "z"].iter().position(|own| *own == axis.trim());
+        let level = value(length.trim(), &[Dimension::Length]).map_err(wrong)?;
+        Ok(Plane {
+            text: text.to_owned(),
+            frame: frame.trim().to_owned(),
+            axis: axis.ok_or_else(form)?,
+            side: if text.contains('>') { 1.0 } else { -1.0 },
+            level: level.to_f64(),
+        })
+    }
+
+    /// Returns what is kept, with the origin of the frame among the points.
+    ///
+    /// # Errors
+    /// If the mechanism has no such frame.
+    pub(crate) fn keep(
+        &self,
+        mechanism: &Mechanism,
+        graph: &BondGraph,
+        points: &mut FramePoints,
+    ) -> Result<Keep, String> {
+        let site = graph.sites.iter().position(|site| site.name == self.frame);
+        let site = site.ok_or_else(|| {
+            let known: Vec<&str> = graph.sites.iter().map(|s| s.name.as_str()).collect();
+            format!(
+                "`--keep {}`: no frame or link `{}`: there are {}",
+                self.text,
+                self.frame,
+                known.join(", ")
+            )
+        })?;
+        Ok(Keep {
+            name: self.text.clone(),
+            point: points.index(mechanism, site),
+            axis: self.axis,
+            side: self.side,
+            level: self.level,
+        })
+    }
 }

@@ -32,11 +32,20 @@ pub(crate) fn table(
         let t = i as f64 / rate;
         let state = found.motion.at(t);
         let numbers = [state.q, state.v, state.a, efforts(t)].concat();
-        let numbers = numbers.iter().map(|x| format!("{:.9}", x + 0.0));
+        let numbers = numbers.iter().map(|x| decimal(*x));
         let line: Vec<String> = std::iter::once(format!("{t:.6}")).chain(numbers).collect();
         lines.push(line.join(","));
     }
     lines.join("\n") + "\n"
+}
+
+/// Returns a number with nine decimals; zero has no sign.
+fn decimal(x: f64) -> String {
+    let text = format!("{x:.9}");
+    match text.strip_prefix('-') {
+        Some(size) if size.bytes().all(|b| matches!(b, b'0' | b'.')) => size.to_owned(),
+        _ => text,
+    }
 }
 
 /// Returns the count of rows of a period: its end is the start of the next one.

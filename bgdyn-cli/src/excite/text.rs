@@ -1,13 +1,8 @@
 //! The motion in words.
 
-use bgdyn_identification::Model;
-use bgdyn_identification::excite::{Excitation, JointLimits, Keep};
-use bgdyn_runtime::Digits;
+use bgdyn_identification::fault::short;
 
-/// Returns a number with four digits.
-pub(super) fn short(x: f64) -> String {
-    Digits::new(x, 4).to_string()
-}
+use super::Planned;
 
 fn percent(x: f64) -> String {
     format!("{:.1} %", 100.0 * x)
@@ -17,13 +12,8 @@ fn percent(x: f64) -> String {
 const WHAT: [&str; 4] = ["position", "speed", "acceleration", "effort"];
 
 /// Returns what the motion uses, what it shows, and what was chosen.
-pub(crate) fn summary(
-    model: &Model<'_>,
-    limits: &[JointLimits],
-    keeps: &[Keep],
-    found: &Excitation,
-    chosen: &[String],
-) -> String {
+pub(crate) fn summary(plan: &Planned<'_>) -> String {
+    let found = plan.found;
     let harmonics = found.motion.joints.first().map_or(0, |s| s.sine.len());
     let mut lines = vec![format!(
         "motion: {} s, {harmonics} harmonics of {} Hz, {} base parameters",
@@ -31,26 +21,9 @@ pub(crate) fn summary(
         short(1.0 / found.motion.period()),
         found.base.len()
     )];
-    for (j, joint) in model.joints.iter().enumerate() {
-        let [q, ..] = found.extremes[j];
-        let shares = found.shares[j];
-        let used: Vec<String> = WHAT
-            .iter()
-            .zip(shares)
-            .filter(|(what, _)| **what != "effort" || limits[j].effort.is_some())
-            .map(|(what, share)| format!("{what} {}", percent(share)))
-            .collect();
-        lines.push(format!(
-            "  {}: {} … {} {}; of the limits: {}; nearest: {}",
-            joint.name,
-            short(q[0]),
-            short(q[1]),
-            if joint.linear { "m" } else { "rad" },
-            used.join(", "),
-            nearest(shares)
-        ));
-    }
-    for (keep, distance) in keeps.iter().zip(&found.distances) {
+    lines.extend(plan.weakness());
+    lines.extend((0..plan.model.joints.len()).map(|j| used(plan, j)));
+    for (keep, distance) in plan.keeps.iter().zip(&found.distances) {
         lines.push(format!(
             "  {}: at least {} m from the plane",
             keep.name,
@@ -67,20 +40,38 @@ pub(crate) fn summary(
         stage(1),
         stage(2)
     ));
-    let steps: usize = found
-        .ascents
-        .iter()
-        .map(|a| a.len().saturating_sub(1))
-        .sum();
     let value = |i: usize| found.log_det[i].map_or("−∞".into(), short);
     lines.push(format!(
-        "log det: {}, {}, {}; {steps} steps",
+        "log det: {}, {}, {}; {} steps",
         value(0),
         value(1),
-        value(2)
+        value(2),
+        found.steps()
     ));
-    lines.extend(chosen.iter().map(|text| format!("  {text}")));
+    lines.extend(plan.remarks.iter().map(|text| format!("  {text}")));
     lines.join("\n") + "\n"
+}
+
+/// Returns what the motion uses of a joint's limits.
+fn used(plan: &Planned<'_>, j: usize) -> String {
+    let joint = &plan.model.joints[j];
+    let [q, ..] = plan.found.extremes[j];
+    let shares = plan.found.shares[j];
+    let used: Vec<String> = WHAT
+        .iter()
+        .zip(shares)
+        .filter(|(what, _)| **what != "effort" || plan.limits[j].effort.is_some())
+        .map(|(what, share)| format!("{what} {}", percent(share)))
+        .collect();
+    format!(
+        "  {}: {} … {} {}; of the limits less the margin: {}; nearest: {}",
+        joint.name,
+        short(q[0]),
+        short(q[1]),
+        if joint.linear { "m" } else { "rad" },
+        used.join(", "),
+        nearest(shares)
+    )
 }
 
 /// Returns the limit of which most is used.

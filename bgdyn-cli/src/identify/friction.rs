@@ -1,7 +1,9 @@
 //! Friction and rotors that a spec declares.
 
 use bgdyn_codegen::declaration::Declaration;
+use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::format::ParsedValue;
+use bgdyn_codegen::machine::Machine;
 
 /// The number of an effect that belongs to a column of a joint.
 #[derive(Clone, Debug)]
@@ -21,23 +23,25 @@ pub(crate) struct EffectNumber {
 }
 
 /// The keys of effects that are columns: the word of the effect, its key, the column.
-const KEYS: [(&str, &str, usize); 6] = [
+const KEYS: [(&str, &str, usize); 8] = [
     ("rotor", "inertia", 0),
     ("viscous", "damping", 1),
     ("stribeck", "damping", 1),
+    ("lugre", "viscous", 1),
     ("coulomb", "kinetic", 2),
     ("coulomb_smooth", "kinetic", 2),
     ("stribeck", "kinetic", 2),
+    ("lugre", "kinetic", 2),
 ];
 
 /// Returns the numbers of effects of joints that move against the world.
 pub(crate) fn effect_numbers(effects: &[Declaration]) -> Vec<EffectNumber> {
     let mut numbers = Vec::new();
     for effect in effects {
-        let Some(joint) = text(effect, "joint") else {
+        let Some(joint) = word(effect, "joint") else {
             continue;
         };
-        if text(effect, "reference").is_some() {
+        if word(effect, "reference").is_some() {
             continue;
         }
         for (word, key, column) in KEYS {
@@ -63,7 +67,20 @@ pub(crate) fn effect_numbers(effects: &[Declaration]) -> Vec<EffectNumber> {
     numbers
 }
 
-fn text(effect: &Declaration, key: &str) -> Option<String> {
+/// Returns the declared effects of a machine, one for each joint where `joints` names several.
+pub(crate) fn of_each_joint(machine: &Machine) -> Vec<Declaration> {
+    let all = machine.mechanism.one_degree_names();
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    // The check of the machine has reported what is wrong with them.
+    let mut reported = Faults::default();
+    let effects = machine.effects.iter().cloned();
+    effects
+        .flat_map(|effect| effect.of_each_joint(&all, &mut reported))
+        .collect()
+}
+
+/// Returns the word or name of a key.
+pub(crate) fn word(effect: &Declaration, key: &str) -> Option<String> {
     let key = effect.effect.keys().iter().find(|k| k.name == key)?;
     match &effect.fields.get(key)?.value {
         ParsedValue::Text(text) => Some(text.clone()),

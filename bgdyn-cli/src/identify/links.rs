@@ -7,7 +7,7 @@ use bgdyn_identification::pseudo_inertia::{from_centre, transport};
 use bgdyn_identification::{JointPart, LinkPart, Model};
 use nalgebra::{Matrix3, Vector3};
 
-use super::friction::{EffectNumber, effect_numbers};
+use super::friction::{EffectNumber, effect_numbers, of_each_joint};
 use super::rows::{GeneratedRows, Places};
 
 /// What is to be identified.
@@ -41,10 +41,10 @@ impl IdentifiedMachine {
         let mechanism = &machine.mechanism;
         let graph = bond_graph::build(mechanism);
         let tree = GeneratedRows::new(mechanism, &graph).map_err(|what| {
-            vec![format!("{what}: what is identified is a tree of joints about and along axes. Take such a part of it")]
+            vec![format!("{what}: only trees of revolute, prismatic and helical joints can be identified; write a spec of such a part")]
         })?;
         let (rows, places) = tree;
-        let effects = effect_numbers(&machine.effects);
+        let effects = effect_numbers(&of_each_joint(machine));
         let mut found = IdentifiedMachine {
             rows,
             places,

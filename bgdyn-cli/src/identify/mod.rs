@@ -10,6 +10,7 @@ mod spans;
 mod text;
 mod write;
 
+pub(crate) use friction::{EffectNumber, of_each_joint, word};
 pub(crate) use json::json;
 pub(crate) use links::{IdentifiedMachine, Wanted};
 pub(crate) use text::{summary, table};

@@ -1,16 +1,10 @@
 //! The result in words.
 
 use bgdyn_identification::model::{JOINT_COLUMNS, Model, Unknown};
-use bgdyn_identification::{Identification, pseudo_inertia::to_centre};
-use bgdyn_runtime::Digits;
+use bgdyn_identification::{Identification, fault::short, pseudo_inertia::to_centre};
 
 use super::IdentifiedMachine;
 use super::json::number;
-
-/// Returns a number with four digits.
-pub(super) fn short(x: f64) -> String {
-    Digits::new(x, 4).to_string()
-}
 
 /// Returns what the log is, how it was used, and what it does not say.
 pub(crate) fn summary(machine: &IdentifiedMachine, found: &Identification) -> String {

@@ -36,8 +36,8 @@ const ticks = (low, high) => {
   return found;
 };
 
-// Curves over time t; levels are horizontal lines within which they stay.
-const plot = (parent, title, t, curves, levels = []) => {
+// Curves over t, in a unit; levels are horizontal lines within which they stay.
+const plot = (parent, title, t, curves, levels = [], unit = "s") => {
   const box = element("div", parent, undefined, "plot");
   element("b", box, title);
   const root = svg("svg", box, { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": title });
@@ -45,15 +45,17 @@ const plot = (parent, title, t, curves, levels = []) => {
   for (const y of [...curves.map((c) => c.y), levels]) for (const x of y) { low = Math.min(low, x); high = Math.max(high, x); }
   if (!(high > low)) { low -= 1; high += 1; }
   const [first, last] = [t[0], t[t.length - 1]];
-  const X = (x) => LEFT + (WIDTH - LEFT - 6) * (x - first) / (last - first || 1);
+  // The unit has the place beside the last tick.
+  const right = WIDTH - 16 - 6 * unit.length;
+  const X = (x) => LEFT + (right - LEFT) * (x - first) / (last - first || 1);
   const Y = (y) => TOP + (HEIGHT - TOP - BOTTOM) * (high - y) / (high - low);
   for (const y of ticks(low, high)) {
-    svg("line", root, { class: "grid", x1: LEFT, x2: WIDTH - 6, y1: Y(y), y2: Y(y) });
+    svg("line", root, { class: "grid", x1: LEFT, x2: right, y1: Y(y), y2: Y(y) });
     svg("text", root, { x: LEFT - 4, y: Y(y) + 3, "text-anchor": "end" }, number(Math.abs(y) < 1e-12 ? 0 : y));
   }
   for (const x of ticks(first, last)) svg("text", root, { x: X(x), y: HEIGHT - 5, "text-anchor": "middle" }, number(x));
-  svg("text", root, { x: WIDTH - 6, y: HEIGHT - 5, "text-anchor": "end" }, "s");
-  for (const y of levels) svg("line", root, { class: "level", x1: LEFT, x2: WIDTH - 6, y1: Y(y), y2: Y(y) });
+  svg("text", root, { x: WIDTH - 2, y: HEIGHT - 5, "text-anchor": "end" }, unit);
+  for (const y of levels) svg("line", root, { class: "level", x1: LEFT, x2: right, y1: Y(y), y2: Y(y) });
   for (const { y, colour } of curves) {
     const path = y.map((value, i) => `${i ? "L" : "M"}${X(t[i]).toFixed(1)} ${Y(value).toFixed(1)}`).join("");
     svg("path", root, { d: path, style: `stroke: var(${colour})` });

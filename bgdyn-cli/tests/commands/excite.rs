@@ -11,8 +11,11 @@ use crate::{bgdyn, scratch, table_rows};
 /// A search that is short enough for a test.
 const SHORT: [&str; 6] = ["--starts", "6", "--ascents", "1", "--steps", "12"];
 
+/// Logarithm of the deviation of a parameter that is not seen: larger than any of those that are.
+const UNSEEN: f64 = 9.0;
+
 /// Plans a motion into a folder of this name; returns the folder and the JSON.
-fn planned(name: &str, spec: &str, more: &[&str]) -> (PathBuf, Value) {
+pub(crate) fn planned(name: &str, spec: &str, more: &[&str]) -> (PathBuf, Value) {
     let folder: PathBuf = [env!("CARGO_TARGET_TMPDIR"), name].iter().collect();
     let _ = fs::remove_dir_all(&folder);
     let out = text(&folder);
@@ -71,6 +74,11 @@ fn the_panda_gets_a_motion_that_runs() {
         );
     }
     assert_eq!(found["base"].as_array().expect("names").len(), 69);
+    assert_eq!(found["margin"], 0.08);
+    assert_eq!(
+        (&found["weak"], &found["remarks"]),
+        (&Value::Null, &serde_json::json!([]))
+    );
     let stage = |of: &str| number(&found[of]["log_det"]);
     assert!(stage("first") < stage("best_start") && stage("best_start") < stage("motion"));
     assert!(number(&found["motion"]["condition"]) < number(&found["first"]["condition"]));
@@ -108,6 +116,8 @@ fn a_slide_runs_and_a_seed_gives_the_same_bytes() {
             |folder: &Path| fs::read(folder.join(format!("scara_motion.{name}"))).expect("a file");
         assert!(read(&first) == read(&second), "{name}");
     }
+    let table = fs::read_to_string(first.join("scara_motion.csv")).expect("the table");
+    assert!(table.contains(",0.000000000") && !table.contains("-0.000000000"));
     let off = run_of(
         &first,
         "scara",
@@ -153,7 +163,7 @@ fn identified(name: &str, motion: &Value) -> (f64, usize, f64) {
     let seen = base.iter().filter(|p| p["seen"] == true).count();
     let deviations = base
         .iter()
-        .map(|p| p["deviation"].as_f64().map_or(9.0, f64::ln));
+        .map(|p| p["deviation"].as_f64().map_or(UNSEEN, f64::ln));
     let mean = deviations.sum::<f64>() / base.len() as f64;
     (number(&found["condition"]), seen, mean.exp())
 }
@@ -193,74 +203,6 @@ fn a_log_of_the_motion_identifies_better_than_one_of_a_random_motion() {
         motion.2,
         random.2
     );
-}
-
-#[test]
-fn faults_are_told_together_and_nothing_is_written() {
-    let slide = scratch(
-        "excite_faults",
-        "slide.yaml",
-        "format: 1\nname: slide\nlinks:\n  - { name: cart, joint: { name: rail, type: prismatic, axis: x }, mass: 2 }\n  - { name: bob, parent: cart, joint: { name: swing, type: continuous, axis: y }, mass: 1, com: [0, 0, -0.3], inertia: { solid: sphere, radius: 0.1 } }\n",
-    );
-    let never: PathBuf = [env!("CARGO_TARGET_TMPDIR"), "excite_never"]
-        .iter()
-        .collect();
-    let _ = fs::remove_dir_all(&never);
-    let out = text(&never);
-    let cases: [(&str, &[&str], &[&str]); 5] = [
-        (
-            &slide,
-            &["--keep", "bob.z>a", "--keep", "hand.z>1"],
-            &[
-                "joint `rail` slides",
-                "[no-range]",
-                "add `limits:",
-                "`a` is not a number",
-                "no frame or link `hand`: there are cart, bob",
-            ],
-        ),
-        (
-            "specs/panda.yaml",
-            &["--only", "finger"],
-            &["`--only finger`", "left_finger"],
-        ),
-        (
-            "specs/loops/slider_crank.yaml",
-            &[],
-            &["has loops", "tree of joints"],
-        ),
-        (
-            "specs/panda.yaml",
-            &["--keep", "tool.z>3 m", "--starts", "2"],
-            &["[keep-not-met]", "beyond the plane", "help: move the plane"],
-        ),
-        (
-            "specs/scenes/puma_drives.scene.yaml",
-            &[],
-            &["is a scene: give its mechanism"],
-        ),
-    ];
-    for (spec, more, wanted) in cases {
-        let told = bgdyn(&[&["excite", spec, "-o", &out], more].concat()).bad_input();
-        for text in wanted {
-            assert!(told.contains(text), "`{text}` is missing in\n{told}");
-        }
-        assert!(!never.exists(), "{told}");
-    }
-    let usages: [(&[&str], &str); 7] = [
-        (&["--period", "0"], "greater than 0"),
-        (&["--harmonics", "1"], "2 to 100"),
-        (&["--margin", "100%"], "below 100 %"),
-        (&["--rate", "1 Hz"], "more than 1 rows"),
-        (&["--acceleration", "0"], "greater than 0"),
-        (&["--speed", "2 m"], "a length"),
-        (&["--ascents", "0"], "1 or more"),
-    ];
-    for (more, wanted) in usages {
-        let told = bgdyn(&[&["excite", "specs/panda.yaml", "-o", &out], more].concat()).bad_usage();
-        assert!(told.contains(wanted), "{told}");
-        assert!(!never.exists());
-    }
 }
 
 #[test]

@@ -302,3 +302,21 @@ fn names_and_units_of_other_loggers_are_read() {
     };
     assert!((mass(&first) - mass(&second)).abs() < 1e-3 * mass(&first).abs());
 }
+
+#[test]
+fn friction_of_several_joints_at_once_is_known_and_cannot_be_replaced() {
+    let effects = "effects:\n  wet: { type: viscous, joints: all, damping: 0.5 }\n";
+    let log = csv(&simulated(&truth(), 8, 8.0));
+    let folder = files(
+        "identify_joints",
+        &(arm(1.0) + effects),
+        &[("log.csv", log)],
+    );
+    let path = |name: &str| text(&folder.join(name));
+    let own = ["identify", &path("arm.yaml"), &path("log.csv")];
+    let told = bgdyn(&[&own[..], &["-o", &path("found.yaml")]].concat()).bad_input();
+    for joint in ["turn", "lift", "bend"] {
+        let wanted = format!("effect `wet_{joint}` is written for several joints at once");
+        assert!(told.contains(&wanted), "{told}");
+    }
+}

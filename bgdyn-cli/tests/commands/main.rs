@@ -9,6 +9,7 @@ mod equations;
 mod eval;
 mod eval_scenes;
 mod excite;
+mod excite_faults;
 mod free_scenes;
 mod fuzz_invariants;
 mod generate;

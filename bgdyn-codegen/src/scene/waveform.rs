@@ -71,17 +71,25 @@ impl Waveform {
         }
     }
 
-    /// Returns whether its rate jumps, or its value.
-    pub(super) fn rate_jumps(&self) -> bool {
+    /// Returns whether its value jumps.
+    pub(super) fn jumps(&self) -> bool {
         // A motion from point to point starts at rest; a step has another value from its first instant on.
         match self {
-            Waveform::Table(_) => true,
             Waveform::Pieces { before, pieces } => {
                 let first = pieces.first().and_then(|piece| piece.coefficients.first());
                 first != Some(before)
             }
-            Waveform::Sum(terms) => terms.iter().any(Waveform::rate_jumps),
+            Waveform::Sum(terms) => terms.iter().any(Waveform::jumps),
             _ => false,
+        }
+    }
+
+    /// Returns whether its rate jumps, or its value.
+    pub(super) fn rate_jumps(&self) -> bool {
+        match self {
+            Waveform::Table(_) => true,
+            Waveform::Sum(terms) => terms.iter().any(Waveform::rate_jumps),
+            _ => self.jumps(),
         }
     }
 }

@@ -196,3 +196,32 @@ fn every_refused_scene_has_a_stand_in() {
         }
     }
 }
+
+#[test]
+fn a_sum_is_called_what_it_contains() {
+    let mechanism =
+        format!("{MECHANISM}constraints:\n  motor: {{ type: prescribed, joint: elbow }}\n");
+    let told = |course: &str| {
+        let text = format!(
+            "scene: 1\nmechanism: arm.yaml\neffects: [inertia]\ninputs:\n  elbow: {course}\n"
+        );
+        match try_scene(&text, &mechanism) {
+            Err(refusal) => told(&refusal, &text),
+            Ok(_) => String::new(),
+        }
+    };
+    let table = "{ table: [[0 s, 0], [1 s, 20 deg]] }";
+    let step = "{ step: { before: 0, after: 1, time: 1 s } }";
+    for (course, word) in [
+        (table.to_owned(), "a table"),
+        (format!("{{ sum: [1, {table}] }}"), "a table"),
+        (step.to_owned(), "it jumps"),
+        (format!("{{ sum: [{table}, {step}] }}"), "it jumps"),
+    ] {
+        let said = told(&course);
+        assert!(
+            said.contains("[prescribed-with-corners]") && said.contains(word),
+            "{course}: {said}"
+        );
+    }
+}

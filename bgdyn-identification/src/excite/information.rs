@@ -1,12 +1,13 @@
 //! How much a motion says of base parameters: log det of AᵀA, its columns scaled and its rows weighted by noise, and its
 //! slopes.
 
-use nalgebra::{DMatrix, DVector, RowDVector};
+use nalgebra::{DMatrix, DVector};
 
 use super::series::State;
 use crate::base::Base;
 use crate::model::{
-    BODY_PARAMETERS, JOINT_COLUMNS, Model, SIGN_WIDTH, Unknown, joint_columns_within,
+    BODY_PARAMETERS, COULOMB, JOINT_COLUMNS, Model, SIGN_WIDTH, Unknown, joint_columns,
+    joint_columns_within,
 };
 
 /// Weight of the logarithms of the columns' sizes in the objective. Scaled columns do not depend on sizes: a small motion
@@ -14,6 +15,9 @@ use crate::model::{
 const SIZE: f64 = 0.1;
 /// Step of central differences by positions, rad or m: their error is of the size 1e-8.
 const STEP: f64 = 1e-4;
+
+/// A pivot of AᵀA with scaled columns that is smaller is a rounding error.
+const SINGULAR: f64 = 1e-13;
 
 /// The columns of base parameters, and the weights of rows.
 pub struct Information<'a> {
@@ -28,15 +32,30 @@ pub struct Information<'a> {
     weights: Vec<f64>,
     /// The width of the sign of Coulomb friction by joint: smooth enough for slopes.
     widths: Vec<f64>,
-    /// AᵀA of an earlier log for a row of this motion.
-    prior: Option<DMatrix<f64>>,
+    /// AᵀA of an earlier log for a row of this motion: of weighted rows, and of rows without weights.
+    prior: Option<[DMatrix<f64>; 2]>,
+}
+
+/// Whether rows are divided by their noise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Weighting {
+    Noise,
+    Equal,
+}
+
+/// A state with the rows of the bodies there.
+pub struct Sample {
+    /// The state.
+    pub state: State,
+    /// Y, as [`crate::model::Rows`] gives it.
+    rows: DMatrix<f64>,
 }
 
 /// How the slope of a function of the rows and efforts follows from theirs.
 pub struct Cotangent {
     /// Slopes by the rows of base parameters, n × p.
     pub rows: DMatrix<f64>,
-    /// Slopes by efforts.
+    /// Slopes by efforts without Coulomb friction, n.
     pub efforts: DVector<f64>,
 }
 
@@ -77,9 +96,11 @@ impl<'a> Information<'a> {
         }
     }
 
-    /// Counts what an earlier log says: AᵀA of its weighted rows, for each row of this motion.
-    pub fn set_prior(&mut self, prior: DMatrix<f64>) {
-        self.prior = Some(prior);
+    /// Counts what an earlier log says: its rows of base parameters, n for each time, each as much as `share` rows of
+    /// this motion, divided by their count.
+    pub fn set_prior(&mut self, rows: &DMatrix<f64>, share: f64) {
+        let of = |weighting| self.square_of(rows, weighting) * share;
+        self.prior = Some([of(Weighting::Noise), of(Weighting::Equal)]);
     }
 
     /// Returns the count of base parameters.
@@ -92,9 +113,21 @@ impl<'a> Information<'a> {
         self.len() == 0
     }
 
-    /// Returns the weights 1/σ.
-    pub fn weights(&self) -> &[f64] {
-        &self.weights
+    /// Returns the states with the rows of the bodies.
+    pub fn samples(&self, states: Vec<State>) -> Vec<Sample> {
+        let sample = |state: State| Sample {
+            rows: self.bodies_at(&state),
+            state,
+        };
+        states.into_iter().map(sample).collect()
+    }
+
+    /// Returns the weights of rows, by joint.
+    fn weights(&self, weighting: Weighting) -> Vec<f64> {
+        match weighting {
+            Weighting::Noise => self.weights.clone(),
+            Weighting::Equal => vec![1.0; self.weights.len()],
+        }
     }
 
     fn bodies_at(&self, state: &State) -> DMatrix<f64> {
@@ -105,8 +138,9 @@ impl<'a> Information<'a> {
     }
 
     /// Returns the rows of base parameters, not weighted; `widths` are those of the sign.
-    fn rows(&self, of_bodies: &DMatrix<f64>, state: &State, widths: &[f64]) -> DMatrix<f64> {
-        let mut rows = of_bodies * &self.of_bodies;
+    fn rows(&self, sample: &Sample, widths: &[f64]) -> DMatrix<f64> {
+        let mut rows = &sample.rows * &self.of_bodies;
+        let state = &sample.state;
         for &(i, column, j) in &self.of_joints {
             rows[(j, i)] = joint_columns_within(state.v[j], state.a[j], widths[j])[column];
         }
@@ -115,68 +149,92 @@ impl<'a> Information<'a> {
 
     /// Returns the efforts of the file's numbers, N·m or N.
     pub fn efforts(&self, state: &State) -> DVector<f64> {
-        self.efforts_within(state, &vec![SIGN_WIDTH; self.widths.len()])
+        self.efforts_of(&self.bodies_at(state), state, |_| true)
     }
 
-    /// Returns the same with the sign of Coulomb friction smoothed, as [`Information::slopes`] differentiates it.
-    pub fn smooth_efforts(&self, state: &State) -> DVector<f64> {
-        self.efforts_within(state, &self.widths)
+    /// Returns the same without Coulomb friction, which is smooth in the state.
+    pub fn smooth_efforts(&self, sample: &Sample) -> DVector<f64> {
+        self.efforts_of(&sample.rows, &sample.state, |column| column != COULOMB)
     }
 
-    fn efforts_within(&self, state: &State, widths: &[f64]) -> DVector<f64> {
-        let mut efforts = self.bodies_at(state) * &self.file;
+    /// Returns the efforts with some of the columns of joints.
+    fn efforts_of(
+        &self,
+        rows: &DMatrix<f64>,
+        state: &State,
+        counts: impl Fn(usize) -> bool,
+    ) -> DVector<f64> {
+        let mut efforts = rows * &self.file;
         for (j, joint) in self.model.joints.iter().enumerate() {
-            let columns = joint_columns_within(state.v[j], state.a[j], widths[j]);
-            let own = columns.iter().zip(&joint.file).map(|(x, k)| x * k);
-            efforts[j] += own.sum::<f64>();
+            let columns = joint_columns(state.v[j], state.a[j]);
+            for (column, (x, k)) in columns.iter().zip(&joint.file).enumerate() {
+                efforts[j] += if counts(column) { x * k } else { 0.0 };
+            }
         }
         efforts
     }
 
+    /// Returns the size of Coulomb friction in the file, N·m or N, by joint.
+    pub fn coulomb(&self) -> impl Iterator<Item = f64> {
+        self.model.joints.iter().map(|j| j.file[COULOMB].abs())
+    }
+
     /// Returns Σ yᵀ y over the weighted rows of the states, divided by their count, with the prior.
-    fn square(&self, states: &[State], weights: &[f64], widths: &[f64]) -> DMatrix<f64> {
+    fn square(&self, samples: &[Sample], weighting: Weighting, widths: &[f64]) -> DMatrix<f64> {
         let n = self.model.joints.len();
-        let mut all = DMatrix::zeros(n * states.len(), self.len());
-        for (s, state) in states.iter().enumerate() {
-            let mut rows = self.rows(&self.bodies_at(state), state, widths);
-            for (mut row, weight) in rows.row_iter_mut().zip(weights) {
-                row *= *weight;
+        let mut all = DMatrix::zeros(n * samples.len(), self.len());
+        for (s, sample) in samples.iter().enumerate() {
+            all.rows_mut(n * s, n).copy_from(&self.rows(sample, widths));
+        }
+        let square = self.square_of(&all, weighting) / samples.len() as f64;
+        match (&self.prior, weighting) {
+            (Some([prior, _]), Weighting::Noise) | (Some([_, prior]), Weighting::Equal) => {
+                square + prior
             }
-            all.rows_mut(n * s, n).copy_from(&rows);
+            (None, _) => square,
         }
-        let square = all.tr_mul(&all) / states.len() as f64;
-        match &self.prior {
-            Some(prior) => square + prior,
-            None => square,
+    }
+
+    /// Returns AᵀA of rows of base parameters, n for each time.
+    fn square_of(&self, rows: &DMatrix<f64>, weighting: Weighting) -> DMatrix<f64> {
+        let weights = self.weights(weighting);
+        let mut rows = rows.clone();
+        for (mut row, weight) in rows.row_iter_mut().zip(weights.iter().cycle()) {
+            row *= *weight;
         }
+        rows.tr_mul(&rows)
+    }
+
+    /// Returns AᵀA as the search sees it: rows divided by noise, the sign of Coulomb friction smoothed.
+    fn smooth_square(&self, samples: &[Sample]) -> DMatrix<f64> {
+        self.square(samples, Weighting::Noise, &self.widths)
     }
 
     /// Returns what a search raises: log det of AᵀA with scaled columns, and a share of the logarithms of its diagonal;
     /// `None` where it is singular.
-    pub fn value(&self, states: &[State]) -> Option<f64> {
-        let square = self.square(states, &self.weights, &self.widths);
+    pub fn value(&self, samples: &[Sample]) -> Option<f64> {
+        let square = self.smooth_square(samples);
         let sizes: f64 = square.diagonal().iter().map(|x| x.ln()).sum();
         Some(log_det(&square)? + SIZE * sizes)
     }
 
     /// Returns log det of AᵀA with scaled columns, ≤ 0; `None` where it is singular.
-    pub fn log_det(&self, states: &[State]) -> Option<f64> {
-        log_det(&self.square(states, &self.weights, &self.widths))
+    pub fn log_det(&self, samples: &[Sample]) -> Option<f64> {
+        log_det(&self.smooth_square(samples))
     }
 
     /// Returns the condition number of A with scaled columns, with rows weighted by noise, as `identify` states it, and
     /// without weights.
-    pub fn condition(&self, states: &[State]) -> [f64; 2] {
-        let n = self.model.joints.len();
-        let sharp = vec![SIGN_WIDTH; n];
-        let of = |weights: &[f64]| condition(&self.square(states, weights, &sharp));
-        [of(&self.weights), of(&vec![1.0; n])]
+    pub fn condition(&self, samples: &[Sample]) -> [f64; 2] {
+        let sharp = vec![SIGN_WIDTH; self.model.joints.len()];
+        [Weighting::Noise, Weighting::Equal]
+            .map(|weighting| condition(&self.square(samples, weighting, &sharp)))
     }
 
     /// Returns the slopes of [`Information::value`] by the rows of base parameters, for all states:
     /// 2 w² Y (G⁻¹ − (1 − share)/diag G)/N with G = AᵀA.
-    pub fn cotangents(&self, states: &[State]) -> Option<Vec<DMatrix<f64>>> {
-        let square = self.square(states, &self.weights, &self.widths);
+    pub fn cotangents(&self, samples: &[Sample]) -> Option<Vec<DMatrix<f64>>> {
+        let square = self.smooth_square(samples);
         let scales: Vec<f64> = square.diagonal().iter().map(|x| 1.0 / x.sqrt()).collect();
         let mut inverse = scaled(&square, &scales).cholesky()?.inverse();
         for (i, x) in scales.iter().enumerate() {
@@ -184,20 +242,21 @@ impl<'a> Information<'a> {
             inverse.row_mut(i).scale_mut(*x);
             inverse.column_mut(i).scale_mut(*x);
         }
-        let of = |state: &State| {
-            let rows = self.rows(&self.bodies_at(state), state, &self.widths);
-            let mut slopes = rows * &inverse;
+        let of = |sample: &Sample| {
+            let mut slopes = self.rows(sample, &self.widths) * &inverse;
             for (mut row, weight) in slopes.row_iter_mut().zip(&self.weights) {
-                row *= 2.0 * weight * weight / states.len() as f64;
+                row *= 2.0 * weight * weight / samples.len() as f64;
             }
             slopes
         };
-        Some(states.iter().map(of).collect())
+        Some(samples.iter().map(of).collect())
     }
 
-    /// Returns the slopes by position, velocity and acceleration of each joint of what has these slopes by rows and efforts: ⟨C, ∂Y⟩ for each of q, v, a. Rows are
-    /// of second order in velocities and of first in accelerations, so that differences are exact there.
-    pub fn slopes(&self, state: &State, by: &Cotangent) -> Vec<[f64; 3]> {
+    /// Returns the slopes by position, velocity and acceleration of each joint of what has these slopes by rows and
+    /// efforts: ⟨C, ∂Y⟩ for each of q, v, a. Rows are of second order in velocities and of first in accelerations, so
+    /// that differences are exact there; by positions they are central ones.
+    pub fn slopes(&self, sample: &Sample, by: &Cotangent) -> Vec<[f64; 3]> {
+        let state = &sample.state;
         let n = self.model.joints.len();
         // Slopes by the rows of bodies.
         let all = &by.rows * self.of_bodies.transpose() + &by.efforts * self.file.transpose();
@@ -206,7 +265,7 @@ impl<'a> Information<'a> {
             of(&mut other);
             all.dot(&self.bodies_at(&other))
         };
-        let here = all.dot(&self.bodies_at(state));
+        let here = all.dot(&sample.rows);
         let mut by_state = vec![[0.0; 3]; n];
         for (j, slope) in by_state.iter_mut().enumerate() {
             let q = |step: f64| at(&|s| s.q[j] += step);
@@ -239,19 +298,11 @@ impl<'a> Information<'a> {
         }
         for (j, joint) in self.model.joints.iter().enumerate() {
             for (column, number) in joint.file.iter().enumerate() {
-                add(column, j, by.efforts[j] * number);
+                if column != COULOMB {
+                    add(column, j, by.efforts[j] * number);
+                }
             }
         }
-    }
-
-    /// Returns AᵀA of given rows of base parameters, n for each time, weighted.
-    pub fn square_of(&self, rows: impl Iterator<Item = RowDVector<f64>>) -> DMatrix<f64> {
-        let mut square = DMatrix::zeros(self.len(), self.len());
-        for (i, row) in rows.enumerate() {
-            let weight = self.weights[i % self.weights.len()].powi(2);
-            square.ger(weight, &row.transpose(), &row.transpose(), 1.0);
-        }
-        square
     }
 }
 
@@ -265,8 +316,12 @@ fn log_det(square: &DMatrix<f64>) -> Option<f64> {
     let scales: Vec<f64> = square.diagonal().iter().map(|x| 1.0 / x.sqrt()).collect();
     let factor = scaled(square, &scales).cholesky()?;
     let l = factor.l_dirty();
-    let sum: f64 = (0..l.nrows()).map(|i| l[(i, i)].ln()).sum();
-    (2.0 * sum).is_finite().then_some(2.0 * sum)
+    let pivots = (0..l.nrows()).map(|i| l[(i, i)] * l[(i, i)]);
+    if pivots.clone().any(|x| x < SINGULAR) {
+        return None;
+    }
+    let sum: f64 = pivots.map(f64::ln).sum();
+    sum.is_finite().then_some(sum)
 }
 
 /// Returns the condition number of A with scaled columns from AᵀA; infinite where a column is zero.

@@ -77,18 +77,26 @@ impl Keep {
     }
 }
 
-/// The smallest value of a function along a motion: of `samples` for each harmonic, less an eighth of the largest second difference
-/// beside, the most by which a parabola goes on between two samples.
-pub fn least(motion: &PeriodicMotion, samples: usize, of: &mut dyn FnMut(&State) -> f64) -> f64 {
+/// The smallest values of smooth functions along a motion: of `samples` for each harmonic, less an eighth of the second
+/// difference beside, the most by which the parabola through three samples goes on within half a step. An estimate: no
+/// strict bound.
+pub fn least(
+    motion: &PeriodicMotion,
+    samples: usize,
+    of: &mut dyn FnMut(State) -> Vec<f64>,
+) -> Vec<f64> {
     let harmonics = motion.joints.first().map_or(1, |s| s.sine.len());
     let count = samples * harmonics;
     let step = motion.period() / count as f64;
-    let x: Vec<f64> = (0..count)
-        .map(|i| of(&motion.at(i as f64 * step)))
-        .collect();
-    let at = |i: usize| {
-        let (before, after) = (x[(i + count - 1) % count], x[(i + 1) % count]);
-        x[i] - (before - 2.0 * x[i] + after).abs() / 8.0
+    let all: Vec<Vec<f64>> = (0..count).map(|i| of(motion.at(i as f64 * step))).collect();
+    let at = |k: usize, i: usize| {
+        let (before, x, after) = (
+            all[(i + count - 1) % count][k],
+            all[i][k],
+            all[(i + 1) % count][k],
+        );
+        x - (before - 2.0 * x + after).abs() / 8.0
     };
-    (0..count).map(at).fold(f64::INFINITY, f64::min)
+    let smallest = |k: usize| (0..count).map(|i| at(k, i)).fold(f64::INFINITY, f64::min);
+    (0..all[0].len()).map(smallest).collect()
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::ascent::Slope;
 use super::grid::Grid;
-use super::information::{Cotangent, Information};
+use super::information::{Cotangent, Information, Sample};
 use super::limits::{JointLimits, Keep, Points};
 use super::series::{FourierSeries, PeriodicMotion, State};
 use super::shape::Shape;
@@ -70,10 +70,18 @@ impl<'a> Objective<'a> {
         self.rows.count()
     }
 
-    /// Returns the states of the rows.
-    pub fn states(&self, motion: &PeriodicMotion) -> Vec<State> {
-        (0..self.rows.count())
-            .map(|i| self.rows.state(motion, i))
+    /// Returns the states of the rows, with the rows of bodies.
+    pub fn samples(&self, motion: &PeriodicMotion) -> Vec<Sample> {
+        let states = (0..self.rows.count()).map(|i| self.rows.state(motion, i));
+        self.information.samples(states.collect())
+    }
+
+    /// Returns the room for efforts without Coulomb friction, N·m or N, by joint, where there is a limit: that friction
+    /// is counted in full at any speed, |τ| + F ≤ limit.
+    pub(super) fn room(&self) -> Vec<Option<f64>> {
+        let joints = self.bounds.joints.iter().zip(self.information.coulomb());
+        joints
+            .map(|(limits, coulomb)| limits.effort.map(|most| most - coulomb))
             .collect()
     }
 
@@ -83,7 +91,7 @@ impl<'a> Objective<'a> {
     }
 
     /// Returns the mean of the logarithms of what is left of each limit; `None` outside.
-    fn left(&self, motion: &PeriodicMotion, states: &[State]) -> Option<f64> {
+    fn left(&self, motion: &PeriodicMotion, samples: &[Sample]) -> Option<f64> {
         let mut sum = 0.0;
         for (series, limits) in motion.joints.iter().zip(self.bounds.joints) {
             for i in 0..self.checked.count() {
@@ -92,22 +100,23 @@ impl<'a> Objective<'a> {
                 sum += own.sum::<Option<f64>>()? / self.checked.count() as f64;
             }
         }
-        for state in states {
+        let room = self.room();
+        for sample in samples {
             let mut own = 0.0;
             if self.has_efforts() {
-                let efforts = self.information.smooth_efforts(state);
-                for (effort, limits) in efforts.iter().zip(self.bounds.joints) {
-                    own += limits
-                        .effort
-                        .map_or(Some(0.0), |most| left(effort / most))?;
+                let efforts = self.information.smooth_efforts(sample);
+                for (effort, room) in efforts.iter().zip(&room) {
+                    own += room.map_or(Some(0.0), |room| {
+                        (room > 0.0).then(|| left(effort / room)).flatten()
+                    })?;
                 }
             }
             for keep in self.bounds.keeps {
-                let distance = keep.distance(self.bounds.points, &state.q);
+                let distance = keep.distance(self.bounds.points, &sample.state.q);
                 let left = (distance > 0.0).then(|| (distance / (NEAR + distance)).ln());
                 own += left?;
             }
-            sum += own / states.len() as f64;
+            sum += own / samples.len() as f64;
         }
         Some(sum)
     }
@@ -128,16 +137,16 @@ impl<'a> Objective<'a> {
     }
 
     /// Returns the slopes of the barriers by efforts at a state.
-    fn push_of_efforts(&self, state: &State) -> DVector<f64> {
+    fn push_of_efforts(&self, sample: &Sample) -> DVector<f64> {
         let n = self.bounds.joints.len();
         if !self.has_efforts() {
             return DVector::zeros(n);
         }
-        let efforts = self.information.smooth_efforts(state);
+        let efforts = self.information.smooth_efforts(sample);
         let factor = self.barrier / self.rows.count() as f64;
+        let room = self.room();
         DVector::from_fn(n, |j, _| {
-            let most = self.bounds.joints[j].effort;
-            most.map_or(0.0, |most| factor * steepness(efforts[j] / most) / most)
+            room[j].map_or(0.0, |room| factor * steepness(efforts[j] / room) / room)
         })
     }
 
@@ -162,25 +171,25 @@ impl<'a> Objective<'a> {
 impl Slope for Objective<'_> {
     fn value(&self, x: &DVector<f64>) -> Option<f64> {
         let motion = self.shape.motion(x);
-        let states = self.states(&motion);
-        let left = self.left(&motion, &states)?;
-        Some(self.information.value(&states)? + self.barrier * left)
+        let samples = self.samples(&motion);
+        let left = self.left(&motion, &samples)?;
+        Some(self.information.value(&samples)? + self.barrier * left)
     }
 
     fn slope(&self, x: &DVector<f64>) -> Option<DVector<f64>> {
         let motion = self.shape.motion(x);
-        let states = self.states(&motion);
+        let samples = self.samples(&motion);
         let zero = |series: &FourierSeries| FourierSeries {
             centre: 0.0,
             ..series.scaled(0.0)
         };
         let mut slopes: Vec<FourierSeries> = motion.joints.iter().map(zero).collect();
-        let rows: Vec<DMatrix<f64>> = self.information.cotangents(&states)?;
-        for (i, (state, rows)) in states.iter().zip(rows).enumerate() {
-            let efforts = self.push_of_efforts(state);
+        let rows: Vec<DMatrix<f64>> = self.information.cotangents(&samples)?;
+        for (i, (sample, rows)) in samples.iter().zip(rows).enumerate() {
+            let efforts = self.push_of_efforts(sample);
             let by = Cotangent { rows, efforts };
-            let mut found = self.information.slopes(state, &by);
-            self.push_of_planes(state, &mut found);
+            let mut found = self.information.slopes(sample, &by);
+            self.push_of_planes(&sample.state, &mut found);
             for (slope, by) in slopes.iter_mut().zip(found) {
                 self.rows.pull(i, by, slope);
             }

@@ -79,6 +79,22 @@ pub struct Excitation {
     pub rows: usize,
 }
 
+impl Excitation {
+    /// A larger condition number means that a log of the motion, with the usual noise, does not show all parameters.
+    pub const WEAK: f64 = 1000.0;
+
+    /// Returns whether a log of the motion would not show all base parameters.
+    pub fn is_weak(&self) -> bool {
+        self.condition[2][0].is_nan() || self.condition[2][0] > Self::WEAK
+    }
+
+    /// Returns the count of steps of the ascent.
+    pub fn steps(&self) -> usize {
+        let steps = self.ascents.iter().map(|a| a.len().saturating_sub(1));
+        steps.sum()
+    }
+}
+
 /// Finds a motion. Tells the finished share to `progress`.
 ///
 /// # Errors
@@ -107,16 +123,10 @@ pub fn excite(
         keeps: request.keeps,
         points: request.points,
     };
-    let rows = Objective::new(&information, &shape, &bounds, request.harmonics, frequency).count();
     if let Some(log) = request.prior {
-        let prior = of_log(
-            model,
-            &base,
-            &information,
-            log,
-            request.period / rows as f64,
-        );
-        information.set_prior(prior / rows as f64);
+        let (rows_of_log, step) = of_log(model, &base, log);
+        // A row of the log has the weight of the time to the next one.
+        information.set_prior(&rows_of_log, step / request.period);
     }
     let mut objective = Objective::new(&information, &shape, &bounds, request.harmonics, frequency);
     let found = search(&mut objective, &request.effort, progress)?;
@@ -131,7 +141,7 @@ fn report(
     sigma: Vec<f64>,
 ) -> Excitation {
     let motions = [&found.first, &found.start, &found.motion];
-    let states = motions.map(|motion| objective.states(motion));
+    let samples = motions.map(|motion| objective.samples(motion));
     let (distances, efforts) = used(objective, &found.motion, SAMPLES);
     let joints = || found.motion.joints.iter().zip(objective.bounds.joints);
     let frequency = found.motion.frequency;
@@ -145,10 +155,10 @@ fn report(
         extremes: joints().map(|(s, _)| s.extremes(frequency)).collect(),
         shares: shares.collect(),
         distances,
-        condition: states
+        condition: samples
             .each_ref()
             .map(|s| objective.information.condition(s)),
-        log_det: states.each_ref().map(|s| objective.information.log_det(s)),
+        log_det: samples.each_ref().map(|s| objective.information.log_det(s)),
         rows: objective.count(),
         ascents: found.ascents,
         motion: found.motion,
@@ -205,15 +215,9 @@ pub fn efforts_of_file(model: &Model<'_>, state: &State) -> Vec<f64> {
     information.efforts(state).as_slice().to_vec()
 }
 
-/// Returns AᵀA of the rows of a log, prepared as `identify` does it; the weight of a row is the time to the next one, in
-/// rows of `step` seconds.
-fn of_log(
-    model: &Model<'_>,
-    base: &Base,
-    information: &Information<'_>,
-    log: &Log,
-    step: f64,
-) -> DMatrix<f64> {
+/// Returns the rows of base parameters of a log, prepared as `identify` does it, n for each time, and the time between
+/// two, s.
+fn of_log(model: &Model<'_>, base: &Base, log: &Log) -> (DMatrix<f64>, f64) {
     let even = even(log);
     let samples = prepare(model, &even, default_cut(&even), &mut |_| {});
     let unknowns = model.unknowns();
@@ -222,7 +226,5 @@ fn of_log(
         own.expect("a free unknown is one")
     };
     let kept: Vec<usize> = base.kept.iter().map(place).collect();
-    let rows = samples.rows.select_columns(&kept);
-    let all = (0..rows.nrows()).map(|i| rows.row(i).into_owned());
-    information.square_of(all) * (samples.step / step)
+    (samples.rows.select_columns(&kept), samples.step)
 }

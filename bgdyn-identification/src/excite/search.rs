@@ -4,7 +4,7 @@ use bgdyn_runtime::random::Random;
 use nalgebra::DVector;
 
 use super::ascent::ascend;
-use super::limits::{JointLimits, Keep, least};
+use super::limits::{JointLimits, least};
 use super::objective::Objective;
 use super::series::{PeriodicMotion, SAMPLES, State};
 use crate::fault::{LogFault, short};
@@ -63,11 +63,12 @@ pub fn search(
     let mut best: Option<(f64, Found)> = None;
     let count = effort.ascents.clamp(1, starts.len());
     for (i, (_, start)) in starts.iter().take(count).enumerate() {
-        let (motion, ascents) = improved(objective, start, effort.steps, &mut |share| {
+        let found = improved(objective, start, effort.steps, &mut |share| {
             progress((i as f64 + share) / count as f64)
         });
-        let value = objective.information.value(&objective.states(&motion));
-        let value = value.unwrap_or(f64::NEG_INFINITY);
+        let Some((value, motion, ascents)) = found else {
+            continue;
+        };
         if best.as_ref().is_none_or(|(most, _)| value > *most) {
             let found = Found {
                 first: first.clone(),
@@ -78,7 +79,17 @@ pub fn search(
             best = Some((value, found));
         }
     }
-    Ok(best.expect("at least one ascent").1)
+    best.map(|(_, found)| found)
+        .ok_or_else(|| vec![nothing_excited(effort)])
+}
+
+fn nothing_excited(effort: &Effort) -> LogFault {
+    let message = format!(
+        "none of {} random motions within the limits shows all base parameters",
+        effort.starts
+    );
+    LogFault::whole("nothing-excited", message)
+        .with_help("take more --harmonics, a longer --period, larger limits, or fewer parameters")
 }
 
 /// Returns the first random motion, and all that show every base parameter, with their values.
@@ -95,39 +106,39 @@ fn random_motions(
             continue;
         };
         first.get_or_insert_with(|| motion.clone());
-        if let Some(value) = objective.information.value(&objective.states(&motion)) {
+        if let Some(value) = value_of(objective, &motion) {
             starts.push((value, motion));
         }
     }
     let Some(first) = first else {
         return Err(nearest.faults(objective, CENTRES * effort.starts));
     };
-    if starts.is_empty() {
-        let message = format!(
-            "none of {} random motions shows all base parameters",
-            effort.starts
-        );
-        let help = "take more --harmonics, a longer --period, or larger limits";
-        return Err(vec![
-            LogFault::whole("nothing-excited", message).with_help(help),
-        ]);
+    match starts.is_empty() {
+        true => Err(vec![nothing_excited(effort)]),
+        false => Ok((first, starts)),
     }
-    Ok((first, starts))
 }
 
-/// Returns what an ascent makes of a motion, within the limits, and the values along it for each weight of the barriers.
+/// Returns what the search raises, without barriers.
+fn value_of(objective: &Objective<'_>, motion: &PeriodicMotion) -> Option<f64> {
+    objective.information.value(&objective.samples(motion))
+}
+
+/// Returns the value of what an ascent makes of a motion, the motion, within the limits, and the values along the ascent
+/// for each weight of the barriers; `None` if neither it nor the start is within the limits and has a value.
 fn improved(
     objective: &mut Objective<'_>,
     start: &PeriodicMotion,
     steps: usize,
     progress: &mut dyn FnMut(f64),
-) -> (PeriodicMotion, Vec<Vec<f64>>) {
+) -> Option<(f64, PeriodicMotion, Vec<Vec<f64>>)> {
     let mut x = objective.shape.numbers(&start.scaled(INSIDE));
     let mut ascents = Vec::new();
     let mut done = 0;
-    for barrier in BARRIERS {
+    for (i, barrier) in BARRIERS.into_iter().enumerate() {
         objective.barrier = barrier;
-        let each = steps.div_ceil(BARRIERS.len());
+        let until = |i: usize| steps * i / BARRIERS.len();
+        let each = until(i + 1) - until(i);
         let ascent = ascend(&*objective, x, each, LEAST, &mut || {
             progress(done as f64 / steps as f64);
             done += 1;
@@ -135,14 +146,18 @@ fn improved(
         x = ascent.x;
         ascents.push(ascent.values);
     }
-    let motion = within(objective, objective.shape.motion(&x), SAMPLES);
-    let start = within(objective, start.clone(), SAMPLES);
+    let valued = |motion: PeriodicMotion| {
+        let motion = within(objective, motion, SAMPLES)?;
+        Some((value_of(objective, &motion)?, motion))
+    };
+    let (ascended, start) = (valued(objective.shape.motion(&x)), valued(start.clone()));
     // Where barriers cost more than the ascent gains, the start remains.
-    let value = |motion: &PeriodicMotion| objective.information.value(&objective.states(motion));
-    match value(&motion) > value(&start) {
-        true => (motion, ascents),
-        false => (start, ascents),
-    }
+    let (value, motion) = match (ascended, start) {
+        (Some(ascended), Some(start)) if ascended.0 > start.0 => ascended,
+        (Some(only), None) | (_, Some(only)) => only,
+        (None, None) => return None,
+    };
+    Some((value, motion, ascents))
 }
 
 /// The nearest that positions at rest come to planes and limits of efforts.
@@ -192,12 +207,12 @@ impl Nearest {
         for (j, least) in self.efforts.iter().enumerate() {
             if *least >= 1.0 {
                 let message = format!(
-                    "joint `{}` needs at least {} % of its limit of effort at rest, in {tried} positions within the limits",
+                    "joint `{}` needs at least {} % of its limit of effort, less the margin, to begin to move: bodies at rest and Coulomb friction, in {tried} positions within the limits",
                     objective.bounds.names[j],
                     short(100.0 * least)
                 );
                 faults.push(LogFault::whole("effort-limit", message).with_help(
-                    "check the limit of effort, the masses and gravity in the file, or take a smaller --margin",
+                    "check the limit of effort, the masses, friction and gravity in the file, or take a smaller --margin",
                 ));
             }
         }
@@ -214,40 +229,51 @@ impl Nearest {
     }
 }
 
-/// Returns the shares of the limits of efforts at a state, by joint; 0 where there is none.
+/// Returns the shares of the limits of efforts at a state, by joint, with Coulomb friction in full at any speed; 0 where
+/// there is no limit.
 fn effort_shares(objective: &Objective<'_>, state: &State) -> Vec<f64> {
     if !objective.has_efforts() {
         return vec![0.0; objective.bounds.joints.len()];
     }
-    let efforts = objective.information.efforts(state);
-    let joints = efforts.iter().zip(objective.bounds.joints);
-    joints
-        .map(|(effort, l)| l.effort.map_or(0.0, |most| effort.abs() / most))
+    let sample = objective.information.samples(vec![state.clone()]);
+    let efforts = objective.information.smooth_efforts(&sample[0]);
+    shares_of(objective, |j| efforts[j].abs())
+}
+
+/// Returns the shares of the limits of efforts from efforts without Coulomb friction.
+fn shares_of(objective: &Objective<'_>, effort: impl Fn(usize) -> f64) -> Vec<f64> {
+    let joints = objective.bounds.joints.iter().enumerate();
+    let all = joints.zip(objective.information.coulomb());
+    all.map(|((j, l), coulomb)| l.effort.map_or(0.0, |most| (effort(j) + coulomb) / most))
         .collect()
 }
 
-/// Returns the least distances from planes along a motion, m, and the largest shares of efforts by joint.
+/// Returns the least distances from planes along a motion, m, and the largest shares of efforts by joint. Without
+/// Coulomb friction, which jumps and is counted in full, efforts are smooth: both are estimated between samples too.
 pub fn used(
     objective: &Objective<'_>,
     motion: &PeriodicMotion,
     samples: usize,
 ) -> (Vec<f64>, Vec<f64>) {
-    let distance = |keep: &Keep| {
-        let of = &mut |state: &State| keep.distance(objective.bounds.points, &state.q);
-        least(motion, samples, of)
+    let (count, n) = (objective.bounds.keeps.len(), motion.joints.len());
+    let smallest = least(motion, samples, &mut |state| {
+        let keeps = objective.bounds.keeps.iter();
+        let mut all: Vec<f64> = keeps
+            .map(|k| k.distance(objective.bounds.points, &state.q))
+            .collect();
+        if objective.has_efforts() {
+            let sample = objective.information.samples(vec![state]);
+            let efforts = objective.information.smooth_efforts(&sample[0]);
+            all.extend(efforts.iter().flat_map(|effort| [*effort, -effort]));
+        }
+        all
+    });
+    let (keeps, efforts) = smallest.split_at(count);
+    let shares = match objective.has_efforts() {
+        true => shares_of(objective, |j| (-efforts[2 * j]).max(-efforts[2 * j + 1])),
+        false => vec![0.0; n],
     };
-    let keeps = objective.bounds.keeps.iter().map(distance).collect();
-    let mut efforts = vec![0.0_f64; motion.joints.len()];
-    if objective.has_efforts() {
-        // Friction jumps, so that no parabola bounds the efforts: samples alone.
-        least(motion, samples, &mut |state| {
-            for (most, share) in efforts.iter_mut().zip(effort_shares(objective, state)) {
-                *most = most.max(share);
-            }
-            0.0
-        });
-    }
-    (keeps, efforts)
+    (keeps.to_vec(), shares)
 }
 
 /// Returns whether planes and limits of efforts permit a motion.
@@ -260,13 +286,20 @@ fn permitted(objective: &Objective<'_>, motion: &PeriodicMotion, samples: usize)
 }
 
 /// Returns the motion with each joint's motion about its centre as large as its limits permit, at most as it is; then
-/// all of them as large as planes and efforts permit.
-fn within(objective: &Objective<'_>, mut motion: PeriodicMotion, samples: usize) -> PeriodicMotion {
+/// all of them as large as planes and efforts permit; `None` if these do not permit the centres.
+fn within(
+    objective: &Objective<'_>,
+    mut motion: PeriodicMotion,
+    samples: usize,
+) -> Option<PeriodicMotion> {
     for (series, limits) in motion.joints.iter_mut().zip(objective.bounds.joints) {
         *series = series.scaled(limits.room(series, motion.frequency).min(1.0));
     }
     if permitted(objective, &motion, samples) {
-        return motion;
+        return Some(motion);
+    }
+    if !permitted(objective, &motion.scaled(0.0), 1) {
+        return None;
     }
     let (mut low, mut high) = (0.0, 1.0);
     for _ in 0..HALVINGS {
@@ -276,7 +309,7 @@ fn within(objective: &Objective<'_>, mut motion: PeriodicMotion, samples: usize)
             false => high = middle,
         }
     }
-    motion.scaled(low)
+    Some(motion.scaled(low))
 }
 
 /// Returns a random motion that touches a limit of each joint, unless planes or efforts shrink it; `None` if these
@@ -310,7 +343,7 @@ fn random_motion(
     for _ in 0..CENTRES {
         draw(&mut motion, random);
         if nearest.note(objective, &motion.scaled(0.0).at(0.0)) {
-            return Some(within(objective, motion, COARSE));
+            return within(objective, motion, COARSE);
         }
     }
     None

@@ -1,25 +1,17 @@
 //! The page of a motion: one self-contained HTML file.
 
-use bgdyn_identification::Model;
-use bgdyn_identification::excite::{Excitation, JointLimits};
 use serde_json::{Value, json};
 
 use super::text::nearest;
-use crate::template::{PLOTS, STYLE, embedded, filled, head};
+use super::{Planned, summary};
+use crate::template::{PLOTS, STYLE, embedded, filled, head, rounded};
 
 /// Rows of a plot.
 const ROWS: usize = 400;
 
 /// Returns the page; `efforts` are those of the file's numbers at a time.
-pub(crate) fn page(
-    name: &str,
-    model: &Model<'_>,
-    limits: &[JointLimits],
-    found: &Excitation,
-    efforts: &dyn Fn(f64) -> Vec<f64>,
-    summary: &str,
-) -> String {
-    let data = data(name, model, limits, found, efforts, summary);
+pub(crate) fn page(name: &str, plan: &Planned<'_>, efforts: &dyn Fn(f64) -> Vec<f64>) -> String {
+    let data = data(name, plan, efforts);
     let data = embedded(&data.to_string());
     let head = head(name, STYLE);
     let parts = [
@@ -31,22 +23,16 @@ pub(crate) fn page(
     filled(include_str!("page.html"), &parts)
 }
 
-fn data(
-    name: &str,
-    model: &Model<'_>,
-    limits: &[JointLimits],
-    found: &Excitation,
-    efforts: &dyn Fn(f64) -> Vec<f64>,
-    summary: &str,
-) -> Value {
+fn data(name: &str, plan: &Planned<'_>, efforts: &dyn Fn(f64) -> Vec<f64>) -> Value {
+    let found = plan.found;
     let period = found.motion.period();
     let times: Vec<f64> = (0..=ROWS)
         .map(|i| i as f64 * period / ROWS as f64)
         .collect();
     let states: Vec<_> = times.iter().map(|t| found.motion.at(*t)).collect();
     let tau: Vec<Vec<f64>> = times.iter().map(|t| efforts(*t)).collect();
-    let joints = model.joints.iter().enumerate().map(|(j, joint)| {
-        let l = &limits[j];
+    let joints = plan.model.joints.iter().enumerate().map(|(j, joint)| {
+        let l = &plan.limits[j];
         json!({
             "name": joint.name, "units": if joint.linear { ["m", "m/s", "m/s²", "N"] } else { ["rad", "rad/s", "rad/s²", "N·m"] },
             "q": states.iter().map(|s| rounded(s.q[j])).collect::<Vec<_>>(),
@@ -59,14 +45,9 @@ fn data(
     });
     let finite = |x: f64| x.is_finite().then_some(x);
     json!({
-        "name": name, "summary": summary, "period": period, "rows": found.rows, "base": found.base.len(),
+        "name": name, "summary": summary(plan), "weak": plan.weakness(), "period": period, "rows": found.rows, "base": found.base.len(),
         "t": times.iter().map(|t| rounded(*t)).collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
         "condition": found.condition.map(|pair| pair.map(finite)), "log_det": found.log_det,
         "ascents": found.ascents,
     })
-}
-
-/// Returns a number with five digits.
-fn rounded(x: f64) -> f64 {
-    format!("{x:.4e}").parse().unwrap_or(x)
 }

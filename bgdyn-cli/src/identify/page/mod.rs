@@ -5,7 +5,7 @@ use bgdyn_identification::{Identification, deviations::UNSEEN};
 use serde_json::{Value, json};
 
 use super::json::number;
-use crate::template::{PLOTS, STYLE, embedded, filled, head};
+use crate::template::{PLOTS, STYLE, embedded, filled, head, rounded};
 
 /// Largest number of rows of a plot: for more, rows are left out.
 const ROWS: usize = 1500;
@@ -65,7 +65,5 @@ fn joints(model: &Model<'_>, found: &Identification) -> Vec<Value> {
 fn kept(x: &[f64], j: usize, n: usize) -> Vec<f64> {
     let own = x.iter().skip(j).step_by(n);
     let every = own.len().div_ceil(ROWS).max(1);
-    own.step_by(every)
-        .map(|x| format!("{x:.4e}").parse().unwrap_or(*x))
-        .collect()
+    own.step_by(every).map(|x| rounded(*x)).collect()
 }

@@ -108,8 +108,8 @@ pub(crate) fn rate_of_prescribed(location: &Location, name: &str, joint: &str) -
 
 pub(crate) fn prescribed_with_corners(location: &Location, joint: &str, step: bool) -> Fault {
     let what = match step {
-        true => "a step: it jumps",
-        false => "a table: its velocity jumps at every point",
+        true => "a step, or contains one: it jumps",
+        false => "a table, or contains one: its velocity jumps at every point",
     };
     let message = format!(
         "the course of the prescribed joint `{joint}` is {what}, which takes an infinite effort"

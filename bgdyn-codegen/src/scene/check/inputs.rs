@@ -1,7 +1,6 @@
 //! Checks the inputs of a scene and their sources.
 
 use super::super::signal::{self, InputSource};
-use super::super::waveform::Waveform;
 use super::hold;
 use crate::declaration::RejectedEffects;
 use crate::fault::{Faults, wording};
@@ -141,10 +140,12 @@ pub(super) fn drives(
                 ));
                 continue;
             }
-            let bends = matches!(&drive, InputSource::Waveform(course) if course.rate_jumps());
-            if bends && layout.prescribed.contains(name) {
-                let step = !matches!(&drive, InputSource::Waveform(Waveform::Table(_)));
-                faults.push(wording::prescribed_with_corners(&raw.location, name, step));
+            if let InputSource::Waveform(course) = &drive
+                && course.rate_jumps()
+                && layout.prescribed.contains(name)
+            {
+                let (location, step) = (&raw.location, course.jumps());
+                faults.push(wording::prescribed_with_corners(location, name, step));
                 continue;
             }
             drives[i] = drive;
