@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
 use bgdyn_codegen::fault::{Fault, Faults, Location};
-use bgdyn_codegen::files::{beside, stem};
+use bgdyn_codegen::files::{beside, mechanism_of, stem};
 use bgdyn_codegen::format::{parse, parse_scene};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::options::{
@@ -102,13 +102,16 @@ impl SpecFile {
         bgdyn_codegen::format::is_scene(&self.text)
     }
 
-    /// Returns the text of the mechanism, from its path relative to this file.
+    /// Returns the text of a mechanism that a scene names, from its path relative to this file.
     ///
     /// # Errors
     /// The reason why it cannot be read.
     pub fn load(&self, path: &str) -> Result<String, String> {
         match &self.mechanism {
-            Some(text) => Ok(text.clone()),
+            Some(text) if mechanism_of(&self.text).is_none_or(|own| own == path) => {
+                Ok(text.clone())
+            }
+            Some(_) => Err("only the text of the scene's `mechanism` was given".into()),
             None => std::fs::read_to_string(beside(&self.path, path)).map_err(|e| e.to_string()),
         }
     }

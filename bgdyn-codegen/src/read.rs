@@ -6,12 +6,12 @@ use crate::bond_graph;
 use crate::effect;
 use crate::fault::{Fault, Faults, Severity, wording};
 use crate::files::stem;
-use crate::format::{JointSpec, Spec, is_scene, parse, parse_scene};
+use crate::format::{JointSpec, Located, SceneSpec, Spec, is_scene, parse, parse_scene};
 use crate::machine::{self, Machine};
 use crate::mechanism::Mechanism;
 use crate::method;
 use crate::refusal::Refusal;
-use crate::scene::{self, Verdict};
+use crate::scene::{self, Scene, Verdict};
 use crate::system::SceneEquations;
 
 /// The text of a mechanism or of a scene, and its surroundings.
@@ -110,7 +110,7 @@ fn without_inertia(mechanism: &Mechanism, spec: &Spec) -> Vec<Fault> {
 pub fn read_scene(
     text: &str,
     stem: &str,
-    load: impl FnOnce(&str) -> Result<String, String>,
+    load: impl Fn(&str) -> Result<String, String>,
 ) -> Result<(SceneEquations, Faults), Refusal> {
     let (spec, mut faults) = parse_scene(text);
     let Some(spec) = spec else {
@@ -148,7 +148,11 @@ pub fn read_scene(
     let (verdict, more) = scene::check(&spec, Some(stem), &machine, &effect::kinds());
     faults.0.extend(more.0);
     let system = match verdict {
-        Verdict::Sound(scene) => SceneEquations::new(*scene),
+        Verdict::Sound(scene) => match controlled(*scene, &spec, &machine, &load) {
+            Ok(scene) => SceneEquations::new(scene),
+            Err(Refusal::Spec(more)) => Err(more),
+            Err(other) => return Err(other),
+        },
         Verdict::Drawn(scene) => {
             let found = SceneEquations::new(*scene).err().unwrap_or_default();
             faults.0.extend(independent(found, &faults));
@@ -173,6 +177,43 @@ pub fn read_scene(
         faults.push(wording::no_inertia_in_scene(&path.location, joint));
     }
     Ok((system, faults))
+}
+
+/// Adds the model of the controllers, if the scene has one.
+fn controlled(
+    scene: Scene,
+    spec: &SceneSpec,
+    own: &Machine,
+    load: &dyn Fn(&str) -> Result<String, String>,
+) -> Result<Scene, Refusal> {
+    let other = match spec.mechanism_of_controllers() {
+        Some(path) => Some(machine_of_controllers(path, load)?),
+        None => None,
+    };
+    let machine = other.as_ref().unwrap_or(own);
+    let (scene, faults) = scene::with_controller_model(scene, spec, machine, &effect::kinds());
+    match faults.any_fault() {
+        true => Err(Refusal::Spec(faults)),
+        false => Ok(scene),
+    }
+}
+
+/// Reads the mechanism of the controllers' model.
+fn machine_of_controllers(
+    path: &Located<String>,
+    load: &dyn Fn(&str) -> Result<String, String>,
+) -> Result<Machine, Refusal> {
+    let text = load(&path.value).map_err(|why| {
+        let fault = wording::controller_mechanism_unreadable(&path.location, &path.value, &why);
+        Refusal::Spec(Faults(vec![fault]))
+    })?;
+    let (machine, faults) = read_machine(&text, Some(&stem(Path::new(&path.value))));
+    machine.ok_or_else(|| Refusal::Mechanism {
+        path: path.value.clone(),
+        text,
+        faults,
+        scene: Faults::default(),
+    })
 }
 
 /// Returns the faults of the equations of a scene with other faults that are no consequences of these:

@@ -108,8 +108,8 @@ fn module(
         refused(message, "", &place)
     })?;
     place.rebuild = Some(path.display().to_string());
-    if let Some(mechanism) = bgdyn_codegen::files::mechanism_of(&text) {
-        let file = bgdyn_codegen::files::beside(&path, &mechanism);
+    for named in bgdyn_codegen::files::files_of(&text) {
+        let file = bgdyn_codegen::files::beside(&path, &named);
         place.also.push(file.display().to_string());
     }
     let spec = SpecText {

@@ -50,6 +50,7 @@ pub fn scene() -> Value {
                 ),
             ),
             ("control", control()),
+            ("controller_model", controller_model()),
             (
                 "initial",
                 named("parts of the state at the start; 0 without", initial()),
@@ -86,6 +87,27 @@ fn called() -> Value {
             "additionalProperties": own,
         },
     ] })
+}
+
+/// Returns the model of the controllers.
+fn controller_model() -> Value {
+    let values = described(
+        "values of run-time parameters",
+        json!({ "type": "object", "propertyNames": identifier(), "additionalProperties": number() }),
+    );
+    let effects = json!({ "type": "array", "items": called() });
+    let keys = [
+        (
+            "mechanism",
+            described("path of its mechanism's file, from this one", text()),
+        ),
+        ("effects", described("what it contains", effects)),
+        ("parameters", values),
+    ];
+    described(
+        "the model by which torques are computed, if it is not the scene's own",
+        object(&keys, &[]),
+    )
 }
 
 /// Returns the value of a built-in effect: that of its only key, or a mapping.

@@ -25,5 +25,5 @@ pub(crate) use number::check_unit;
 pub use number::quantity;
 pub use parse::parse;
 pub use raw::{Fields, Key, ParsedValue, Raw, Reads};
-pub use scene::{SceneSpec, is_scene, parse_scene};
+pub use scene::{ControllerModelSpec, SceneSpec, is_scene, parse_scene};
 pub use value::{Number, Vector};

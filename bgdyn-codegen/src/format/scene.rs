@@ -34,12 +34,34 @@ pub struct SceneSpec {
     pub effort_limits: Field<Raw>,
     /// How controllers are sampled.
     pub control: Field<Raw>,
+    /// The model by which torques are computed, if it is not the scene's own.
+    pub controller_model: Field<ControllerModelSpec>,
     /// The initial state.
     pub initial: Field<Vec<Raw>>,
     /// The outputs.
     pub outputs: Field<Vec<Raw>>,
     /// The integration.
     pub integration: Field<Raw>,
+}
+
+impl SceneSpec {
+    /// Returns the path of the mechanism of the controllers' model; `None` if it is that of the scene.
+    pub fn mechanism_of_controllers(&self) -> Option<&Located<String>> {
+        self.controller_model.given()?.value.mechanism.given()
+    }
+}
+
+/// The model of a scene's controllers; what is absent is that of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControllerModelSpec {
+    /// Its location.
+    pub location: Location,
+    /// Path of the mechanism's file, relative to the scene's.
+    pub mechanism: Field<String>,
+    /// The effects that it contains.
+    pub effects: Field<Vec<Raw>>,
+    /// Values of run-time parameters.
+    pub parameters: Field<Vec<Raw>>,
 }
 
 /// The key that marks the file of a scene.
@@ -91,6 +113,7 @@ impl Reader {
             "inputs",
             "effort_limits",
             "control",
+            "controller_model",
             "initial",
             "outputs",
             "integration",
@@ -117,12 +140,26 @@ impl Reader {
                 Some(whole("effort_limits", at))
             }),
             control: self.field(&map, "control", |_, at| Some(whole("control", at))),
+            controller_model: self.field(&map, "controller_model", Self::controller_model),
             initial: self.field(&map, "initial", |r, at| r.table(at, expected::INITIAL)),
             outputs: self.field(&map, "outputs", |r, at| r.calls(at, expected::OUTPUTS)),
             integration: self.field(&map, "integration", |_, at| Some(whole("integration", at))),
             location: map.location,
             complete: false,
             effects_read: false,
+        })
+    }
+
+    fn controller_model(&mut self, at: &At<'_>) -> Option<ControllerModelSpec> {
+        let keys = ["mechanism", "effects", "parameters"];
+        let map = self.mapping(at, expected::CONTROLLER_MODEL, &keys)?;
+        Some(ControllerModelSpec {
+            mechanism: self.text_field(&map, "mechanism"),
+            effects: self.field(&map, "effects", |r, at| r.calls(at, expected::CALLS)),
+            parameters: self.field(&map, "parameters", |r, at| {
+                r.table(at, expected::PARAMETERS)
+            }),
+            location: map.location,
         })
     }
 }

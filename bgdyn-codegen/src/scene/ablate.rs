@@ -2,7 +2,7 @@
 
 use super::Scene;
 use super::causality::{chains, is_solvable};
-use super::check::assembled;
+use super::check::{assembled, missing};
 use crate::declaration::{Element, ElementValue, RejectedEffects, SceneContext};
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
@@ -51,9 +51,14 @@ impl Scene {
         // Other efforts may need other modes: they are determined again.
         written.modes = Some(Vec::new());
         let scene = Scene { written, ..bare };
+        let scene = assembled(scene, &RejectedEffects::default(), &mut Faults::default());
+        // A controller that would need a removed part has the model of the scene.
+        let mut model = scene.controller_model;
+        model.take_if(|model| !missing(&model.layout, &scene.layout).is_empty());
         Scene {
             outputs: Vec::new(),
-            ..assembled(scene, &RejectedEffects::default(), &mut Faults::default())
+            controller_model: model,
+            ..scene
         }
     }
 }

@@ -29,7 +29,7 @@ use crate::math::Ring;
 use crate::mechanism::{Mechanism, Parameter};
 pub use causality::Solved;
 pub(crate) use check::sketch;
-pub use check::{Verdict, check, check_alone, integral_name, limit_events};
+pub use check::{Verdict, check, check_alone, integral_name, limit_events, with_controller_model};
 pub use control::Control;
 pub use integration::{Integration, IntegratorName, StepControl};
 pub use overrides::{Override, OverrideKind};
@@ -59,6 +59,8 @@ pub struct Scene {
     pub limits: Vec<Option<[Dd; 2]>>,
     /// How controllers are sampled; `None` if they are continuous.
     pub control: Option<Control>,
+    /// The scene of which computed torques are the efforts; `None` if it is this one.
+    pub controller_model: Option<Box<Scene>>,
     /// Initial positions, velocities and first-order states.
     pub initial: Initial,
     /// What is wanted of it, by name.

@@ -14,6 +14,8 @@ pub struct SceneEquations {
     pub scene: Scene,
     /// The bond graph of its mechanism, with the changes by its effects, and the functions chosen for it.
     pub graph: GraphMethods,
+    /// The equations by which controllers compute torques, if they have a model of their own.
+    pub controller_model: Option<Box<SceneEquations>>,
     /// The nodes and bonds of the mechanism and of its effects.
     pub network: BondNetwork,
     /// Its initial state, including fluid volumes.

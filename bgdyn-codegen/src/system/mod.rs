@@ -6,6 +6,7 @@
 
 mod balance;
 mod canonical;
+mod controller_model;
 mod coordinate_rows;
 mod dynamics;
 mod equations;
@@ -50,24 +51,13 @@ impl SceneEquations {
     /// Outputs that the scene does not have; values that do not stay positive over the limits of the
     /// joints; given modes that contradict the state.
     pub fn new(scene: Scene) -> Result<Self, Faults> {
-        let mut graph = loaded(
-            bond_graph::build(&scene.mechanism),
-            &scene,
-            &scene.mechanism,
-        );
-        if let Some(closed) = &mut graph.closed {
-            let open = scene.mechanism.open();
-            closed.tree = loaded(closed.tree.clone(), &scene, &open);
-        }
-        let mut system = SceneEquations {
-            initial: scene.initial.clone(),
-            outputs: Vec::new(),
-            entries: Vec::new(),
-            network: network(&scene, &graph),
-            scene,
-            graph: GraphMethods::new(graph),
-        };
         let mut faults = Faults::default();
+        let model = scene.controller_model.as_deref();
+        let model = model.map(|model| SceneEquations::of_controllers(model, &mut faults));
+        let mut system = SceneEquations {
+            controller_model: model.map(Box::new),
+            ..SceneEquations::unstarted(scene)
+        };
         let b = Builder::silent();
         let sums = system.effort_sums(&b);
         let entries = balance::entries(&system, &sums);
@@ -78,6 +68,40 @@ impl SceneEquations {
         (system.entries, system.outputs) = (entries, outputs);
         system.choose_rows();
         system.started(faults)
+    }
+
+    /// Builds the equations by which controllers compute torques. A controller has no start, no outputs and no balance.
+    fn of_controllers(model: &Scene, faults: &mut Faults) -> Self {
+        let mut system = SceneEquations::unstarted(model.clone());
+        let mut found = Faults::default();
+        let b = Builder::silent();
+        range::check(&system.scene, &system.effort_sums(&b), &mut found);
+        system.choose_rows();
+        let found = found.0.into_iter().map(wording::of_controller_model);
+        faults.0.extend(found);
+        system
+    }
+
+    /// Builds the graphs of a scene.
+    fn unstarted(scene: Scene) -> Self {
+        let mut graph = loaded(
+            bond_graph::build(&scene.mechanism),
+            &scene,
+            &scene.mechanism,
+        );
+        if let Some(closed) = &mut graph.closed {
+            let open = scene.mechanism.open();
+            closed.tree = loaded(closed.tree.clone(), &scene, &open);
+        }
+        SceneEquations {
+            initial: scene.initial.clone(),
+            outputs: Vec::new(),
+            entries: Vec::new(),
+            network: network(&scene, &graph),
+            controller_model: None,
+            scene,
+            graph: GraphMethods::new(graph),
+        }
     }
 
     /// Chooses the rows of loops and contacts: those with the fewest pivots that may vanish at regular positions, and

@@ -65,3 +65,58 @@ pub(crate) fn canonical_of_control(location: &Location, (name, natural): (&str, 
         format!("`{name}` integrates momenta, and sampled controllers measure velocities");
     Fault::new(location, RULE, message).with_help(format!("write `method: {natural}`"))
 }
+
+// The model of the controllers
+
+/// The rule of these.
+const MODEL: &str = "controller-model";
+
+/// A fault of the controllers' model, which says so.
+pub(crate) fn of_controller_model(fault: Fault) -> Fault {
+    let message = format!("in the model of the controllers: {}", fault.message);
+    Fault { message, ..fault }
+}
+
+pub(crate) fn no_computed_torque(location: &Location) -> Fault {
+    let message = "no input of the scene is a `computed_torque`, which would use the model";
+    Fault::new(location, MODEL, message)
+        .with_help("`pd`, `pid` and `hold` need no model: leave `controller_model` out")
+}
+
+/// `what` is a position, a velocity, a state, a mode or an input.
+pub(crate) fn controller_needs(location: &Location, what: &str, name: &str) -> Fault {
+    let message = format!(
+        "the model of the controllers has the {what} {}, which the scene does not have",
+        quote(name)
+    );
+    let help = match what {
+        "mode" => "leave that effect out of the model's `effects`, or take `coulomb_smooth`",
+        _ => {
+            "a controller measures the state of the scene: leave out what adds to it, or rename it"
+        }
+    };
+    Fault::new(location, MODEL, message).with_help(help)
+}
+
+pub(crate) fn unknown_parameter_of_controllers(
+    location: &Location,
+    name: &str,
+    known: &[&str],
+) -> Fault {
+    let message = match known.is_empty() {
+        true => format!("{} is no run-time parameter: there are none", quote(name)),
+        false => unknown_name("run-time parameter", name, known, &known.join(", ")),
+    };
+    of_controller_model(
+        Fault::new(location, "unknown-name", message)
+            .with_help("`parameters` are those of the model's mechanism and effects"),
+    )
+}
+
+pub(crate) fn controller_mechanism_unreadable(location: &Location, path: &str, why: &str) -> Fault {
+    let message = format!("the mechanism {} cannot be read: {why}", quote(path));
+    of_controller_model(
+        Fault::new(location, "no-mechanism", message)
+            .with_help("write its path relative to the scene's folder"),
+    )
+}

@@ -77,6 +77,11 @@ pub(crate) const CONTROL: Wanted<'static> = (
     "how controllers are sampled",
     "`{ period: 1 ms, delay: 0.5 ms }`",
 );
+pub(crate) const CONTROLLER_MODEL: Wanted<'static> = (
+    "the model of the controllers",
+    "`{ mechanism: nominal.yaml }`",
+);
+pub(crate) const PARAMETERS: Wanted<'static> = ("values of parameters", "`{ payload_mass: 2 kg }`");
 pub(crate) const SENSORS: Wanted<'static> = (
     "what sensors measure",
     "`{ position: 0.1 deg, velocity: 0.01 }`",

@@ -1,6 +1,7 @@
 //! Checks a scene's file: the only code that constructs a [`Scene`], and the faults that prevent it.
 
 mod control;
+mod controller_model;
 mod effects;
 mod followed;
 mod hold;
@@ -15,6 +16,8 @@ mod prescribed;
 mod run;
 mod state;
 
+pub(super) use controller_model::missing;
+pub use controller_model::with_controller_model;
 pub use limits::{integral_name, limit_events};
 
 use bgdyn_runtime::Dd;
@@ -113,6 +116,7 @@ fn scene(
         drives: Vec::new(),
         limits: Vec::new(),
         control: None,
+        controller_model: None,
         initial: Initial::default(),
         outputs: effects::given(&spec.outputs)
             .iter()
