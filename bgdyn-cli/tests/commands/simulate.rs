@@ -285,3 +285,30 @@ integration: { method: rk4, step: 7 ms, end: 1 s }
         assert!(off < 1e-9, "{row:?}, not {wanted:?}");
     }
 }
+
+/// The controller believes in 3 kg without a spring: 2 q̈ + 9 q̇ + (50 + 30) q = 30.
+#[test]
+fn a_controller_may_have_a_model_of_its_own() {
+    scratch(
+        "model",
+        "heavy.yaml",
+        BLOCK.replace("mass: 2 kg", "mass: 3 kg"),
+    );
+    let scene = "\
+scene: 1
+mechanism: block.yaml
+effects: [inertia, rubber]
+inputs: { slide: { computed_torque: { target: 1 m, stiffness: 10, damping: 3 } } }
+controller_model: { mechanism: heavy.yaml, effects: [inertia] }
+integration: { method: dop853, tolerance: 1e-12, end: 2 s }
+";
+    let (run, table) = block("model", scene, &["--points", "101"]);
+    run.good();
+    let (decay, frequency) = (2.25, (40.0_f64 - 2.25 * 2.25).sqrt());
+    for row in rows(&table) {
+        let t = row[0];
+        let turned = (frequency * t).cos() + decay / frequency * (frequency * t).sin();
+        let wanted = 0.375 * (1.0 - (-decay * t).exp() * turned);
+        assert!((row[1] - wanted).abs() < 1e-9, "{row:?}, not {wanted:?}");
+    }
+}

@@ -40,7 +40,7 @@ fn read(constraint: Option<&str>, effects: &str, keys: &str) -> Result<SceneEqua
     );
     let own = constraint.map(|c| format!("constraints:\n  c: {{ {c} }}\n"));
     let mechanism = with_joints(&JOINTS) + &own.unwrap_or_default();
-    read_scene(&scene, "scene", |_| Ok(mechanism)).map(|(system, _)| system)
+    read_scene(&scene, "scene", |_| Ok(mechanism.clone())).map(|(system, _)| system)
 }
 
 fn scene(constraint: Option<&str>, effect: &str) -> SceneEquations {
@@ -240,6 +240,6 @@ fn scene_of_four(keys: &str) -> SceneEquations {
     let mechanism = with_joints(&joints) + &format!("constraints:\n  c: {{ {GEAR} }}\n");
     let scene =
         format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products]\n{keys}\n");
-    let read = read_scene(&scene, "scene", |_| Ok(mechanism)).map(|(system, _)| system);
+    let read = read_scene(&scene, "scene", |_| Ok(mechanism.clone())).map(|(system, _)| system);
     read.unwrap_or_else(|e| panic!("{keys}: {e:?}"))
 }

@@ -24,7 +24,7 @@ fn read(joints: &[&str], effects: &str, keys: &str) -> Result<SceneEquations, Re
     let scene = format!(
         "scene: 1\nmechanism: arm.yaml\neffects: [inertia, velocity_products{effects}]\n{keys}\n"
     );
-    read_scene(&scene, "scene", |_| Ok(mechanism)).map(|(system, _)| system)
+    read_scene(&scene, "scene", |_| Ok(mechanism.clone())).map(|(system, _)| system)
 }
 
 fn scene(joints: &[&str], effects: &str, keys: &str) -> SceneEquations {
@@ -153,7 +153,8 @@ fn a_spring_between_places_that_do_not_turn_is_idle() {
     assert_eq!(idle, ["k"]);
     let mechanism = with_joints(&[slide]) + FRAMES;
     let text = format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia{effect}]\n");
-    let (_, findings) = read_scene(&text, "scene", |_| Ok(mechanism)).expect("a sound scene");
+    let (_, findings) =
+        read_scene(&text, "scene", |_| Ok(mechanism.clone())).expect("a sound scene");
     let said: Vec<&str> = findings.0.iter().map(|f| f.message.as_str()).collect();
     let expected =
         "`k` does nothing: no joint moves `plate` against `seat` in a direction in which it acts";

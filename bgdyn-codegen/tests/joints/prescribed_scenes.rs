@@ -63,7 +63,7 @@ fn read(prescribed: bool, effects: &str, keys: &str) -> Result<SceneEquations, R
     let scene = format!("scene: 1\nmechanism: arm.yaml\neffects: [{effects}]\n{keys}\n");
     let own = if prescribed { PRESCRIBED } else { "" };
     let mechanism = format!("{LINKS}{own}");
-    read_scene(&scene, "scene", |_| Ok(mechanism)).map(|(system, _)| system)
+    read_scene(&scene, "scene", |_| Ok(mechanism.clone())).map(|(system, _)| system)
 }
 
 fn scene(prescribed: bool, effects: &str, keys: &str) -> SceneEquations {

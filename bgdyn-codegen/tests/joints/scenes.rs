@@ -15,7 +15,7 @@ const EFFECTS: &str = "effects: [inertia, velocity_products, gravity";
 pub(super) fn read(joint: &str, effects: &str, keys: &str) -> Result<SceneEquations, Refusal> {
     let scene = format!("scene: 1\nmechanism: arm.yaml\n{EFFECTS}{effects}]\n{keys}\n");
     let mechanism = with_joints(&[LEADER, joint]);
-    read_scene(&scene, "scene", |_| Ok(mechanism)).map(|(system, _)| system)
+    read_scene(&scene, "scene", |_| Ok(mechanism.clone())).map(|(system, _)| system)
 }
 
 /// Asserts that a scene is refused by one fault of this rule, whose text and advice have these words.

@@ -227,7 +227,7 @@ fn scenes_of_such_mechanisms_are_those_without_the_key() {
     let text =
         "scene: 1\nmechanism: five_bar.yaml\neffects: [gravity, inertia, velocity_products]\n";
     let counts = |mechanism: String| {
-        let read = bgdyn_codegen::read_scene(text, "scene", |_| Ok(mechanism));
+        let read = bgdyn_codegen::read_scene(text, "scene", |_| Ok(mechanism.clone()));
         let (system, _) = read.unwrap_or_else(|refusal| panic!("{refusal:?}"));
         system.function(SceneFunction::Derivative).operations()
     };
@@ -269,7 +269,7 @@ fn scenes_lock_actuated_joints() {
             "scene: 1\nmechanism: five_bar.yaml\neffects: [gravity, inertia, velocity_products]\nlock: {{ {joint}: {at} }}\n"
         );
         let system = |mechanism: String| {
-            let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(mechanism));
+            let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(mechanism.clone()));
             read.unwrap_or_else(|refusal| panic!("{joint}: {refusal:?}"))
                 .0
         };

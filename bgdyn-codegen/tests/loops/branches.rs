@@ -44,7 +44,7 @@ fn start(text: &str, initial: &str) -> Result<SceneEquations, Refusal> {
         "scene: 1\nmechanism: linkage.yaml\neffects: [inertia]\ninitial: {{ {initial} }}\n"
     );
     let own = text.to_owned();
-    bgdyn_codegen::read_scene(&scene, "scene", |_| Ok(own)).map(|(system, _)| system)
+    bgdyn_codegen::read_scene(&scene, "scene", |_| Ok(own.clone())).map(|(system, _)| system)
 }
 
 /// Returns the position of a joint at the start.

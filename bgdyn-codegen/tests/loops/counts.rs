@@ -77,7 +77,7 @@ fn rates_of_scenes_share_the_velocity_map_with_forward_dynamics() {
             "scene: 1\nmechanism: {name}.yaml\neffects: [gravity, inertia, velocity_products]\n"
         );
         let mechanism = spec(name);
-        let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(mechanism));
+        let read = bgdyn_codegen::read_scene(&text, "scene", |_| Ok(mechanism.clone()));
         let (system, _) = read.unwrap_or_else(|refusal| panic!("{name}: {refusal:?}"));
         let derivative = system.function(SceneFunction::Derivative).operations();
         let found = [derivative.mul, derivative.add, derivative.div];

@@ -321,3 +321,40 @@ fn the_jacobian_contains_the_controllers() {
         assert!(off <= 1e-15 * size, "{off:e} of {size}");
     }
 }
+
+/// A model of the controllers with loops and other effects: the efforts are those of its own scene.
+#[test]
+fn a_model_of_the_controllers_may_have_loops() {
+    let followed = ["distal1_angle", "proximal2_angle"];
+    let believed = "gravity, inertia, velocity_products, \
+        wire: { type: spring, joint: proximal1_angle, stiffness: 7 N*m/rad }";
+    let model = format!("controller_model: {{ effects: [{believed}] }}\n");
+    let effects = format!("{ALL}, grease: {{ type: viscous, joint: distal1_angle, damping: 0.4 }}");
+    let mechanism = spec("five_bar");
+    let read = |text: String| {
+        read(&mechanism, &text).unwrap_or_else(|refusal| panic!("{text}: {refusal:?}"))
+    };
+    let with = read(scene(&followed, &effects, "") + &model);
+    let alone = read(scene(&followed, believed, ""));
+    let own = read(scene(&followed, &effects, ""));
+    let closure = alone.scene.mechanism.closure().expect("loops");
+    for (k, q) in closure.samples.iter().enumerate().take(4) {
+        let state = Inputs {
+            q: q.clone(),
+            v: vec![Dd::from_f64(0.75), Dd::from_f64(-1.25)],
+            u: vec![Dd::ZERO; 2],
+            t: Some(Dd::from_f64(0.25)),
+            ..Inputs::default()
+        };
+        let efforts = |system: &SceneEquations| {
+            let inputs = system.function(SceneFunction::Inputs);
+            inputs.evaluate(state.clone()).0
+        };
+        let (found, wanted, other) = (efforts(&with), efforts(&alone), efforts(&own));
+        for i in 0..2 {
+            let off = (found[i] - wanted[i]).to_f64().abs();
+            assert!(off <= 1e-24 * largest(&wanted), "state {k}, {i}: {off:e}");
+        }
+        assert!((found[0] - other[0]).to_f64().abs() > 1e-3, "state {k}");
+    }
+}

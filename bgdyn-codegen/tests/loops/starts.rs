@@ -12,7 +12,7 @@ fn scene(mechanism: &str, initial: &str) -> Result<SceneEquations, Refusal> {
         "scene: 1\nmechanism: {mechanism}.yaml\neffects: [inertia]\ninitial: {{ {initial} }}\n"
     );
     let own = spec(mechanism);
-    bgdyn_codegen::read_scene(&text, "scene", |_| Ok(own)).map(|(system, _)| system)
+    bgdyn_codegen::read_scene(&text, "scene", |_| Ok(own.clone())).map(|(system, _)| system)
 }
 
 fn started(mechanism: &str, initial: &str) -> SceneEquations {

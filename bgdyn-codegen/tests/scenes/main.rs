@@ -6,6 +6,7 @@ mod causality;
 mod combinations;
 mod combined;
 mod common;
+mod controller_model;
 mod controllers;
 mod cylinders;
 mod drives;
