@@ -77,7 +77,7 @@ fn try_read(text: &str) -> Result<SceneEquations, Refusal> {
         "plant.yaml" => Ok(arm(1.0, "0.3")),
         "nominal.yaml" => Ok(arm(1.25, "0.35")),
         "broken.yaml" => Ok(arm(1.25, "0.35").replace("2.5", "x").replace("3.1", "-3")),
-        "welded.yaml" => Ok(arm(1.0, "0.3").replace("revolute, axis: [0.1, -0.2, 0.97]", "fixed")),
+        "renamed.yaml" => Ok(arm(1.0, "0.3").replace("waist", "column_turn")),
         _ => Err("there is no such file".into()),
     };
     read_scene(text, "run", load).map(|(system, _)| system)
@@ -295,7 +295,7 @@ fn refused() {
         ),
         (
             "inertia",
-            "{ mechanism: welded.yaml }",
+            "{ mechanism: renamed.yaml }",
             "in the model of the controllers: ",
         ),
         ("inertia", "{ mechanisms: plant.yaml }", "mechanisms"),
