@@ -6,6 +6,7 @@ use bgdyn::nalgebra::SVector;
 use bgdyn_identification::excite::{
     Effort, Excitation, JointLimits, Keep, Noise, PeriodicMotion, Request, excite,
 };
+use bgdyn_identification::log::Log;
 use bgdyn_identification::{Identification, LogFault, Options, identify};
 
 use crate::control::{Adaptive, Load, computed_torque};
@@ -37,8 +38,8 @@ pub struct Calibration {
     pub motion: Excitation,
     /// Time of the plan, s.
     pub planned_in: f64,
-    /// Rows of the log, and of the one that judges.
-    pub rows: [usize; 2],
+    /// The log, and the one of another motion, which judges.
+    pub logs: [Log; 2],
     /// What was found.
     pub found: Identification,
     /// Time of the identification, s.
@@ -79,9 +80,9 @@ pub fn calibrate(spec: &ArmModel) -> Result<Calibration, String> {
     Ok(Calibration {
         motion,
         planned_in,
-        rows: [log.time.len(), test.time.len()],
         found: found.map_err(|faults| listed(&faults))?,
         identified_in: before.elapsed().as_secs_f64(),
+        logs: [log, test],
         worst_error: train.iter().map(|s| s.error().amax()).fold(0.0, f64::max),
     })
 }

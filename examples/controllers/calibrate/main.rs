@@ -15,6 +15,7 @@ mod plant;
 mod report;
 mod results;
 mod robot;
+mod table;
 mod timing;
 mod truth_numbers;
 
@@ -73,7 +74,13 @@ fn main() -> ExitCode {
 fn show(options: &Options) -> Result<(), String> {
     let results = results::Results::new()?;
     report::print(&results);
+    println!();
+    let logs = results.calibration.logs.iter();
+    for (log, name) in logs.zip(["log.csv", "other.csv"]) {
+        let path = table::write(log, &options.out, name)?;
+        println!("wrote {}", path.display());
+    }
     let path = figure::draw(&results, &options.out)?;
-    println!("\nwrote {}", path.display());
+    println!("wrote {}", path.display());
     results.check()
 }

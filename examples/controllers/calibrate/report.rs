@@ -31,8 +31,8 @@ fn print_log(results: &Results) {
     );
     println!(
         "   log                 {} rows, and {} of another motion; positions off by up to {:.0} mrad",
-        c.rows[0],
-        c.rows[1],
+        c.logs[0].time.len(),
+        c.logs[1].time.len(),
         c.worst_error * 1e3
     );
     println!(

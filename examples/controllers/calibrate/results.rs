@@ -11,7 +11,7 @@ use crate::truth_numbers::{self, EffortErrors};
 /// Share of the mass within which the load counts as found.
 const FOUND: f64 = 0.05;
 /// Time after which the errors with the load are compared, s.
-const SETTLED: f64 = 1.0;
+pub const SETTLED: f64 = 1.0;
 /// Least factor by which the errors fall.
 const FACTOR: f64 = 10.0;
 

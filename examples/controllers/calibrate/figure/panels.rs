@@ -2,13 +2,12 @@
 
 use bgdyn_accuracy::plot::{
     Area, Axis, BLUE, Drawn, FAINT, GREEN, INK, Marker, ORANGE, PURPLE, Panel, RGBColor, SKY, Sign,
-    Stroke, VERMILION, curve, legend, mark,
+    Stroke, VERMILION, curve, legend, mark, name_ends,
 };
 
 use crate::acts::{Carried, Tracking, miss};
-use crate::panda::JOINT_NAMES;
 use crate::plant::{PART_MASS, Sample};
-use crate::results::Results;
+use crate::results::{Results, SETTLED};
 use crate::{JOINTS, Joints};
 
 /// Colours of the joints, from the base on.
@@ -39,27 +38,24 @@ pub fn motion(results: &Results, area: &Area<'_>) -> Drawn {
     let period = motion.period();
     let times = (0..=400).map(|k| f64::from(k) / 400.0 * period);
     let states: Vec<(f64, Vec<f64>)> = times.map(|t| (t, motion.at(t).q)).collect();
-    let degrees = || {
+    let degrees = {
         states
             .iter()
             .flat_map(|(_, q)| q.iter().map(|q| q.to_degrees()))
     };
     let x = Axis::linear(0.0, period, 6).label("time / s");
-    let y = above(degrees, 0.12).label("position / °");
-    let chart = Panel::new("The planned motion of the seven joints", x, y).draw(area)?;
+    let y = Axis::around(degrees, 7).label("position / °");
+    let panel = Panel::new("The planned motion of the seven joints", x, y);
+    let chart = panel.sides([78, 40, 32, 46]).draw(area)?;
     for (j, colour) in COLOURS.into_iter().enumerate() {
         let points = states.iter().map(|(t, q)| (*t, q[j].to_degrees()));
         curve(chart.plotting_area(), points, Stroke::new(colour, 1.8))?;
     }
-    let names = std::array::from_fn::<String, JOINTS, _>(|j| (j + 1).to_string());
-    let lines = COLOURS.map(|colour| Sign::Line(Stroke::new(colour, 1.8)));
-    let entries: Vec<(Sign, &str)> = lines
-        .into_iter()
-        .zip(names.iter().map(String::as_str))
-        .collect();
-    // Seven entries are wider than a panel: two short rows would hide curves.
-    legend(area, (LEGEND.0 - 14.0, LEGEND.1), &entries[..4])?;
-    legend(area, (LEGEND.0 + 252.0, LEGEND.1), &entries[4..])
+    let ends = states.last().map(|(t, q)| {
+        let end = |j: usize| ((*t, q[j].to_degrees()), format!("q{}", j + 1), COLOURS[j]);
+        (0..JOINTS).map(end).collect::<Vec<_>>()
+    });
+    name_ends(area, &chart, ends.unwrap_or_default())
 }
 
 /// Efforts of another motion: measured, and predicted by both models.
@@ -79,7 +75,7 @@ pub fn efforts(results: &Results, area: &Area<'_>) -> Drawn {
     };
     let x = Axis::linear(0.0, 10.0, 6).label("time / s");
     let y = above(values, 0.12).label("effort / N·m");
-    let title = format!("Efforts of {} in another motion", JOINT_NAMES[JOINT]);
+    let title = format!("Efforts of joint {} in another motion", JOINT + 1);
     let chart = Panel::new(&title, x, y).draw(area)?;
     for (points, stroke) in [(measured, MEASURED), (spec, BEFORE), (found, AFTER)] {
         curve(chart.plotting_area(), points, stroke)?;
@@ -179,9 +175,9 @@ pub fn mass(results: &Results, area: &Area<'_>) -> Drawn {
     curve(chart.plotting_area(), points, AFTER)?;
     curve(chart.plotting_area(), truth, TRUE)?;
     let entries = [
-        (Sign::Line(AFTER), "found"),
-        (Sign::Line(TRUE), "true"),
         (Sign::Shade(HELD), "2 kg held"),
+        (Sign::Line(TRUE), "true"),
+        (Sign::Line(AFTER), "found"),
     ];
     legend(area, LEGEND, &entries)
 }
@@ -204,8 +200,10 @@ pub fn load_errors(results: &Results, area: &Area<'_>) -> Drawn {
 
 /// Errors of the joints with the load.
 pub fn load_joint_errors(results: &Results, area: &Area<'_>) -> Drawn {
+    let (taken, released) = results.cycle.carried();
+    let from = taken + SETTLED;
     by_joint(
-        "Errors of the positions from 1 s after the load was taken, rms",
+        &format!("Errors of the positions from {from:.1} s to {released:.1} s, rms"),
         "error / mrad",
         mrad(&results.settled),
         ["without adaptation", "with adaptation"],
