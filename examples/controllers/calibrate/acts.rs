@@ -9,8 +9,9 @@ use bgdyn_identification::excite::{
 use bgdyn_identification::log::Log;
 use bgdyn_identification::{Identification, LogFault, Options, identify};
 
-use crate::control::{Adaptive, Load, computed_torque};
+use crate::control::{Adaptive, computed_torque};
 use crate::cycle::{Cycle, Gripper, Leg, Wanted};
+use crate::load::Load;
 use crate::plant::{Sample, Task, logged, run};
 use crate::robot::{ArmModel, Generated, Numbers, identified_model, place_of_tool};
 use crate::{JOINTS, Joints};

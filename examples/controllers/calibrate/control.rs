@@ -1,12 +1,9 @@
 //! The control laws: computed torque, and the adaptive law of Slotine and Li (1987) for what the gripper holds.
 
-use bgdyn::nalgebra::{SMatrix, SVector};
-use bgdyn_identification::model::BODY_PARAMETERS;
-
 use crate::cycle::Wanted;
-
+use crate::load::{Load, LoadMap};
 use crate::plant::PERIOD;
-use crate::robot::{ArmModel, NP, load_map};
+use crate::robot::ArmModel;
 use crate::{JOINTS, Joints};
 
 /// Frequency of both laws, rad/s: errors decay as (1 + ωt) exp(−ωt).
@@ -35,9 +32,6 @@ pub fn computed_torque(
     model.inertial_effort(q, v, &(wanted.a + pull)) + model.friction(&wanted.v, smooth_sign)
 }
 
-/// Ten numbers of the load: mass, first moments, tensor about the flange, in its axes; kg, kg·m, kg·m².
-pub type Load = SVector<f64, BODY_PARAMETERS>;
-
 /// What the adaptive law follows in place of the wanted motion, and how far the arm is from it.
 #[derive(Clone, Copy, Debug)]
 pub struct Reference {
@@ -64,8 +58,8 @@ impl Reference {
 /// The adaptive law for a load at the flange.
 pub struct Adaptive {
     model: ArmModel,
-    /// K: from the numbers of the load to base parameters.
-    map: SMatrix<f64, NP, BODY_PARAMETERS>,
+    /// K.
+    map: LoadMap,
     /// Γ, diagonal; 0 for a law that does not adapt.
     rates: Load,
     /// K_D, diagonal, N·m·s/rad.
@@ -81,7 +75,7 @@ impl Adaptive {
         let rate = if adapts { RATE } else { 0.0 };
         Adaptive {
             model: model.clone(),
-            map: load_map(),
+            map: LoadMap::new(),
             rates: Load::from_fn(|k, _| rate * LENGTH.powi(2 * lengths[k])),
             damping: model.own_inertias(home) * OMEGA,
             load: Load::zeros(),
@@ -93,7 +87,7 @@ impl Adaptive {
     pub fn effort(&mut self, wanted: &Wanted<JOINTS>, q: &Joints, v: &Joints) -> Joints {
         let model = &self.model;
         let mut reference = Reference::new(wanted, q, v);
-        let base = model.base + self.map * self.load;
+        let base = model.base + self.map.base(&self.load);
         let Reference { v: v_r, a: a_r, s } = reference;
         let effort = model.arm.adaptive_regressor(q, v, &v_r, &a_r) * base
             + model.numbers.rotor.component_mul(&a_r)
@@ -109,6 +103,6 @@ impl Adaptive {
     pub fn change(&self, q: &Joints, v: &Joints, reference: &Reference) -> Load {
         let Reference { v: v_r, a: a_r, s } = reference;
         let of_base = self.model.arm.adaptive_step(q, v, v_r, a_r, s);
-        self.map.tr_mul(&of_base).component_mul(&self.rates)
+        self.map.transposed(&of_base).component_mul(&self.rates)
     }
 }

@@ -9,6 +9,7 @@ mod control;
 #[path = "../common/cycle.rs"]
 mod cycle;
 mod figure;
+mod load;
 #[path = "../common/options.rs"]
 mod options;
 mod plant;

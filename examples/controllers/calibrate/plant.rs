@@ -29,6 +29,9 @@ pub const READING_NOISE: [f64; JOINTS] = [0.018, 0.364, 0.199, 0.157, 0.036, 0.0
 pub const PART_MASS: f64 = 2.0;
 const PART_TENSOR: [f64; 3] = [2.733e-3, 2.733e-3, 2.133e-3];
 
+/// Positions, rad, and velocities, rad/s.
+pub type ArmState = SVector<f64, { 2 * JOINTS }>;
+
 /// What the controller was called with, what it asked for, and where the arm really was.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
@@ -63,6 +66,12 @@ pub struct Task<'a> {
     pub held: Option<(f64, f64)>,
 }
 
+impl Task<'_> {
+    fn holds(&self, t: f64) -> bool {
+        self.held.is_some_and(|(from, to)| from <= t && t < to)
+    }
+}
+
 /// Runs a task under a law that gives efforts for the wanted motion and the measured positions and velocities.
 ///
 /// The arm is at rest in the start. The part is attached and released without an impact: the state is continuous.
@@ -71,52 +80,57 @@ pub fn run(
     mut law: impl FnMut(&Wanted<JOINTS>, &Joints, &Joints) -> Joints,
 ) -> Result<Vec<Sample>, String> {
     let (empty, loaded) = (Truth::default(), with_part());
-    let calls = (task.seconds / PERIOD).round() as usize;
-    let start = HybridState {
-        t: 0.0,
-        y: joined(&(task.path)(0.0).q, &Joints::zeros()),
-        modes: Joints::zeros(),
+    let begun = |scene, t, y, modes| {
+        let from = HybridState { t, y, modes };
+        Run::by(Rk4, ScenePlant::new(scene), from).unaudited()
     };
-    let begun = |scene, from| Run::by(Rk4, ScenePlant::new(scene), from).unaudited();
-    let mut run = begun(&empty, start);
+    let start = joined(&(task.path)(0.0).q, &Joints::zeros());
+    let mut run = begun(&empty, 0.0, start, Joints::zeros());
     let mut holds = false;
+    let calls = (task.seconds / PERIOD).round() as usize;
     let mut samples = Vec::with_capacity(calls);
     for call in 0..calls {
         let t = call as f64 * PERIOD;
-        let now = task.held.is_some_and(|(from, to)| from <= t && t < to);
-        if now != holds {
-            holds = now;
-            let from = HybridState {
-                t,
-                y: *run.y(),
-                modes: *run.modes(),
-            };
-            run = begun(if holds { &loaded } else { &empty }, from);
+        if holds != task.holds(t) {
+            holds = !holds;
+            let scene = if holds { &loaded } else { &empty };
+            run = begun(scene, t, *run.y(), *run.modes());
         }
-        let (q, v) = split(run.y());
-        let measured = q.map(|x| rounded(x, ENCODER));
-        let velocity = v.map(|x| rounded(x, ENCODER / GEAR / PERIOD));
-        let wanted = (task.path)(t);
-        let asked = law(&wanted, &measured, &velocity);
-        let effort = Joints::from_fn(|j, _| {
-            let most = JOINT_LIMITS[j].effort;
-            asked[j].clamp(-most, most)
-        });
-        samples.push(Sample {
-            t,
-            wanted,
-            q,
-            measured,
-            velocity,
-            effort,
-        });
-        run.plant_mut().given = effort - Joints::from(OFFSETS);
+        let sample = sampled(t, run.y(), (task.path)(t), &mut law);
+        run.plant_mut().given = sample.effort - Joints::from(OFFSETS);
+        samples.push(sample);
         for _ in 0..SUBSTEPS {
             let step = run.step(PERIOD / f64::from(SUBSTEPS));
             step.map_err(|failed| format!("at {t:.3} s: {failed:?}"))?;
         }
     }
     Ok(samples)
+}
+
+/// Reads the sensors and calls the law; the drives give no more than their limits.
+fn sampled(
+    t: f64,
+    y: &ArmState,
+    wanted: Wanted<JOINTS>,
+    law: &mut impl FnMut(&Wanted<JOINTS>, &Joints, &Joints) -> Joints,
+) -> Sample {
+    let half = |first: usize| y.fixed_rows::<JOINTS>(first).into_owned();
+    let (q, v) = (half(0), half(JOINTS));
+    let measured = q.map(|x| rounded(x, ENCODER));
+    let velocity = v.map(|x| rounded(x, ENCODER / GEAR / PERIOD));
+    let asked = law(&wanted, &measured, &velocity);
+    let limited = |j: usize, _: usize| {
+        let most = JOINT_LIMITS[j].effort;
+        asked[j].clamp(-most, most)
+    };
+    Sample {
+        t,
+        wanted,
+        q,
+        measured,
+        velocity,
+        effort: Joints::from_fn(limited),
+    }
 }
 
 /// Returns the arm with the part in its gripper.
@@ -131,17 +145,11 @@ fn with_part() -> Truth<f64> {
 }
 
 /// Returns positions and velocities in one vector.
-pub fn joined(q: &Joints, v: &Joints) -> SVector<f64, { 2 * JOINTS }> {
-    SVector::from_fn(|i, _| if i < JOINTS { q[i] } else { v[i - JOINTS] })
+pub fn joined(q: &Joints, v: &Joints) -> ArmState {
+    ArmState::from_fn(|i, _| if i < JOINTS { q[i] } else { v[i - JOINTS] })
 }
 
-fn split(y: &SVector<f64, { 2 * JOINTS }>) -> (Joints, Joints) {
-    (
-        y.fixed_rows::<JOINTS>(0).into_owned(),
-        y.fixed_rows::<JOINTS>(JOINTS).into_owned(),
-    )
-}
-
+/// Returns the nearest multiple of a step.
 fn rounded(x: f64, step: f64) -> f64 {
     (x / step).round() * step
 }

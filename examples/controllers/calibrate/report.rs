@@ -4,6 +4,7 @@ use crate::JOINTS;
 use crate::panda::JOINT_NAMES;
 use crate::plant::PART_MASS;
 use crate::results::Results;
+use crate::timing::PASSES;
 use crate::truth_numbers::share_within;
 
 /// Prints the report.
@@ -84,7 +85,7 @@ fn print_cycle(results: &Results) {
     println!("   {:.1} s: {}", results.cycle.seconds(), legs.join(", "));
     let [before, after] = &results.tracking;
     println!(
-        "   joints, rms         {:.2} mrad became {:.4} mrad: a {:.0}th",
+        "   joints, rms         {:.2} mrad became {:.4} mrad: smaller by a factor of {:.0}",
         before.whole() * 1e3,
         after.whole() * 1e3,
         before.whole() / after.whole()
@@ -117,7 +118,7 @@ fn print_load(results: &Results) {
         "   tool, rms           {without:.2} mm without adaptation, {with:.3} mm with it, from 1 s after it was taken"
     );
     println!(
-        "   a step              {:.0} ns `adaptive_step`, {:.0} ns with the ten numbers of the load; this machine, this build",
+        "   a step              {:.0} ns `adaptive_step`, {:.0} ns with the ten numbers of the load; the shortest of {PASSES} passes",
         results.times.generated, results.times.load
     );
 }

@@ -5,10 +5,9 @@
 //! of the spec could do the same, but 70 of them would cost arithmetic in each call, where the regressor has gathered
 //! what acts together in 43 base parameters.
 
-use bgdyn::nalgebra::{DMatrix, SMatrix, SVector};
+use bgdyn::nalgebra::{DMatrix, SVector};
 use bgdyn_identification::excite::Points;
 use bgdyn_identification::model::{BODY_PARAMETERS, Parameters, Transport, Unknown};
-use bgdyn_identification::pseudo_inertia::transport;
 use bgdyn_identification::{Identified, JointPart, LinkPart, Model, Rows};
 
 use crate::panda::{BASE_PARAMETERS, BODY_NAMES, JOINT_LIMITS, JOINT_NAMES, Panda};
@@ -115,20 +114,6 @@ impl ArmModel {
             self.inertial_effort(q, &still, &unit)[j] - held[j]
         })
     }
-}
-
-/// Returns the map from the ten parameters of a body fixed to the flange, about it, to base parameters.
-pub fn load_map() -> SMatrix<f64, NP, BODY_PARAMETERS> {
-    let arm = Panda::<f64>::default();
-    let q = Joints::zeros();
-    let flange = arm.pose_link7(&q).inverse() * arm.pose_flange(&q);
-    let in_link = transport(&flange.rotation, &flange.translation);
-    let columns: [BaseParameters; BODY_PARAMETERS] = std::array::from_fn(|k| {
-        let mut unit = SVector::<f64, BODIES>::zeros();
-        unit[BODIES - BODY_PARAMETERS + k] = 1.0;
-        arm.base_parameters(&unit)
-    });
-    SMatrix::from_columns(&columns) * in_link
 }
 
 /// Rows of the generated regressor, and the place of the tool, for the identification.
