@@ -64,6 +64,7 @@ pub fn calibrate(spec: &ArmModel) -> Result<Calibration, String> {
     let train = follow(&motion.motion, REPETITIONS * MOTION, spec)?;
     let judge = follow(&other.motion, MOTION, spec)?;
     within_limits(&train)?;
+    within_limits(&judge)?;
     let (log, test) = (logged(&train, 11), logged(&judge, 12));
     let options = Options {
         cut: Some(CUT),
@@ -124,7 +125,8 @@ fn plan(effort: Effort) -> Result<Excitation, String> {
 fn within_limits(samples: &[Sample]) -> Result<(), String> {
     for sample in samples {
         for (j, limits) in crate::panda::JOINT_LIMITS.iter().enumerate() {
-            if !(limits.lower..=limits.upper).contains(&sample.q[j]) {
+            let range = limits.lower..=limits.upper;
+            if !range.contains(&sample.q[j]) {
                 let (t, name) = (sample.t, crate::panda::JOINT_NAMES[j]);
                 return Err(format!("{name} leaves its range at {t:.3} s of the log"));
             }
@@ -142,7 +144,7 @@ fn listed(faults: &[LogFault]) -> String {
 fn follow(motion: &PeriodicMotion, seconds: f64, model: &ArmModel) -> Result<Vec<Sample>, String> {
     let path = |t: f64| {
         let state = motion.at(t);
-        let [q, v, a] = [state.q, state.v, state.a].map(|x| Joints::from_vec(x));
+        let [q, v, a] = [state.q, state.v, state.a].map(Joints::from_vec);
         Wanted { q, v, a }
     };
     let task = Task {

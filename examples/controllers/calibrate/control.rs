@@ -10,7 +10,7 @@ use crate::{JOINTS, Joints};
 const OMEGA: f64 = std::f64::consts::TAU * 5.0;
 /// Joints that are to move slower than this do not adapt, rad/s: dry friction at rest holds a load that no error shows.
 const SLOW: f64 = 0.03;
-/// Rate of the adaptation, kg/(N²·m²·s) of a mass.
+/// Rate of the adaptation of a mass, kg²/(N·m).
 const RATE: f64 = 5.0;
 /// Length that makes first moments and tensors about the flange comparable with masses, m.
 const LENGTH: f64 = 0.1;
