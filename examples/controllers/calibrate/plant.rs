@@ -19,7 +19,8 @@ pub const PERIOD: f64 = 1e-3;
 const SUBSTEPS: u32 = 4;
 /// Step of the encoders, rad: 17 bits a turn.
 const ENCODER: f64 = TAU / (1 << 17) as f64;
-/// Turns of a motor for one of its joint; the velocity is the difference of the motor's encoder over a period.
+/// Turns of a motor for one of its joint. Velocities are the true ones, rounded to the step that a difference of the
+/// motor's encoder over a period has; the delay of such a difference is left out.
 const GEAR: f64 = 100.0;
 /// What the amplifiers lose of the effort that is asked for, N·m.
 pub const OFFSETS: [f64; JOINTS] = [-0.001, 0.194, -0.104, 0.027, 0.053, 0.035, -0.028];
