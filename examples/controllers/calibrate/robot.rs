@@ -1,9 +1,9 @@
 //! The arm as its controllers know it: functions generated from `specs/panda.yaml`, and numbers.
 //!
 //! The numbers change when the arm is calibrated, the functions do not: efforts are the generated regressor times the
-//! parameters of the bodies, so that a controller takes what was found without being compiled again. Run-time parameters
-//! of the spec could do the same, but 70 of them would cost arithmetic in each call, where the regressor has gathered
-//! what acts together in 43 base parameters.
+//! base parameters, so that a controller takes what was found without being compiled again. Run-time parameters in the
+//! spec would do the same, but 70 of them would have to be written into a copy of it, and the
+//! identification and the adaptive law need the regressor anyway.
 
 use bgdyn::nalgebra::{DMatrix, SVector};
 use bgdyn_identification::excite::Points;
