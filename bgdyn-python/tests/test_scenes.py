@@ -55,6 +55,64 @@ def test_a_spring(swing: bgdyn.Scene) -> None:
     assert repr(run) == "<bgdyn.Run swing: 101 rows to t = 2 s, 0 events>"
 
 
+def test_sampled_controllers(command: Command, tmp_path: Path) -> None:
+    control = "control: { period: 50 ms, delay: 20 ms }"
+    text = """
+scene: 1
+mechanism: block.yaml
+effects: [inertia]
+inputs: { slide: { pd: { target: 1 m, stiffness: 10, damping: 3 } } }
+integration: { method: rk4, step: 7 ms, end: 1 s }
+"""
+    run = bgdyn.Scene(text=text + control, mechanism=BLOCK, name="sampled").simulate(points=101)
+    # Samples are at 0, 50, 100, … ms and act at 20, 70, 120, … ms.
+    q = v = effort = late = 0.0
+    by_hand = [(q, v)]
+    for point in range(100):
+        if point % 5 == 0:
+            late = 10 * (1 - q) - 3 * v
+        if point % 5 == 2:
+            effort = late
+        h, a = 0.01, effort / 2
+        q, v = q + h * v + h * h * a / 2, v + h * a
+        by_hand.append((q, v))
+    assert run.values == pytest.approx(np.array(by_hand), abs=1e-9)
+    # Noise is that of the seed, and that of the command.
+    noisy = text + control.replace(" }", ", noise: { position: 1 mm, velocity: 0.01 }, quantisation: { effort: 0.1 }, seed: SEED }")
+    (tmp_path / "block.yaml").write_text(BLOCK)
+    runs = []
+    for seed in ["3", "3", "4"]:
+        path = tmp_path / "noisy.scene.yaml"
+        path.write_text(noisy.replace("SEED", seed))
+        runs.append(bgdyn.Scene(path).simulate(points=101).values)
+        out = tmp_path / "out"
+        command("simulate", path, "--out", out, "--points", "101")
+        with (out / "noisy.csv").open() as table:
+            rows = [[float(x) for x in row] for row in list(csv.reader(table))[1:]]
+        assert runs[-1] == pytest.approx(np.array(rows)[:, 1:3], abs=1e-12)
+    assert (runs[0] == runs[1]).all() and abs(runs[0] - runs[2]).max() > 1e-5
+    assert abs(runs[0] - run.values).max() > 1e-4
+
+
+def test_controllers_with_a_model_of_their_own() -> None:
+    text = """
+scene: 1
+mechanism: block.yaml
+effects: [inertia, pull]
+inputs: { slide: { computed_torque: { target: 1 m, stiffness: 10, damping: 3 } } }
+controller_model: { effects: [inertia], parameters: { load: 3 kg } }
+integration: { method: dopri5, tolerance: 1e-11, end: 2 s }
+"""
+    run = bgdyn.Scene(text=text, mechanism=BLOCK, name="model").simulate(points=51)
+    # 2 a + 9 v + 80 q = 30
+    w = np.sqrt(40 - 2.25**2)
+    turned = np.cos(w * run.t) + 2.25 / w * np.sin(w * run.t)
+    assert run["slide"] == pytest.approx(0.375 * (1 - np.exp(-2.25 * run.t) * turned), abs=1e-8)
+    other = text.replace("effects: [inertia], p", "mechanism: other.yaml, p")
+    with pytest.raises(bgdyn.SpecError, match="only the text of the scene's `mechanism` was given"):
+        bgdyn.Scene(text=other, mechanism=BLOCK, name="model")
+
+
 def test_settings(swing: bgdyn.Scene) -> None:
     assert swing.parameters == {"load": 2.0}
     run = swing.simulate(duration=3.0, parameters={"load": 8.0}, initial={"slide": -0.2, "slide_rate": 0.5}, tolerance=1e-11)
