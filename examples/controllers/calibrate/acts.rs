@@ -26,9 +26,6 @@ const HEIGHT: f64 = 0.1;
 const MOTION: f64 = 10.0;
 const REPETITIONS: f64 = 2.0;
 
-/// Cut of the identification's filter, Hz: 40 times the highest harmonic of the motion. The cut that is found from the
-/// spectrum of this log is 200 Hz, a fifth of its rate: steps of the encoders have power far above the motion.
-const CUT: f64 = 20.0;
 /// Rows of joints that are slower have no weight, rad/s: under the model of the spec, dry friction holds a joint for a
 /// while where its velocity changes its sign.
 const STICKS: f64 = 0.02;
@@ -67,7 +64,6 @@ pub fn calibrate(spec: &ArmModel) -> Result<Calibration, String> {
     within_limits(&judge)?;
     let (log, test) = (logged(&train, 11), logged(&judge, 12));
     let options = Options {
-        cut: Some(CUT),
         skip_below: STICKS,
         ..Options::default()
     };
