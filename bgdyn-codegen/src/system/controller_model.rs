@@ -4,9 +4,25 @@
 
 use super::followed::computed_torques;
 use super::summed::summed;
-use super::{ActuatorEfforts, SceneEquations};
+use super::{ActuatorEfforts, SceneEquations, range};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_with_pivots};
+use crate::fault::{Faults, wording};
 use crate::layout::StateLayout;
+use crate::scene::Scene;
+
+impl SceneEquations {
+    /// Builds the equations by which controllers compute torques. A controller has no start, no outputs and no balance.
+    pub(super) fn of_controllers(model: &Scene, faults: &mut Faults) -> Self {
+        let mut system = SceneEquations::unstarted(model.clone());
+        let mut found = Faults::default();
+        let b = Builder::silent();
+        range::check(&system.scene, &system.effort_sums(&b), &mut found);
+        system.choose_rows();
+        let found = found.0.into_iter().map(wording::of_controller_model);
+        faults.0.extend(found);
+        system
+    }
+}
 
 /// Returns the effort of each input of the plant that is a computed torque, by the expressions of the model with the
 /// arguments of the plant. Run-time parameters of the model are numbers.

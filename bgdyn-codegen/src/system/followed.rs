@@ -6,7 +6,6 @@
 //! of the effects, the efforts P of the followed joints in loops are A P = g with the transposed columns of the same
 //! matrix, and those of the independent ones g − A P in their rows.
 
-use super::controller_model::torques_of_model;
 use super::dynamics::needed;
 use super::waveform::{course, rate};
 use super::{EffortSums, SceneEquations};
@@ -21,9 +20,6 @@ pub(super) fn computed_torques<'g>(
     b: &'g Builder,
     sums: &EffortSums<'g, '_>,
 ) -> Vec<Option<Expr<'g>>> {
-    if let Some(model) = &system.controller_model {
-        return torques_of_model(system, model, b);
-    }
     let layout = &system.scene.layout;
     let mut at: Vec<Option<Expr<'g>>> = vec![None; layout.nv()];
     let mut in_loops: Vec<FollowedInLoop<'_, 'g>> = Vec::new();

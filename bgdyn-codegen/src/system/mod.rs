@@ -70,18 +70,6 @@ impl SceneEquations {
         system.started(faults)
     }
 
-    /// Builds the equations by which controllers compute torques. A controller has no start, no outputs and no balance.
-    fn of_controllers(model: &Scene, faults: &mut Faults) -> Self {
-        let mut system = SceneEquations::unstarted(model.clone());
-        let mut found = Faults::default();
-        let b = Builder::silent();
-        range::check(&system.scene, &system.effort_sums(&b), &mut found);
-        system.choose_rows();
-        let found = found.0.into_iter().map(wording::of_controller_model);
-        faults.0.extend(found);
-        system
-    }
-
     /// Builds the graphs of a scene.
     fn unstarted(scene: Scene) -> Self {
         let mut graph = loaded(

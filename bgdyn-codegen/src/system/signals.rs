@@ -2,6 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
+use super::controller_model::torques_of_model;
 use super::followed::computed_torques;
 use super::pose_hold;
 use super::summed::summed;
@@ -67,7 +68,10 @@ fn unlimited<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let layout = &system.scene.layout;
     let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
     let name = |i: usize| layout.inputs[i].follows.as_deref().unwrap_or_default();
-    let torques = computed_torques(system, b, &sums);
+    let torques = match &system.controller_model {
+        Some(model) => torques_of_model(system, model, b),
+        None => computed_torques(system, b, &sums),
+    };
     let mut values: Vec<Expr<'g>> = Vec::new();
     for (i, drive) in system.scene.drives.iter().enumerate() {
         values.push(match drive {
