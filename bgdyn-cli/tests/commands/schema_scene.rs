@@ -129,7 +129,7 @@ fn both_refuse_the_same() {
         "inputs: { shoulder: { computed_torque: { target: 1 } } }\ncontroller_model: nominal.yaml",
         "inputs: { shoulder: { computed_torque: { target: 1 } } }\ncontroller_model: { effects: gravity }",
         "inputs: { shoulder: { computed_torque: { target: 1 } } }\ncontroller_model: { file: nominal.yaml }",
-        "inputs: { shoulder: { computed_torque: { target: 1 } } }\ncontroller_model: { parameters: { load: 2 m m } }",
+        "inputs: { shoulder: { computed_torque: { target: 1 } } }\ncontroller_model: { parameters: [load] }",
         "inputs: { shoulder: { pd: { target: 1 } } }\ncontrol: { delay: 1 ms }",
         "inputs: { shoulder: { pd: { target: 1 } } }\ncontrol: { period: 1 ms, hold: linear }",
         "inputs: { shoulder: { pd: { target: 1 } } }\ncontrol: { period: 1 ms, noise: { effort: 1 } }",
