@@ -29,7 +29,7 @@ pub struct Ascent {
     pub values: Vec<f64>,
 }
 
-/// Ascends from a point where `f` is defined, at most `rounds` steps; [`PATIENCE`] steps that rise by less than `least`
+/// Ascends from a point where `f` is defined, at most `rounds` steps; `PATIENCE` steps that rise by less than `least`
 /// in sum end it.
 pub fn ascend(
     f: &dyn Slope,
