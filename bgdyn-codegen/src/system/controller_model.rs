@@ -4,7 +4,7 @@
 
 use super::followed::computed_torques;
 use super::summed::summed;
-use super::{ActuatorEfforts, SceneEquations, range};
+use super::{ActuatorEfforts, EffortSums, SceneEquations, range};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_with_pivots};
 use crate::fault::{Faults, wording};
 use crate::layout::StateLayout;
@@ -25,11 +25,10 @@ impl SceneEquations {
 }
 
 /// Returns the effort of each input of the plant that is a computed torque, by the expressions of the model with the
-/// arguments of the plant. Run-time parameters of the model are numbers.
+/// arguments and signals of the plant. Run-time parameters of the model are numbers.
 pub(super) fn torques_of_model<'g>(
-    plant: &SceneEquations,
+    plant: &EffortSums<'g, '_>,
     model: &SceneEquations,
-    b: &'g Builder,
 ) -> Vec<Option<Expr<'g>>> {
     let own = Builder::silent();
     let torques: Vec<Option<Signed>> = {
@@ -39,18 +38,21 @@ pub(super) fn torques_of_model<'g>(
     };
     let from = own.into_graph();
     let outputs: Vec<Signed> = torques.iter().flatten().copied().collect();
-    let (layout, measured) = (&model.scene.layout, &plant.scene.layout);
+    let (layout, measured) = (&model.scene.layout, &plant.scene().layout);
     let place = |to: &mut Graph, leaf: Leaf| match leaf {
         Leaf::Parameter(p) => Some(to.constant(model.scene.parameters[p].default)),
+        Leaf::Input(i) => Some(plant.input(&layout.inputs[i].name).signed()),
         leaf => Some(to.leaf(same(leaf, layout, measured))),
     };
-    let copies = b.with_graph(|to| copy_with_pivots(to, &from, &outputs, place, |_| None));
+    let copies = plant
+        .b
+        .with_graph(|to| copy_with_pivots(to, &from, &outputs, place, |_| None));
     let mut copies = copies.into_iter();
     let mut found = vec![None; measured.inputs.len()];
     for (part, torque) in layout.inputs.iter().zip(torques) {
         let copy = torque.and_then(|_| copies.next());
         if let (Some(copy), Some(i)) = (copy, index(&measured.inputs, |p| p.name == part.name)) {
-            found[i] = Some(b.expr(copy));
+            found[i] = Some(plant.b.expr(copy));
         }
     }
     found
@@ -68,7 +70,6 @@ fn same(leaf: Leaf, model: &StateLayout, plant: &StateLayout) -> Leaf {
         }
         Leaf::State(i) => index(&plant.states, |p| p.name == model.states[i].name).map(Leaf::State),
         Leaf::Mode(i) => index(&plant.modes, |p| p.name == model.modes[i].name).map(Leaf::Mode),
-        Leaf::Input(i) => index(&plant.inputs, |p| p.name == model.inputs[i].name).map(Leaf::Input),
         leaf => Some(leaf),
     };
     found.expect("the plant has every argument of the controllers' model")

@@ -5,9 +5,9 @@ use bgdyn_runtime::Dd;
 use super::controller_model::torques_of_model;
 use super::followed::computed_torques;
 use super::pose_hold;
-use super::summed::summed;
+use super::summed::summed_under;
 use super::waveform::{course, rate};
-use super::{ActuatorEfforts, SceneEquations};
+use super::{ActuatorEfforts, EffortSums, SceneEquations};
 use crate::expr::{Builder, Expr, Leaf};
 use crate::scene::{InputSource, integral_name, limit_events};
 
@@ -15,11 +15,10 @@ use crate::scene::{InputSource, integral_name, limit_events};
 pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let scene = &system.scene;
     let unlimited = unlimited(system, b);
-    let limited = |(&value, limit): (&Expr<'g>, &Option<[Dd; 2]>)| match limit {
-        Some([least, most]) => value.max(b.constant(*least)).min(b.constant(*most)),
-        None => value,
-    };
-    let mut values: Vec<Expr<'g>> = unlimited.iter().zip(&scene.limits).map(limited).collect();
+    let values = unlimited.iter().zip(&scene.limits);
+    let mut values: Vec<Expr<'g>> = values
+        .map(|(&value, limit)| limited(b, value, limit))
+        .collect();
     // The integral part follows a limit: ż = k_i (r − q) + (u − unlimited u)/T_t.
     for (i, drive) in scene.drives.iter().enumerate() {
         let InputSource::IntegralRate(of) = drive else {
@@ -36,6 +35,13 @@ pub(super) fn inputs<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
         }
     }
     values
+}
+
+fn limited<'g>(b: &'g Builder, value: Expr<'g>, limit: &Option<[Dd; 2]>) -> Expr<'g> {
+    match limit {
+        Some([least, most]) => value.max(b.constant(*least)).min(b.constant(*most)),
+        None => value,
+    }
 }
 
 /// Returns the distances of each limited input to its least and its largest value, by the names of their events.
@@ -66,10 +72,10 @@ pub(super) fn limit_distances<'g>(
 /// Returns every input before its limits; of the rate of an integral part k_i (r − q).
 fn unlimited<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     let layout = &system.scene.layout;
-    let sums = summed(b, &system.scene, &system.graph, ActuatorEfforts::Unknown);
+    let sums = under_signals(system, b);
     let name = |i: usize| layout.inputs[i].follows.as_deref().unwrap_or_default();
     let torques = match &system.controller_model {
-        Some(model) => torques_of_model(system, model, b),
+        Some(model) => torques_of_model(&sums, model),
         None => computed_torques(system, b, &sums),
     };
     let mut values: Vec<Expr<'g>> = Vec::new();
@@ -77,7 +83,7 @@ fn unlimited<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
         values.push(match drive {
             InputSource::Given => b.leaf(Leaf::Input(i)),
             InputSource::Waveform(signal) => course(b, signal),
-            InputSource::RateOf(_) => rate_of(system, b, i),
+            InputSource::RateOf(_) => by_signal(system, b, i),
             InputSource::Pd {
                 target,
                 stiffness,
@@ -110,10 +116,26 @@ fn unlimited<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
     values
 }
 
-/// Returns the value of an input that is the rate of another one, or the rate of its rate.
-fn rate_of<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
+/// Returns the sums of all laws that a controller knows: without drives, under the signals of the scene.
+fn under_signals<'g, 'a>(system: &'a SceneEquations, b: &'g Builder) -> EffortSums<'g, 'a> {
+    let parts = system.scene.layout.inputs.iter().enumerate();
+    let inputs = || {
+        parts
+            .map(|(i, part)| match part.drives.or(part.drives_dependent) {
+                Some(_) => b.zero(),
+                None => limited(b, by_signal(system, b, i), &system.scene.limits[i]),
+            })
+            .collect()
+    };
+    let graph = (&system.graph, None);
+    summed_under(b, &system.scene, graph, ActuatorEfforts::Unknown, inputs)
+}
+
+/// Returns the value of an input by its signal, or by the signal of which it is the rate or the rate's rate; as given by
+/// the caller without one.
+fn by_signal<'g>(system: &SceneEquations, b: &'g Builder, i: usize) -> Expr<'g> {
     match &system.scene.drives[i] {
-        InputSource::RateOf(base) => rate(b, rate_of(system, b, *base)),
+        InputSource::RateOf(base) => rate(b, by_signal(system, b, *base)),
         InputSource::Waveform(signal) => course(b, signal),
         _ => b.leaf(Leaf::Input(i)),
     }

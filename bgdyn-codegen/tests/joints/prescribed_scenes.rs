@@ -385,3 +385,55 @@ fn what_scenes_with_prescribed_joints_refuse() {
         &["the motion of `turn` is prescribed"],
     );
 }
+
+/// Controllers know the signals of the scene, whatever the caller gives for them: motions of prescribed joints, a wrench,
+/// a moving counterpart. So does a model of the controllers.
+#[test]
+fn computed_torques_know_the_signals() {
+    let effects =
+        format!("{EFFECTS}, belt: {{ type: viscous, joint: hinge, reference: belt, damping: 4 }}");
+    let law = "{ computed_torque: { target: { ramp: { from: 0.25, rate: 0.5 } }, stiffness: 90, damping: 12 } }";
+    let keys = format!(
+        "inputs:
+  turn: {{ harmonic: {{ amplitude: 0.8, frequency: 0.7 Hz }} }}
+  reach: {{ quintic: {{ to: 0.3, duration: 1 s }} }}
+  blow_fz: {{ constant: 9 }}
+  belt_rate: {{ harmonic: {{ amplitude: 0.5, frequency: 1 Hz }} }}
+  swing: {law}
+  wrist: {law}
+  hinge: {law}
+"
+    );
+    for model in ["", "controller_model: { mechanism: arm.yaml }\n"] {
+        let system = scene(true, &effects, &format!("{keys}{model}"));
+        let layout = &system.scene.layout;
+        for seed in 0..4 {
+            let mut random = Random(70 + seed);
+            let mut some =
+                |n: usize| -> Vec<Dd> { (0..n).map(|_| Dd::from_f64(random.signed())).collect() };
+            let mut at = Inputs {
+                q: some(layout.nq()),
+                v: some(layout.nv()),
+                u: some(layout.inputs.len()),
+                parameters: system.scene.parameters.iter().map(|p| p.default).collect(),
+                t: Some(Dd::from_f64(0.25 * seed as f64)),
+                ..Inputs::default()
+            };
+            at.u = values(&system, SceneFunction::Inputs, &at);
+            let found = values(&system, SceneFunction::Derivative, &at);
+            let number = Dd::from_f64;
+            let t = at.t.expect("a time");
+            let followed = layout.coordinates.iter().enumerate();
+            for (j, coordinate) in followed {
+                let error = number(0.25) + number(0.5) * t - at.q[j];
+                let wanted = error * number(90.0) + (number(0.5) - at.v[j]) * number(12.0);
+                let off = (found[j] - wanted).to_f64().abs();
+                assert!(
+                    off < 1e-24 * largest(&found),
+                    "{model}, {}: {off:e}",
+                    coordinate.name
+                );
+            }
+        }
+    }
+}

@@ -47,12 +47,11 @@ pub fn with_controller_model(
     (scene, faults)
 }
 
-/// Returns the model as a scene's file: its inputs are the computed torques, and the motions of prescribed joints.
+/// Returns the model as a scene's file, with the computed torques alone: its other inputs have the signals of the scene.
 fn inner_spec(spec: &SceneSpec, own: &ControllerModelSpec, plant: &Scene) -> SceneSpec {
     let parts = plant.layout.inputs.iter().zip(&plant.drives);
     let followed = parts.filter(|(_, drive)| matches!(drive, InputSource::ComputedTorque { .. }));
-    let mut names: Vec<&str> = followed.map(|(part, _)| part.name.as_str()).collect();
-    names.extend(plant.layout.prescribed.iter().map(String::as_str));
+    let names: Vec<&str> = followed.map(|(part, _)| part.name.as_str()).collect();
     let inputs = effects::given(&spec.inputs).iter();
     let inputs = inputs.filter(|raw| names.contains(&raw.name.value.as_str()));
     let inputs = Located {

@@ -91,12 +91,17 @@ pub(super) fn drives(
             let known: Vec<&str> = layout.inputs.iter().map(|p| p.name.as_str()).collect();
             let efforts = layout.coordinates.iter().filter(|c| c.moves());
             let joints = layout.quasi_joints.iter().map(|joint| joint.name.as_str());
-            let all: Vec<&str> = known
-                .into_iter()
-                .chain(efforts.map(|c| c.name.as_str()))
+            let others = efforts
+                .map(|c| c.name.as_str())
                 .chain(layout.dependents.iter().map(|joint| joint.name.as_str()))
-                .chain(joints)
-                .collect();
+                .chain(joints);
+            // The effort of a driven joint is an input already.
+            let mut all = known;
+            for name in others {
+                if !all.contains(&name) {
+                    all.push(name);
+                }
+            }
             let fault = wording::unknown_input(&raw.name.location, name, &all);
             faults.push(match refused.may_bring(name) {
                 true => fault.following(),
