@@ -62,7 +62,7 @@ impl Model {
     /// Returns whether a method, or a part of a bundle, has columns or elements for parameters of the bodies.
     pub fn has_regressors(&self) -> bool {
         let mut methods = self.all_methods();
-        methods.any(|method| matches!(method, Method::Regressor(_)))
+        methods.any(Method::has_body_parameters)
     }
 
     /// Returns the methods of the functions, and those that are parts of bundles.

@@ -37,7 +37,7 @@ pub fn model(mechanism: Mechanism, options: &Options) -> Result<Model, Vec<Unkno
     let parts = bundles.iter().flat_map(|bundle| &bundle.parts);
     let all = functions.iter().map(|f| f.method);
     let mut all = all.chain(parts.map(|part| part.method));
-    let has_regressors = all.any(|method| matches!(method, Method::Regressor(_)));
+    let has_regressors = all.any(Method::has_body_parameters);
     let base_parameters = match has_regressors {
         true => choice.base_parameter_formulas(),
         false => Vec::new(),

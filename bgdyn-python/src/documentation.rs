@@ -40,6 +40,7 @@ pub fn of(spec: &Spec, method: Method) -> String {
         ("nbp", _) => Choice::new(&spec.graph, None)
             .base_parameter_formulas()
             .len(),
+        ("parameters", _) => spec.graph.parameters.len(),
         ("10 nb", _) => 10 * spec.graph.moving_links().len(),
         ("n", Method::JointReactions | Method::ActuatedJointReactions(_)) => {
             spec.link_names().len()
@@ -180,6 +181,8 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::RowVector => one(&["nc"]),
         Shape::ParameterColumns(ParameterSet::Bodies) => one(&["nv", "10 nb"]),
         Shape::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
+        Shape::ParameterColumns(ParameterSet::RunTime(_)) => one(&["nv", "parameters"]),
+        Shape::ParameterVector(ParameterSet::RunTime(_)) => one(&["parameters"]),
         Shape::ParameterVector(ParameterSet::Bodies) => one(&["10 nb"]),
         Shape::ParameterVector(ParameterSet::Base) => one(&["nbp"]),
         Shape::VectorTriple => one(&["3", "nv"]),
@@ -189,6 +192,9 @@ fn arrays(shape: Shape) -> Arrays {
             Entries::TaskColumns => one(&["nv", "6"]),
             Entries::TaskVector => one(&["6"]),
             Entries::VectorTriple => one(&["3", "nv"]),
+            Entries::ParameterColumns(ParameterSet::Bodies) => one(&["nv", "10 nb"]),
+            Entries::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
+            Entries::ParameterColumns(ParameterSet::RunTime(_)) => one(&["nv", "parameters"]),
         },
         Shape::SquarePair => (
             Some("InverseDerivatives"),
@@ -197,6 +203,15 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::SlopesByTree => (
             Some("InverseDerivatives"),
             vec![("q", by_tree), ("v", square)],
+        ),
+        Shape::FourSquares => (
+            Some("Curvature"),
+            vec![
+                ("qq", square.clone()),
+                ("qv", square.clone()),
+                ("vv", square.clone()),
+                ("aq", square),
+            ],
         ),
         Shape::CheckedSquares => (
             Some("ForwardDerivatives"),

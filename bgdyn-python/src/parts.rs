@@ -52,15 +52,16 @@ impl Part {
     }
 
     /// Returns the entries after the numbers that are only checked.
-    fn entries(entries: Entries, nv: usize) -> Self {
+    fn entries(entries: Entries, nv: usize, results: usize) -> Self {
         let shape = match entries {
             Entries::Joints => vec![nv, nv],
             Entries::Task => vec![6, 6],
             Entries::TaskColumns => vec![nv, 6],
             Entries::TaskVector => vec![6],
             Entries::VectorTriple => vec![3, nv],
+            Entries::ParameterColumns(_) => vec![nv, (results - nv) / nv.max(1)],
         };
-        let all: Vec<usize> = (nv..nv + entries.len(nv)).collect();
+        let all: Vec<usize> = (nv..results).collect();
         Part {
             shape,
             source: entries.spread(&all, nv),
@@ -102,8 +103,9 @@ impl Parts {
             Shape::TreeMatrix => (None, vec![Part::run(0, &[nt, nv])]),
             Shape::RowMatrix => (None, vec![Part::run(0, &[nc, nt])]),
             Shape::VectorTriple => (None, vec![Part::run(0, &[3, nv])]),
-            Shape::Checked(entries) => (None, vec![Part::entries(entries, nv)]),
+            Shape::Checked(entries) => (None, vec![Part::entries(entries, nv, results)]),
             Shape::SquarePair => (Some("InverseDerivatives"), vec![square(0, 0), square(1, 0)]),
+            Shape::FourSquares => (Some("Curvature"), (0..4).map(|k| square(k, 0)).collect()),
             Shape::CheckedSquares => (
                 Some("ForwardDerivatives"),
                 (0..3).map(|k| square(k, nv)).collect(),

@@ -80,7 +80,7 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::Point | Shape::PointJacobian => "matrix",
             Shape::ParameterColumns(_) | Shape::ParameterVector(_) => "matrix",
             Shape::RowVector | Shape::RowMatrix => "matrix",
-            Shape::SquarePair | Shape::VectorTriple => "matrices",
+            Shape::SquarePair | Shape::FourSquares | Shape::VectorTriple => "matrices",
             Shape::CheckedVector => "checked",
             Shape::Checked(Entries::VectorTriple) => "checked_matrices",
             Shape::Checked(_) => "checked",

@@ -272,6 +272,7 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
                 Entries::Joints | Entries::VectorTriple => rows(&all, nv),
                 Entries::Task | Entries::TaskColumns => rows(&all, 6),
                 Entries::TaskVector => json!(all),
+                Entries::ParameterColumns(_) => rows(&all, all.len() / nv.max(1)),
             }
         }
         Shape::Point => json!(values),
@@ -279,7 +280,7 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::RowMatrix => rows(values, nt),
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),
-        Shape::SquarePair => json!(squares(values)),
+        Shape::SquarePair | Shape::FourSquares => json!(squares(values)),
         Shape::CheckedSquares => json!(squares(&values[nv..])),
         Shape::SlopesByTree => slopes(values),
         Shape::CheckedSlopesByTree => slopes(&values[nv..]),

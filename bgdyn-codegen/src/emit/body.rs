@@ -59,7 +59,7 @@ fn whole(
     let mut writer = Writer::new(&listing, spelling);
     writer.target = Some(StoredResult {
         whole: finish,
-        several: shape == Shape::SquarePair,
+        several: matches!(shape, Shape::SquarePair | Shape::FourSquares),
     });
     let statements = writer.statements();
     // Only results that are returned unchecked are written entry by entry.
@@ -234,6 +234,10 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
             let squares = squares(values, 2);
             quote! { [#(#squares),*] }
         }
+        Shape::FourSquares => {
+            let squares = squares(values, 4);
+            quote! { [#(#squares),*] }
+        }
         Shape::CheckedSquares => {
             let (accelerations, rest) = values.split_at(nv);
             let accelerations = vector(accelerations);
@@ -253,6 +257,7 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 Entries::Task | Entries::TaskColumns => matrix(6, &values),
                 Entries::TaskVector => vector(&values),
                 Entries::VectorTriple => vectors(nv, &values),
+                Entries::ParameterColumns(_) => matrix(values.len() / nv.max(1), &values),
             };
             quote! {
                 #found?;

@@ -131,6 +131,7 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
         Shape::CheckedActuated(_) => quote! { __na::SVector<T, NA> },
         Shape::Symmetric | Shape::Square => quote! { __na::SMatrix<T, NV, NV> },
         Shape::SquarePair => quote! { [__na::SMatrix<T, NV, NV>; 2] },
+        Shape::FourSquares => quote! { [__na::SMatrix<T, NV, NV>; 4] },
         Shape::CheckedSquares => quote! { [__na::SMatrix<T, NV, NV>; 3] },
         Shape::SlopesByTree => {
             quote! { (__na::SMatrix<T, NV, NT>, __na::SMatrix<T, NV, NV>) }
@@ -145,6 +146,10 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
             Entries::TaskColumns => quote! { __na::SMatrix<T, NV, 6> },
             Entries::TaskVector => quote! { __na::SVector<T, 6> },
             Entries::VectorTriple => quote! { [__na::SVector<T, NV>; 3] },
+            Entries::ParameterColumns(set) => {
+                let columns = number_of(set);
+                quote! { __na::SMatrix<T, NV, #columns> }
+            }
         },
         Shape::VectorTriple => quote! { [__na::SVector<T, NV>; 3] },
         Shape::Pose => quote! { __rt::Pose<T> },
@@ -178,5 +183,9 @@ fn number_of(set: ParameterSet) -> TokenStream {
     match set {
         ParameterSet::Bodies => quote! { { 10 * BODY_NAMES.len() } },
         ParameterSet::Base => quote! { { BASE_PARAMETERS.len() } },
+        ParameterSet::RunTime(number) => {
+            let number = Literal::usize_unsuffixed(number);
+            quote! { #number }
+        }
     }
 }

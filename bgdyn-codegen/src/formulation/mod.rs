@@ -35,6 +35,7 @@ pub(crate) use actuators::solve_square;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Graph, Signed};
 pub use definition::{Formulation, Offer};
+pub(crate) use derivatives::rates_along;
 pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};
 pub use prepared::Prepared;
 pub(crate) use prepared::{Candidate, Candidates};
@@ -63,7 +64,7 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
 /// make offers for any selected formulation, because those functions belong to it; or the only formulations of methods, as
 /// that of regressors.
-pub(crate) static DERIVED: [&dyn Formulation; 12] = [
+pub(crate) static DERIVED: [&dyn Formulation; 13] = [
     &loops::Elimination,
     &base_twist::BaseTwist(0),
     &base_twist::BaseTwist(1),
@@ -72,6 +73,7 @@ pub(crate) static DERIVED: [&dyn Formulation; 12] = [
     &derivatives::Differentiated,
     &derivatives::ForwardDynamicsDerivatives,
     &derivatives::AlongDirections,
+    &derivatives::ByParameters,
     &operational::ByDrives,
     &operational::Factored,
     &recursion::ParameterColumns,

@@ -13,15 +13,18 @@ pub enum Directional {
     InverseAdjoint,
     /// (∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l.
     ForwardAdjoint,
+    /// Second derivatives of l·τ.
+    InverseCurvature,
 }
 
 impl Directional {
     /// All of them.
-    pub const ALL: [Directional; 4] = [
+    pub const ALL: [Directional; 5] = [
         Directional::InverseAlong,
         Directional::ForwardAlong,
         Directional::InverseAdjoint,
         Directional::ForwardAdjoint,
+        Directional::InverseCurvature,
     ];
 
     /// Returns its name.
@@ -31,6 +34,7 @@ impl Directional {
             Directional::ForwardAlong => "forward_dynamics_along",
             Directional::InverseAdjoint => "inverse_dynamics_adjoint",
             Directional::ForwardAdjoint => "forward_dynamics_adjoint",
+            Directional::InverseCurvature => "inverse_dynamics_curvature",
         }
     }
 
@@ -47,7 +51,7 @@ impl Directional {
         match self {
             Directional::InverseAlong => &[Q, V, A, AlongQ, AlongV, AlongA],
             Directional::ForwardAlong => &[Q, V, Tau, AlongQ, AlongV, AlongTau],
-            Directional::InverseAdjoint => &[Q, V, A, Cotangent],
+            Directional::InverseAdjoint | Directional::InverseCurvature => &[Q, V, A, Cotangent],
             Directional::ForwardAdjoint => &[Q, V, Tau, Cotangent],
         }
     }
@@ -58,6 +62,7 @@ impl Directional {
             Directional::ForwardAlong => Shape::CheckedVector,
             Directional::InverseAdjoint => Shape::VectorTriple,
             Directional::ForwardAdjoint => Shape::Checked(Entries::VectorTriple),
+            Directional::InverseCurvature => Shape::FourSquares,
         }
     }
 
@@ -75,6 +80,9 @@ impl Directional {
             Directional::ForwardAdjoint => {
                 "Derivatives of the number l·q̈: (∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l."
             }
+            Directional::InverseCurvature => {
+                "Second derivatives of the number l·τ: by q and q, by q and v, by v and v, by a and q; the first one gives the row. Row i, column j of the first is the derivative along v_j of that along v_i."
+            }
         }
     }
 
@@ -84,6 +92,9 @@ impl Directional {
             Directional::ForwardAlong => "rad/s² for a rotation, m/s² for a translation",
             Directional::InverseAdjoint | Directional::ForwardAdjoint => {
                 "that of l·τ or l·q̈, per rad or m, per rad/s or m/s, per unit of the third argument"
+            }
+            Directional::InverseCurvature => {
+                "that of l·τ, per product of rad or m, rad/s or m/s, rad/s² or m/s²"
             }
         }
     }

@@ -10,6 +10,7 @@ mod derivatives;
 mod directional;
 mod loads;
 mod operational;
+mod parameter_derivatives;
 mod possible;
 mod regressor;
 mod scene_function;
@@ -21,6 +22,7 @@ pub use argument::Argument;
 pub use centroidal::Centroidal;
 pub use directional::Directional;
 pub use operational::{Operational, TASK_DIRECTIONS};
+pub use parameter_derivatives::ParameterDerivatives;
 pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
 pub use shape::{Entries, ParameterSet, Shape};
@@ -102,6 +104,8 @@ pub enum Method {
     Operational(Operational),
     /// A derivative along a direction, or an adjoint.
     Directional(Directional),
+    /// A derivative of the accelerations by parameters.
+    ParameterDerivatives(ParameterDerivatives),
     /// The centre of mass, or the momentum about it.
     Centroidal(Centroidal),
     /// Ṁ(q, v).
@@ -150,6 +154,7 @@ impl Method {
             .chain(Directional::ALL.map(Method::Directional))
             .chain(Centroidal::ALL.map(Method::Centroidal))
             .chain([Method::MassMatrixRate])
+            .chain(ParameterDerivatives::all(0).map(Method::ParameterDerivatives))
     }
 
     /// The methods of mechanisms with loops.
@@ -222,7 +227,10 @@ impl Method {
     pub fn is_derived(self) -> bool {
         matches!(
             self,
-            Method::Regressor(_) | Method::Operational(_) | Method::Directional(_)
+            Method::Regressor(_)
+                | Method::Operational(_)
+                | Method::Directional(_)
+                | Method::ParameterDerivatives(_)
         )
     }
 
@@ -265,6 +273,7 @@ impl Method {
                 None => of.prefix().into(),
             },
             Method::Directional(of) => of.name().into(),
+            Method::ParameterDerivatives(of) => of.name().into(),
             Method::Centroidal(of) => of.name().into(),
             Method::MassMatrixRate => "mass_matrix_rate".into(),
             Method::Scene(role) => role.name().into(),
@@ -300,6 +309,7 @@ impl Method {
             Method::Regressor(regressor) => regressor.arguments(),
             Method::Operational(of) => of.arguments(),
             Method::Directional(of) => of.arguments(),
+            Method::ParameterDerivatives(of) => of.arguments(),
             Method::Centroidal(of) => of.arguments(),
             Method::MassMatrixRate => &[Q, V],
             Method::Scene(SceneFunction::Inverse) => &[
@@ -360,6 +370,7 @@ impl Method {
             Method::Regressor(regressor) => regressor.shape(),
             Method::Operational(of) => of.shape(),
             Method::Directional(of) => of.shape(),
+            Method::ParameterDerivatives(of) => of.shape(),
             Method::Centroidal(of) => of.shape(),
             Method::MassMatrixRate => Shape::Symmetric,
             Method::Scene(

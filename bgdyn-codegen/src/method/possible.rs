@@ -1,6 +1,8 @@
 //! Which methods a mechanism can have, and why it does not have others.
 
-use super::{Centroidal, Directional, Method, Operational, Regressor, TASK_DIRECTIONS};
+use super::{
+    Centroidal, Directional, Method, Operational, ParameterDerivatives, Regressor, TASK_DIRECTIONS,
+};
 use crate::bond_graph::{BondGraph, Site, SiteId};
 use crate::fault::unknown_name;
 
@@ -16,6 +18,7 @@ impl Method {
         let own = own.into_iter().chain(drives).chain(regressors);
         let own = own.chain(Method::operational_of(graph));
         let own = own.chain(Method::directional_of(graph).unwrap_or_default());
+        let own = own.chain(Method::parameter_derivatives_of(graph));
         let own = own.chain(Method::centroidal_of(graph).unwrap_or_default());
         let own = own.chain(Method::mass_matrix_rate_of(graph).ok());
         let mut all: Vec<Method> = own.chain(of_sites).collect();
@@ -110,6 +113,7 @@ impl Method {
             .or_else(|| without_regressor(graph, name))
             .or_else(|| Method::without_task(graph, name))
             .or_else(|| Method::without_direction(graph, name))
+            .or_else(|| Method::without_parameters(graph, name))
             .or_else(|| Method::without_momentum(graph, name))
             .or_else(|| Method::lacking(closed?, name))
     }
@@ -173,6 +177,40 @@ impl Method {
     fn without_direction(graph: &BondGraph, name: &str) -> Option<String> {
         let known = Directional::ALL.iter().any(|of| of.name() == name);
         let why = Method::directional_of(graph).err().filter(|_| known)?;
+        Some(format!("`{name}`: {why}"))
+    }
+
+    /// Returns whether it has columns or elements for parameters of the bodies.
+    pub fn has_body_parameters(self) -> bool {
+        matches!(
+            self,
+            Method::Regressor(_) | Method::ParameterDerivatives(ParameterDerivatives::Base)
+        )
+    }
+
+    /// Returns the derivatives by parameters that a mechanism can have.
+    fn parameter_derivatives_of(graph: &BondGraph) -> Vec<Method> {
+        let all = ParameterDerivatives::all(graph.parameters.len()).into_iter();
+        let all = all.filter(|&of| Method::lacks_parameters(graph, of).is_none());
+        all.map(Method::ParameterDerivatives).collect()
+    }
+
+    /// Returns why a mechanism does not have this derivative by parameters.
+    fn lacks_parameters(graph: &BondGraph, of: ParameterDerivatives) -> Option<&'static str> {
+        match of {
+            ParameterDerivatives::Base => Method::regressors_of(graph).err(),
+            ParameterDerivatives::RunTime(0) => Some(
+                "the mechanism has no run-time parameters; write a number as `{ parameter: NAME, value: NUMBER }`",
+            ),
+            ParameterDerivatives::RunTime(_) => None,
+        }
+    }
+
+    /// Returns why a mechanism does not have the method with this name, if it is a derivative by parameters.
+    fn without_parameters(graph: &BondGraph, name: &str) -> Option<String> {
+        let mut all = ParameterDerivatives::all(graph.parameters.len()).into_iter();
+        let of = all.find(|of| of.name() == name)?;
+        let why = Method::lacks_parameters(graph, of)?;
         Some(format!("`{name}`: {why}"))
     }
 

@@ -17,6 +17,8 @@ pub enum Shape {
     Square,
     /// Two NV × NV matrices.
     SquarePair,
+    /// Four NV × NV matrices.
+    FourSquares,
     /// NV accelerations and three NV × NV matrices, or an error with a joint; only the matrices are
     /// returned.
     CheckedSquares,
@@ -81,8 +83,10 @@ impl Shape {
             Shape::Symmetric => nv * (nv + 1) / 2,
             Shape::Square => nv * nv,
             Shape::SquarePair => 2 * nv * nv,
+            Shape::FourSquares => 4 * nv * nv,
             Shape::CheckedSquares => nv + 3 * nv * nv,
             Shape::VectorTriple => 3 * nv,
+            Shape::Checked(Entries::ParameterColumns(_)) => 0,
             Shape::Checked(entries) => nv + entries.len(nv),
             Shape::Pose => 12,
             Shape::Spatial => 6,
@@ -131,10 +135,12 @@ pub enum Entries {
     TaskVector,
     /// Three times NV numbers.
     VectorTriple,
+    /// A matrix with a row for each velocity and a column for each parameter, row by row.
+    ParameterColumns(ParameterSet),
 }
 
 impl Entries {
-    /// Returns the number of expressions.
+    /// Returns the number of expressions; 0 if it depends on more than the number of velocities.
     pub fn len(self, nv: usize) -> usize {
         match self {
             Entries::Joints => nv * (nv + 1) / 2,
@@ -142,6 +148,7 @@ impl Entries {
             Entries::TaskColumns => 6 * nv,
             Entries::TaskVector => 6,
             Entries::VectorTriple => 3 * nv,
+            Entries::ParameterColumns(_) => 0,
         }
     }
 
@@ -169,11 +176,13 @@ impl Entries {
     }
 }
 
-/// What the columns of a regressor belong to.
+/// What the columns of a regressor, or of a derivative by parameters, belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterSet {
     /// The ten parameters of each body.
     Bodies,
     /// The base parameters.
     Base,
+    /// The run-time parameters of the mechanism; their number.
+    RunTime(usize),
 }

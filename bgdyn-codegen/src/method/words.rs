@@ -111,6 +111,7 @@ impl Method {
             Method::Regressor(regressor) => regressor.summary().into(),
             Method::Operational(of) => of.summary(sites),
             Method::Directional(of) => of.summary().into(),
+            Method::ParameterDerivatives(of) => of.summary().into(),
             Method::Centroidal(of) => of.summary().into(),
             Method::MassMatrixRate => {
                 "Rate Ṁ(q, v) of the mass matrix along the velocities `v`, exactly symmetric.".into()
@@ -161,6 +162,7 @@ impl Method {
             Method::Regressor(regressor) => regressor.units(),
             Method::Operational(of) => of.units(),
             Method::Directional(of) => of.units(),
+            Method::ParameterDerivatives(of) => of.units(),
             Method::Centroidal(of) => of.units(),
             Method::MassMatrixRate => "units of the mass matrix per second",
             Method::Scene(_) | Method::Bundle { .. } => "as its parts say",

@@ -48,6 +48,7 @@ pub fn matrix_destinations(shape: Shape, nv: usize) -> Option<Vec<Vec<Destinatio
         Shape::Jacobian => full(0, 6).collect(),
         Shape::PointJacobian => full(0, 3).collect(),
         Shape::SquarePair => full(0, nv).chain(full(1, nv)).collect(),
+        Shape::FourSquares => (0..4).flat_map(|matrix| full(matrix, nv)).collect(),
         _ => return None,
     })
 }

@@ -1,4 +1,4 @@
-//! Dual numbers over double-double: a value and its exact rate along a direction.
+//! Dual numbers: a value and its exact rate along a direction; of dual numbers, the second derivative along two.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -8,10 +8,10 @@ use nalgebra::SVector;
 use crate::expr::Inputs;
 
 /// A number x + ε dx with ε² = 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Dual {
-    value: Dd,
-    rate: Dd,
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Dual<T = Dd> {
+    value: T,
+    rate: T,
 }
 
 /// A direction of motion: rates of positions, velocities, first-order states and time.
@@ -39,33 +39,35 @@ pub(super) fn along(at: &Inputs<Dd>, direction: &Direction) -> Inputs<Dual> {
 }
 
 /// Combines values and their rates.
-pub(super) fn with_rates(values: &[Dd], rates: &[Dd]) -> Vec<Dual> {
+pub(super) fn with_rates<T: Copy>(values: &[T], rates: &[T]) -> Vec<Dual<T>> {
     assert_eq!(values.len(), rates.len());
     let pairs = values.iter().zip(rates);
     pairs.map(|(&x, &dx)| Dual::new(x, dx)).collect()
 }
 
 /// Returns the values of results.
-pub(super) fn values(results: &[Dual]) -> Vec<Dd> {
+pub(super) fn values<T: Copy>(results: &[Dual<T>]) -> Vec<T> {
     results.iter().map(|x| x.value).collect()
 }
 
 /// Returns the rates of results.
-pub(super) fn rates(results: &[Dual]) -> Vec<Dd> {
+pub(super) fn rates<T: Copy>(results: &[Dual<T>]) -> Vec<T> {
     results.iter().map(|x| x.rate).collect()
 }
 
-fn constants(values: &[Dd]) -> Vec<Dual> {
-    values.iter().map(|&x| Dual::new(x, Dd::ZERO)).collect()
+/// Returns numbers with zero rates.
+pub(super) fn constants<T: Scalar>(values: &[T]) -> Vec<Dual<T>> {
+    let zero = T::from_f64(0.0);
+    values.iter().map(|&x| Dual::new(x, zero)).collect()
 }
 
-impl Dual {
-    fn new(value: Dd, rate: Dd) -> Self {
+impl<T> Dual<T> {
+    fn new(value: T, rate: T) -> Self {
         Dual { value, rate }
     }
 }
 
-impl Add for Dual {
+impl<T: Scalar> Add for Dual<T> {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -73,7 +75,7 @@ impl Add for Dual {
     }
 }
 
-impl Sub for Dual {
+impl<T: Scalar> Sub for Dual<T> {
     type Output = Self;
 
     fn sub(self, other: Self) -> Self {
@@ -81,7 +83,7 @@ impl Sub for Dual {
     }
 }
 
-impl Mul for Dual {
+impl<T: Scalar> Mul for Dual<T> {
     type Output = Self;
 
     fn mul(self, other: Self) -> Self {
@@ -90,7 +92,7 @@ impl Mul for Dual {
     }
 }
 
-impl Div for Dual {
+impl<T: Scalar> Div for Dual<T> {
     type Output = Self;
 
     fn div(self, other: Self) -> Self {
@@ -99,7 +101,7 @@ impl Div for Dual {
     }
 }
 
-impl Neg for Dual {
+impl<T: Scalar> Neg for Dual<T> {
     type Output = Self;
 
     fn neg(self) -> Self {
@@ -108,17 +110,17 @@ impl Neg for Dual {
 }
 
 /// At a kink of a function, the rate is that of the branch of the value.
-impl Scalar for Dual {
+impl<S: Scalar<Mask = bool, Refused = Option<usize>>> Scalar for Dual<S> {
     type Mask = bool;
     type Refused = Option<usize>;
     type Singular<const N: usize> = ();
 
     fn from_f64(x: f64) -> Self {
-        Dual::new(Dd::from_f64(x), Dd::ZERO)
+        Dual::new(S::from_f64(x), S::from_f64(0.0))
     }
 
     fn from_parts(hi: f64, lo: f64) -> Self {
-        Dual::new(Dd::from_parts(hi, lo), Dd::ZERO)
+        Dual::new(S::from_parts(hi, lo), S::from_f64(0.0))
     }
 
     fn mul_add(self, b: Self, c: Self) -> Self {
@@ -135,8 +137,8 @@ impl Scalar for Dual {
     }
 
     fn sin_cos_sum(angles: &[Self], offset: (f64, f64)) -> (Self, Self) {
-        let rate = angles.iter().fold(Dd::ZERO, |sum, a| sum + a.rate);
-        let (sine, cosine) = Dd::sin_cos_sum(&values(angles), offset);
+        let rate = angles.iter().fold(S::from_f64(0.0), |sum, a| sum + a.rate);
+        let (sine, cosine) = S::sin_cos_sum(&values(angles), offset);
         let sine_and_rate = Dual::new(sine, cosine * rate);
         (sine_and_rate, Dual::new(cosine, -sine * rate))
     }
@@ -152,15 +154,19 @@ impl Scalar for Dual {
 
     fn tanh(self) -> Self {
         let value = Scalar::tanh(self.value);
-        Dual::new(value, (Dd::ONE - value * value) * self.rate)
+        Dual::new(value, (S::from_f64(1.0) - value * value) * self.rate)
     }
 
     fn abs(self) -> Self {
-        if self.value < Dd::ZERO { -self } else { self }
+        if self.value.less(S::from_f64(0.0)) {
+            -self
+        } else {
+            self
+        }
     }
 
     fn min(self, other: Self) -> Self {
-        if other.value < self.value {
+        if other.value.less(self.value) {
             other
         } else {
             self
@@ -168,7 +174,7 @@ impl Scalar for Dual {
     }
 
     fn max(self, other: Self) -> Self {
-        if self.value < other.value {
+        if self.value.less(other.value) {
             other
         } else {
             self
@@ -176,11 +182,11 @@ impl Scalar for Dual {
     }
 
     fn sign(self) -> Self {
-        Dual::new(Scalar::sign(self.value), Dd::ZERO)
+        Dual::new(Scalar::sign(self.value), S::from_f64(0.0))
     }
 
     fn less(self, other: Self) -> bool {
-        self.value < other.value
+        self.value.less(other.value)
     }
 
     fn select(mask: bool, a: Self, b: Self) -> Self {

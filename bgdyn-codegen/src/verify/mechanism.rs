@@ -11,6 +11,7 @@ use super::directional;
 use super::literal_values::{LiteralValues, State};
 use super::open_tree::{self, TreeLaw};
 use super::operational;
+use super::parameters;
 use super::regressor;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
@@ -137,6 +138,10 @@ impl Subject<'_> {
                 let law = directional::law(self.literal, of, (state, &found));
                 let allowed = if of.is_forward() { SOLVED } else { EXACT };
                 sides(law.into_iter().collect(), allowed)
+            }
+            (_, Method::ParameterDerivatives(of)) => {
+                let law = parameters::law(self.literal, of, (state, &found));
+                sides(law.into_iter().collect(), SOLVED)
             }
             _ => self.laws(state, found),
         };

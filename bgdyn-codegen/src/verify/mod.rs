@@ -14,6 +14,7 @@ mod literal_values;
 mod mechanism;
 mod open_tree;
 mod operational;
+mod parameters;
 mod regressor;
 mod scene;
 mod states;

@@ -38,6 +38,18 @@ impl LiteralRegressors {
     }
 }
 
+impl LiteralRegressors {
+    /// Returns K π and Y(q, v, a) π for these parameters.
+    pub(super) fn by_any(&self, at: &Inputs<Dd>, parameters: Vec<Dd>) -> (Vec<Dd>, Vec<Dd>) {
+        let of = Reference {
+            of: self,
+            parameters,
+            at,
+        };
+        (of.base_parameters(), of.efforts(&at.v, &at.a))
+    }
+}
+
 fn literal(prepared: &Prepared<'_>, method: Method) -> Option<Function> {
     create(specification(), prepared, method)
 }

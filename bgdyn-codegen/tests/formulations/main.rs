@@ -17,4 +17,5 @@ mod parameters;
 mod properties;
 mod regressions;
 mod regressors;
+mod second_derivatives;
 mod singular;

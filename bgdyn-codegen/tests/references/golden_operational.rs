@@ -56,11 +56,12 @@ fn check(name: &str, robot: &Robot) {
                 &format!("{name}: {field}"),
             );
         }
-        for of in Directional::ALL {
+        let first_order = |of: &Directional| *of != Directional::InverseCurvature;
+        for of in Directional::ALL.into_iter().filter(first_order) {
             let at = match of {
                 Directional::InverseAlong => at("a", "da", "dq"),
                 Directional::ForwardAlong => at("dtau", "tau", "dq"),
-                Directional::InverseAdjoint | Directional::ForwardAdjoint => at("a", "tau", "l"),
+                _ => at("a", "tau", "l"),
             };
             let tolerance = match of.is_forward() {
                 true => TOLERANCE * CONDITION,

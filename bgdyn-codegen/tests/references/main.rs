@@ -7,6 +7,7 @@ mod golden_centroidal;
 mod golden_operational;
 mod golden_poses;
 mod golden_regressors;
+mod golden_second;
 mod golden_values;
 mod lagrange_oracle;
 mod paper_oracle;

@@ -5,7 +5,7 @@ use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::method::Method;
+use bgdyn_codegen::method::{Directional, Method};
 use bgdyn_codegen::system::SceneEquations;
 
 /// Mechanisms with more velocities have no derivatives here: these are created slowly.
@@ -29,9 +29,13 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
         let sites = if method.is_derived() { 1 } else { SITES };
         let first = method.site().is_none_or(|site| site.0 < sites);
         let is_slow = slow.contains(method) || method.is_derived();
+        let is_long = *method == Method::Directional(Directional::InverseCurvature);
         // They have formulations of their own.
         let chosen = formulation.is_none() || !method.is_derived();
-        first && chosen && (mechanism.nv() <= LARGE || !is_slow)
+        first
+            && chosen
+            && (mechanism.nv() <= LARGE || !is_slow)
+            && (mechanism.nv() <= LARGE / 2 || !is_long)
     });
     methods
         .filter_map(|method| prefer(&choice, method, Preference::default()))

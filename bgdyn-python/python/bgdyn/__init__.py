@@ -14,6 +14,7 @@ from ._load import load
 from ._methods import document
 from ._results import (
     ConstrainedDynamics,
+    Curvature,
     ForwardDerivatives,
     InverseDerivatives,
     Pose,
@@ -24,6 +25,7 @@ from ._sweep import Sweep
 
 __all__ = [
     "ConstrainedDynamics",
+    "Curvature",
     "EnergyEntry",
     "Event",
     "ForwardDerivatives",

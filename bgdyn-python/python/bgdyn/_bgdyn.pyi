@@ -23,7 +23,7 @@ from ._method_types import (
     _QVTauL,
 )
 from ._methods import MethodOfClass
-from ._results import ConstrainedDynamics, ForwardDerivatives, InverseDerivatives, Wrenches
+from ._results import ConstrainedDynamics, Curvature, ForwardDerivatives, InverseDerivatives, Wrenches
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -351,6 +351,12 @@ class Model:
     """(∂τ/∂q)ᵀ l, (∂τ/∂v)ᵀ l, M l, (..., 3, nv)."""
     forward_dynamics_adjoint: MethodOfClass[_QVTauL[Array, Array]]
     """(∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l, (..., 3, nv)."""
+    inverse_dynamics_curvature: MethodOfClass[_QVAL[Curvature, tuple[Array, Array, Array, Array]]]
+    """Second derivatives of l·τ: by q and q, by q and v, by v and v, by a and q, (..., nv, nv) each."""
+    parameter_derivatives: MethodOfClass[_QVTau[Array, Array]]
+    """∂q̈/∂π_b by base parameters, (..., nv, nbp)."""
+    run_time_parameter_derivatives: MethodOfClass[_QVTau[Array, Array]]
+    """With run-time parameters: ∂q̈/∂p, (..., nv, number of parameters)."""
     velocity_map: MethodOfClass[_Q[Array, Array]]
     """With loops: S(q), (..., nt, nv); the velocities of the open tree are S v."""
     tree_velocity: MethodOfClass[_QV[Array, Array]]

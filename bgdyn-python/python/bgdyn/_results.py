@@ -37,6 +37,20 @@ class ForwardDerivatives(NamedTuple):
     """(..., nv, nv): accelerations per N·m or N, the inverse of the mass matrix."""
 
 
+class Curvature(NamedTuple):
+    """Second derivatives of l·τ. Those by q are along the tangent: row i, column j is the derivative along v_j of that
+    along v_i."""
+
+    qq: NDArray[np.float64]
+    """(..., nv, nv): by q and q."""
+    qv: NDArray[np.float64]
+    """(..., nv, nv): by q (rows) and v (columns)."""
+    vv: NDArray[np.float64]
+    """(..., nv, nv): by v and v."""
+    aq: NDArray[np.float64]
+    """(..., nv, nv): by a (rows) and q (columns)."""
+
+
 class ConstrainedDynamics(NamedTuple):
     """Accelerations of the open tree and efforts of the rows."""
 

@@ -110,6 +110,15 @@ fn result_order(shape: Shape) -> Option<&'static str> {
         Shape::CheckedTreeAndRows => "Result: NT accelerations, then NC multipliers.",
         Shape::TreeMatrix => "Result: NT x NV.",
         Shape::RowMatrix => "Result: NC x NT.",
+        Shape::FourSquares => {
+            "Result: four NV x NV matrices, by q and q, by q and v, by v and v, by a and q."
+        }
+        Shape::Checked(Entries::ParameterColumns(ParameterSet::Base)) => {
+            "Result: NV x NBP, row by row."
+        }
+        Shape::Checked(Entries::ParameterColumns(_)) => {
+            "Result: NV rows, a column for each parameter, row by row."
+        }
         Shape::ParameterColumns(ParameterSet::Bodies) => "Result: NV x 10 NB, row by row.",
         Shape::ParameterColumns(ParameterSet::Base) => "Result: NV x NBP, row by row.",
         Shape::CheckedWrenches => {

@@ -83,7 +83,7 @@ impl FlatResult {
                 .map(|p| p.iter().map(flat).collect())
                 .collect(),
             None => match shape {
-                Shape::Checked(entries) => checked_destinations(entries, nv),
+                Shape::Checked(entries) => checked_destinations((entries, count - nv), nv),
                 _ => (0..count).map(in_order).collect(),
             },
         };
@@ -194,8 +194,7 @@ impl FlatResult {
 
 /// Returns the destinations of outputs: none for those that are only checked, two for entries beside the diagonal of a
 /// symmetric matrix.
-fn checked_destinations(entries: Entries, nv: usize) -> Vec<Vec<usize>> {
-    let count = entries.len(nv);
+fn checked_destinations((entries, count): (Entries, usize), nv: usize) -> Vec<Vec<usize>> {
     let mut all = vec![Vec::new(); nv + count];
     let numbers: Vec<usize> = (0..count).collect();
     for (at, output) in entries.spread(&numbers, nv).into_iter().enumerate() {
@@ -213,10 +212,14 @@ fn size(shape: Shape) -> Option<&'static str> {
             Entries::Joints => "NV * NV",
             Entries::TaskColumns => "NV * 6",
             Entries::VectorTriple => "3 * NV",
+            Entries::ParameterColumns(ParameterSet::Bodies) => "NV * 10 * NB",
+            Entries::ParameterColumns(ParameterSet::Base) => "NV * NBP",
+            Entries::ParameterColumns(ParameterSet::RunTime(_)) => return None,
             Entries::Task | Entries::TaskVector => return None,
         },
         Shape::VectorTriple => "3 * NV",
         Shape::SquarePair => "2 * NV * NV",
+        Shape::FourSquares => "4 * NV * NV",
         Shape::CheckedSquares => "3 * NV * NV",
         Shape::SlopesByTree => "NV * NT + NV * NV",
         Shape::CheckedSlopesByTree => "NV * NT + 2 * NV * NV",
@@ -235,8 +238,10 @@ fn size(shape: Shape) -> Option<&'static str> {
         Shape::Point => return None,
         Shape::ParameterColumns(ParameterSet::Bodies) => "NV * 10 * NB",
         Shape::ParameterColumns(ParameterSet::Base) => "NV * NBP",
+        Shape::ParameterColumns(ParameterSet::RunTime(_)) => return None,
         Shape::ParameterVector(ParameterSet::Bodies) => "10 * NB",
         Shape::ParameterVector(ParameterSet::Base) => "NBP",
+        Shape::ParameterVector(ParameterSet::RunTime(_)) => return None,
         Shape::Parts | Shape::CheckedParts => return None,
         Shape::Bundle | Shape::CheckedBundle => return None,
     })

@@ -58,7 +58,7 @@ pub(super) fn position_tangents(b: &Builder, graph: &BondGraph) -> Vec<Vec<Signe
 }
 
 /// Returns the rates of all positions along velocities: with loops along those of the open tree, S v.
-pub(super) fn rates_along(b: &Builder, graph: &BondGraph, v: &[Expr<'_>]) -> Vec<Signed> {
+pub(crate) fn rates_along(b: &Builder, graph: &BondGraph, v: &[Expr<'_>]) -> Vec<Signed> {
     let Some(closed) = &graph.closed else {
         return tangents(b, graph, v);
     };

@@ -6,15 +6,16 @@
 //! | forward dynamics along (dq, dv, dτ) | M⁻¹ (dτ − dP(q, v, q̈; dq, dv)) |
 //! | adjoint of inverse dynamics | one backward pass over l·τ |
 //! | adjoint of forward dynamics | μ = M⁻¹ l, then that of inverse dynamics at q̈ with −μ |
+//! | second derivatives of l·τ | forward passes over the adjoint of inverse dynamics |
 //!
 //! Positions move along the tangent: q̇ = N(q) dq.
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{finish, position_tangents, rates_along, reopen};
+use super::differentiate::{finish, position_derivatives, position_tangents, rates_along, reopen};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, adjoints, copy_into};
-use crate::formulation::slopes::along_efforts;
+use crate::formulation::slopes::{along_efforts, derivatives};
 use crate::formulation::{Formulation, Prepared};
 use crate::function::Function;
 use crate::method::{Directional, Method};
@@ -85,6 +86,11 @@ fn of_inverse(graph: &BondGraph, of: Directional, from: &Function) -> Function {
             let l = signed(&first_direction(&b, graph));
             adjoint(&b, graph, (&efforts, &l)).concat()
         }
+        Directional::InverseCurvature => {
+            let l = signed(&first_direction(&b, graph));
+            let gradient = adjoint(&b, graph, (&efforts, &l));
+            curvature(&b, graph, &gradient)
+        }
         Directional::ForwardAlong | Directional::ForwardAdjoint => {
             unreachable!("they are methods of forward dynamics")
         }
@@ -134,7 +140,7 @@ fn of_forward(
             outputs.extend(solved);
             outputs
         }
-        Directional::InverseAlong | Directional::InverseAdjoint => {
+        Directional::InverseAlong | Directional::InverseAdjoint | Directional::InverseCurvature => {
             unreachable!("they are methods of inverse dynamics")
         }
     };
@@ -189,6 +195,31 @@ fn adjoint(
         (0..n).map(|j| of(Leaf::Velocity(j))).collect(),
         (0..n).map(|j| of(Leaf::Acceleration(j))).collect(),
     ]
+}
+
+/// Returns the second derivatives of l·τ from its gradient: by q and q, by q and v, by v and v, by a and q.
+fn curvature(b: &Builder, graph: &BondGraph, [by_q, by_v, by_a]: &[Vec<Signed>; 3]) -> Vec<Signed> {
+    let n = graph.coordinates.len();
+    let along_q = |x: &[Signed]| position_derivatives(b, x, graph);
+    let along_v = |x: &[Signed]| derivatives(b, x, n, Leaf::Velocity);
+    let (qq, vq, vv, aq) = (along_q(by_q), along_q(by_v), along_v(by_v), along_q(by_a));
+    let pairs = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+    // Column j of a matrix is its derivative along v_j. Of two equal entries the one along the outer joint has fewer
+    // operations.
+    let commutes = graph.plain();
+    let outer = |m: &[Vec<Signed>], (i, j): (usize, usize)| m[i.max(j)][i.min(j)];
+    let by_positions = pairs().map(|(i, j)| match commutes {
+        true => outer(&qq, (i, j)),
+        false => qq[j][i],
+    });
+    let by_both = pairs().map(|(i, j)| vq[i][j]);
+    let by_velocities = pairs().map(|at| outer(&vv, at));
+    let by_acceleration = pairs().map(|(i, j)| aq[j][i]);
+    by_positions
+        .chain(by_both)
+        .chain(by_velocities)
+        .chain(by_acceleration)
+        .collect()
 }
 
 fn signed(all: &[Expr<'_>]) -> Vec<Signed> {
