@@ -181,6 +181,8 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::RowVector => one(&["nc"]),
         Shape::ParameterColumns(ParameterSet::Bodies) => one(&["nv", "10 nb"]),
         Shape::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
+        Shape::ParameterColumns(ParameterSet::Payload) => one(&["nv", "10"]),
+        Shape::ParameterVector(ParameterSet::Payload) => one(&["10"]),
         Shape::ParameterColumns(ParameterSet::RunTime(_)) => one(&["nv", "parameters"]),
         Shape::ParameterVector(ParameterSet::RunTime(_)) => one(&["parameters"]),
         Shape::ParameterVector(ParameterSet::Bodies) => one(&["10 nb"]),
@@ -194,6 +196,7 @@ fn arrays(shape: Shape) -> Arrays {
             Entries::VectorTriple => one(&["3", "nv"]),
             Entries::ParameterColumns(ParameterSet::Bodies) => one(&["nv", "10 nb"]),
             Entries::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
+            Entries::ParameterColumns(ParameterSet::Payload) => one(&["nv", "10"]),
             Entries::ParameterColumns(ParameterSet::RunTime(_)) => one(&["nv", "parameters"]),
         },
         Shape::SquarePair => (

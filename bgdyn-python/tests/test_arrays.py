@@ -183,7 +183,7 @@ def test_batches_have_the_bits_of_single_calls(path: str, random: np.random.Gene
     size = np.array([1.0, 1.0, 1e3, 1.0, 1e6, 1.0, 1.0, 1e9, 1.0])[:, None]
     q = model.neutral() + size * random.uniform(-0.3, 0.3, (9, model.nq))
     q[5, 0] = np.inf
-    tree = [name for name in model.methods if not name.startswith(("pose_", "velocity_", "jacobian_", "operational_", "consistent_"))]
+    tree = [name for name in model.methods if not name.startswith(("pose_", "velocity_", "jacobian_", "operational_", "consistent_", "payload_"))]
     if model.nv > 16:
         tree = ["mass_matrix", "forward_dynamics"]  # the others take long to choose
     frame = model.frame_names[-1]

@@ -62,7 +62,7 @@ def test_every_method(path: str, evaluated: Callable[..., list[Any]], random: np
         q = model.close(q + random.uniform(-0.05, 0.05, q.shape)) if dependent else positions(model, random)
     else:
         q = positions(model, random)
-    methods = [m for m in model.methods if not m.startswith(("pose_", "velocity_", "jacobian_", "operational_", "consistent_")) or m.endswith(model.frame_names[-1])]
+    methods = [m for m in model.methods if not m.startswith(("pose_", "velocity_", "jacobian_", "operational_", "consistent_", "payload_")) or m.endswith(model.frame_names[-1])]
     skipped, compared = 0, 0
     for name in methods:
         method = getattr(model, name)

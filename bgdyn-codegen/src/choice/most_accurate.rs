@@ -29,7 +29,7 @@ pub(super) fn most_accurate(
     method: Method,
     asked: Option<&'static dyn Formulation>,
 ) -> Option<Function> {
-    if let Method::Regressor(_) = method {
+    if let Method::Regressor(_) | Method::Payload(_) = method {
         // They have one formulation, whatever the others are.
         let function = Choice::by_elimination(graph, asked).function(method);
         return function.map(|function| (*function).clone());

@@ -18,7 +18,7 @@ use crate::bond_graph::{JointSegment, Site, SiteId};
 use crate::expr::Operations;
 use crate::interface::Interface;
 use crate::mechanism::Pose;
-use crate::method::{Argument, Method, Operational};
+use crate::method::{Argument, Method, Operational, PayloadRegressor};
 use crate::name::is_identifier;
 
 /// Returns the module with bodies that never run.
@@ -41,6 +41,8 @@ pub fn stub(interface: &Interface, output: &OutputOptions) -> TokenStream {
     possible.extend(Method::on_request());
     let of_sites = (0..sites.len()).flat_map(|site| Operational::of_site(SiteId(site)));
     possible.extend(of_sites.map(Method::Operational));
+    let of_sites = (0..sites.len()).flat_map(|site| PayloadRegressor::of_site(SiteId(site)));
+    possible.extend(of_sites.map(Method::Payload));
     let methods = possible.iter();
     let methods = methods.map(|&m| method(m, &sites, interface.certain));
     let names: Vec<String> = possible.iter().map(|m| m.name(&sites)).collect();

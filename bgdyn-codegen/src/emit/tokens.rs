@@ -183,6 +183,7 @@ fn number_of(set: ParameterSet) -> TokenStream {
     match set {
         ParameterSet::Bodies => quote! { { 10 * BODY_NAMES.len() } },
         ParameterSet::Base => quote! { { BASE_PARAMETERS.len() } },
+        ParameterSet::Payload => quote! { 10 },
         ParameterSet::RunTime(number) => {
             let number = Literal::usize_unsuffixed(number);
             quote! { #number }

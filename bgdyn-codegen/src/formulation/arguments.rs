@@ -108,6 +108,7 @@ fn moves_with_base(method: Method) -> bool {
             | Method::ForwardDerivativesByTree
             | Method::JointReactions
             | Method::ActuatedJointReactions(_)
+            | Method::Payload(_)
     ) || matches!(method, Method::Regressor(regressor) if regressor.moves_with_base())
 }
 

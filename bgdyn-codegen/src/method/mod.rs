@@ -11,6 +11,7 @@ mod directional;
 mod loads;
 mod operational;
 mod parameter_derivatives;
+mod payload;
 mod possible;
 mod regressor;
 mod scene_function;
@@ -23,6 +24,7 @@ pub use centroidal::Centroidal;
 pub use directional::Directional;
 pub use operational::{Operational, TASK_DIRECTIONS};
 pub use parameter_derivatives::ParameterDerivatives;
+pub use payload::PayloadRegressor;
 pub use regressor::{PARAMETER_NAMES, PARAMETERS_PER_BODY, Regressor};
 pub use scene_function::SceneFunction;
 pub use shape::{Entries, ParameterSet, Shape};
@@ -100,6 +102,8 @@ pub enum Method {
     ActuatedJointReactions(usize),
     /// A method that is linear in the parameters of the bodies, or one of their vectors.
     Regressor(Regressor),
+    /// A method for the parameters of a payload.
+    Payload(PayloadRegressor),
     /// A method of operational space.
     Operational(Operational),
     /// A derivative along a direction, or an adjoint.
@@ -207,6 +211,7 @@ impl Method {
     pub fn site(self) -> Option<SiteId> {
         match self {
             Method::Operational(of) => of.site(),
+            Method::Payload(of) => Some(of.site()),
             other => other.placed_site(),
         }
     }
@@ -228,6 +233,7 @@ impl Method {
         matches!(
             self,
             Method::Regressor(_)
+                | Method::Payload(_)
                 | Method::Operational(_)
                 | Method::Directional(_)
                 | Method::ParameterDerivatives(_)
@@ -268,6 +274,7 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => "reactions".into(),
             Method::JointReactions | Method::ActuatedJointReactions(_) => "joint_reactions".into(),
             Method::Regressor(regressor) => regressor.name().into(),
+            Method::Payload(of) => site(of.prefix(), of.site()),
             Method::Operational(of) => match of.site() {
                 Some(s) => site(of.prefix(), s),
                 None => of.prefix().into(),
@@ -307,6 +314,7 @@ impl Method {
             Method::ConstraintBias | Method::ProjectVelocity => &[Q, TreeV],
             Method::ConstrainedDynamics => &[Q, TreeV, TreeTau],
             Method::Regressor(regressor) => regressor.arguments(),
+            Method::Payload(of) => of.arguments(),
             Method::Operational(of) => of.arguments(),
             Method::Directional(of) => of.arguments(),
             Method::ParameterDerivatives(of) => of.arguments(),
@@ -368,6 +376,7 @@ impl Method {
             Method::Reactions | Method::ActuatedReactions(_) => Shape::CheckedWrenches,
             Method::JointReactions | Method::ActuatedJointReactions(_) => Shape::LinkWrenches,
             Method::Regressor(regressor) => regressor.shape(),
+            Method::Payload(of) => of.shape(),
             Method::Operational(of) => of.shape(),
             Method::Directional(of) => of.shape(),
             Method::ParameterDerivatives(of) => of.shape(),

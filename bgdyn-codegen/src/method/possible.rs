@@ -1,7 +1,8 @@
 //! Which methods a mechanism can have, and why it does not have others.
 
 use super::{
-    Centroidal, Directional, Method, Operational, ParameterDerivatives, Regressor, TASK_DIRECTIONS,
+    Centroidal, Directional, Method, Operational, ParameterDerivatives, PayloadRegressor,
+    Regressor, TASK_DIRECTIONS,
 };
 use crate::bond_graph::{BondGraph, Site, SiteId};
 use crate::fault::unknown_name;
@@ -16,6 +17,7 @@ impl Method {
             .partition(|method| method.site().is_none());
         let regressors = Method::regressors_of(graph).unwrap_or_default();
         let own = own.into_iter().chain(drives).chain(regressors);
+        let own = own.chain(Method::payload_of(graph));
         let own = own.chain(Method::operational_of(graph));
         let own = own.chain(Method::directional_of(graph).unwrap_or_default());
         let own = own.chain(Method::parameter_derivatives_of(graph));
@@ -98,7 +100,7 @@ impl Method {
             let own: Vec<&str> = own.map(|(_, name)| *name).collect();
             let places: Vec<&str> = sites.iter().map(|s| s.name.as_str()).collect();
             let all = format!(
-                "{}; and pose_X, velocity_X, jacobian_world_X, jacobian_dot_v_world_X, operational_inverse_X, operational_inertia_X, consistent_inverse_X, operational_bias_X for X = {}",
+                "{}; and pose_X, velocity_X, jacobian_world_X, jacobian_dot_v_world_X, operational_inverse_X, operational_inertia_X, consistent_inverse_X, operational_bias_X, payload_regressor_X, payload_adaptive_step_X for X = {}",
                 own.join(", "),
                 places.join(", ")
             );
@@ -111,11 +113,33 @@ impl Method {
         let closed = graph.closed.as_deref();
         without_multipliers(graph, name)
             .or_else(|| without_regressor(graph, name))
+            .or_else(|| Method::without_payload(graph, name))
             .or_else(|| Method::without_task(graph, name))
             .or_else(|| Method::without_direction(graph, name))
             .or_else(|| Method::without_parameters(graph, name))
             .or_else(|| Method::without_momentum(graph, name))
             .or_else(|| Method::lacking(closed?, name))
+    }
+
+    /// Returns the methods for payloads that a mechanism can have: at frames that joints move.
+    fn payload_of(graph: &BondGraph) -> Vec<Method> {
+        if Method::regressors_of(graph).is_err() {
+            return Vec::new();
+        }
+        let sites = (0..graph.sites.len()).map(SiteId);
+        let moves = |site: &SiteId| velocities_of(graph, *site) > 0;
+        let of_sites = sites.filter(moves).flat_map(PayloadRegressor::of_site);
+        of_sites.map(Method::Payload).collect()
+    }
+
+    /// Returns why a mechanism does not have this method of a frame, if it is one for payloads.
+    fn without_payload(graph: &BondGraph, name: &str) -> Option<String> {
+        let sites = (0..graph.sites.len()).map(SiteId);
+        let mut of_sites = sites.flat_map(PayloadRegressor::of_site);
+        of_sites.find(|of| Method::Payload(*of).name(&graph.sites) == name)?;
+        let why = Method::regressors_of(graph).err();
+        let why = why.unwrap_or("no joint moves this frame");
+        Some(format!("`{name}`: {why}"))
     }
 
     /// Returns whether it has no result where a frame cannot move in some direction.

@@ -183,6 +183,8 @@ pub enum ParameterSet {
     Bodies,
     /// The base parameters.
     Base,
+    /// The ten parameters of a payload.
+    Payload,
     /// The run-time parameters of the mechanism; their number.
     RunTime(usize),
 }

@@ -109,6 +109,7 @@ impl Method {
                     .into()
             }
             Method::Regressor(regressor) => regressor.summary().into(),
+            Method::Payload(of) => of.summary(sites),
             Method::Operational(of) => of.summary(sites),
             Method::Directional(of) => of.summary().into(),
             Method::ParameterDerivatives(of) => of.summary().into(),
@@ -160,6 +161,7 @@ impl Method {
             | Method::JointReactions
             | Method::ActuatedJointReactions(_) => "N, N·m",
             Method::Regressor(regressor) => regressor.units(),
+            Method::Payload(of) => of.units(),
             Method::Operational(of) => of.units(),
             Method::Directional(of) => of.units(),
             Method::ParameterDerivatives(of) => of.units(),

@@ -12,13 +12,14 @@ use super::literal_values::{LiteralValues, State};
 use super::open_tree::{self, TreeLaw};
 use super::operational;
 use super::parameters;
+use super::payload;
 use super::regressor;
 use super::states::{direction, of_mechanism};
 use crate::bond_graph::BondGraph;
 use crate::conditioning::tree_states::of_method;
 use crate::expr::Inputs;
 use crate::function::{Function, in_triangle};
-use crate::method::{Method, Regressor};
+use crate::method::Method;
 use crate::model::Model;
 use crate::random::Random;
 
@@ -95,8 +96,8 @@ impl Subject<'_> {
     /// is skipped.
     fn check(&self, state: &State) -> Option<Difference> {
         let graph = self.literal.prepared.graph;
-        if let Method::Regressor(of) = self.function.method {
-            return self.check_regressor(of, state);
+        if let Method::Regressor(_) | Method::Payload(_) = self.function.method {
+            return self.check_regressor(state);
         }
         let at = &self.arguments(self.function.method, state);
         let (found, refused) = self.function.evaluate(at.clone());
@@ -166,10 +167,17 @@ impl Subject<'_> {
     }
 
     /// Returns the first law that a regressor violates at this state.
-    fn check_regressor(&self, of: Regressor, state: &State) -> Option<Difference> {
+    fn check_regressor(&self, state: &State) -> Option<Difference> {
         let at = &regressor::extended(&state.at);
-        let read = (&self.literal.prepared, self.literal.regressors()?);
-        let laws = regressor::laws(read, (of, self.function), at)?;
+        let (prepared, literals) = (&self.literal.prepared, self.literal.regressors()?);
+        let laws = match self.function.method {
+            Method::Regressor(of) => regressor::laws((prepared, literals), (of, self.function), at),
+            Method::Payload(of) => {
+                let found = self.function.evaluate(at.clone()).0;
+                payload::laws((prepared.graph, literals), (of, &found), at)
+            }
+            _ => None,
+        }?;
         laws.into_iter().find_map(|(text, found, expected, size)| {
             let law = Law {
                 text,

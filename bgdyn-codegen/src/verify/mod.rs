@@ -15,6 +15,7 @@ mod mechanism;
 mod open_tree;
 mod operational;
 mod parameters;
+mod payload;
 mod regressor;
 mod scene;
 mod states;

@@ -48,6 +48,16 @@ impl LiteralRegressors {
         };
         (of.base_parameters(), of.efforts(&at.v, &at.a))
     }
+
+    /// Returns (M a_r + C(q, v) v_r + g) π for these parameters.
+    pub(super) fn two_velocities(&self, at: &Inputs<Dd>, parameters: Vec<Dd>) -> Vec<Dd> {
+        let of = Reference {
+            of: self,
+            parameters,
+            at,
+        };
+        of.two_velocities()
+    }
 }
 
 fn literal(prepared: &Prepared<'_>, method: Method) -> Option<Function> {

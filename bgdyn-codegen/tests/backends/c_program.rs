@@ -333,7 +333,12 @@ int main(void)
 /// Returns a value if functions of the model have further arguments: other velocities, directions.
 pub fn extras(model: &Model) -> Option<()> {
     let mut methods = model.all_methods();
-    let has = methods.any(|method| matches!(method, Method::Regressor(_) | Method::Directional(_)));
+    let has = methods.any(|method| {
+        matches!(
+            method,
+            Method::Regressor(_) | Method::Payload(_) | Method::Directional(_)
+        )
+    });
     has.then_some(())
 }
 

@@ -14,6 +14,7 @@ mod no_moving_joint;
 mod noisy_axes;
 mod operational;
 mod parameters;
+mod payloads;
 mod properties;
 mod regressions;
 mod regressors;

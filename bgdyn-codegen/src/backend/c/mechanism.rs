@@ -120,6 +120,7 @@ fn result_order(shape: Shape) -> Option<&'static str> {
             "Result: NV rows, a column for each parameter, row by row."
         }
         Shape::ParameterColumns(ParameterSet::Bodies) => "Result: NV x 10 NB, row by row.",
+        Shape::ParameterColumns(ParameterSet::Payload) => "Result: NV x 10, row by row.",
         Shape::ParameterColumns(ParameterSet::Base) => "Result: NV x NBP, row by row.",
         Shape::CheckedWrenches => {
             "Result: for each loop and contact a force, then a moment, each x, y, z; axes as in docs/methods.md."

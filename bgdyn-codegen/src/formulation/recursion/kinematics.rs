@@ -253,7 +253,7 @@ fn placed<'g>(b: &'g Builder, geometry: &Geometry, frames: &Frames<'g>) -> Vec<P
 
 /// Returns the body of a site, and its axes and origin in those of the body; in those of the world if no
 /// joint moves it.
-fn home(
+pub(super) fn home(
     geometry: &Geometry,
     link: Option<LinkId>,
     pose: &Pose,

@@ -1,5 +1,7 @@
 //! The columns of regressors: z · N + w · F for each coordinate that moves a body and each parameter of the body.
 
+use bgdyn_runtime::Dd;
+
 use super::super::frames::{BodyFrame, Frames};
 use super::super::geometry::Geometry;
 use super::super::inverse_dynamics::BodyWrench;
@@ -12,7 +14,7 @@ use super::wrenches::{Angular, ENTRIES, kinetic_energies, of_entries, of_paramet
 use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::formulation::arguments::Arguments;
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::method::{Method, PARAMETERS_PER_BODY};
 
 /// What moves the bodies.
@@ -32,7 +34,7 @@ pub(super) struct Columns<'a, 'g> {
     pub(super) graph: &'a Multibody,
     pub(super) geometry: &'a Geometry,
     pub(super) frames: Frames<'g>,
-    x: Arguments<'g>,
+    pub(super) x: Arguments<'g>,
 }
 
 impl<'a, 'g> Columns<'a, 'g> {
@@ -170,15 +172,21 @@ impl<'a, 'g> Columns<'a, 'g> {
     }
 
     /// Returns the columns of the parameters in the axes of the link from those in the axes of the body, which has the
-    /// same origin: h and I turn.
+    /// same origin.
     pub(super) fn in_link_axes(
         &self,
         body: usize,
         own: &[Vec<Expr<'g>>; 10],
     ) -> Vec<Vec<Expr<'g>>> {
+        self.in_axes(self.geometry.bodies[body].axes, own)
+    }
+
+    /// Returns the columns of the parameters in other axes of the same origin, in which the axes of the body are `axes`:
+    /// h and I turn.
+    pub(super) fn in_axes(&self, axes: Mat3<Dd>, own: &[Vec<Expr<'g>>; 10]) -> Vec<Vec<Expr<'g>>> {
         /// Index of entry (i, k) of I among the parameters.
         const TENSOR: [[usize; 3]; 3] = [[4, 5, 7], [5, 6, 8], [7, 8, 9]];
-        let turn = self.geometry.bodies[body].axes.map(|x| self.b.constant(x));
+        let turn = axes.map(|x| self.b.constant(x));
         let sum = |parts: Vec<(Expr<'g>, usize)>| -> Vec<Expr<'g>> {
             let row = |j: usize| {
                 let parts = parts.iter();
@@ -190,7 +198,7 @@ impl<'a, 'g> Columns<'a, 'g> {
         for i in 0..3 {
             columns.push(sum((0..3).map(|k| (turn.0[i][k], 1 + k)).collect()));
         }
-        // Entry (i, k) of the link's I is a symmetric pair; in the body's axes it is Tᵀ E T.
+        // Entry (i, k) of I is a symmetric pair; in the body's axes it is Tᵀ E T.
         for (i, k) in [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)] {
             let both = i != k;
             let mut parts = Vec::new();

@@ -9,6 +9,7 @@
 //! | `transported.rs` | the columns of all parameters, some as sums of columns of the parent |
 //! | `base.rs`, `base_parameter.rs` | the base parameters π_b = K π |
 //! | `independent.rs`, `sample.rs` | which columns are independent at random states |
+//! | `payload.rs` | those of a payload at a frame |
 //! | `gravity.rs` | potential energy by parameters |
 //! | `parameters.rs` | π of the mechanism, K π, names |
 
@@ -19,6 +20,7 @@ mod directions;
 mod gravity;
 mod independent;
 mod parameters;
+mod payload;
 mod sample;
 mod transported;
 mod two_velocities;
@@ -32,7 +34,7 @@ use crate::bond_graph::{LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Signed, evaluate};
 use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
-use crate::method::{Method, Regressor};
+use crate::method::{Method, PayloadRegressor, Regressor};
 use columns::{Columns, GivenMotion};
 use sample::random_states;
 
@@ -55,7 +57,7 @@ impl Formulation for ParameterColumns {
     }
 
     fn knows(&self, method: Method) -> bool {
-        matches!(method, Method::Regressor(_))
+        matches!(method, Method::Regressor(_) | Method::Payload(_))
     }
 
     fn unserved<'a>(&self, _: &'a Multibody) -> Option<&'a LinkFrame> {
@@ -67,8 +69,10 @@ impl Formulation for ParameterColumns {
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
-        let Method::Regressor(regressor) = method else {
-            return None;
+        let regressor = match method {
+            Method::Regressor(regressor) => regressor,
+            Method::Payload(of) => return self.of_payload(prepared, of),
+            _ => return None,
         };
         let graph = prepared.graph;
         let of = |transport: bool| {
@@ -97,6 +101,22 @@ impl Formulation for ParameterColumns {
     }
 }
 
+impl ParameterColumns {
+    fn of_payload(&self, prepared: &Prepared<'_>, of: PayloadRegressor) -> Option<Function> {
+        let (graph, geometry) = (prepared.graph, prepared.geometry());
+        let (b, method) = (Builder::new(), Method::Payload(of));
+        let outputs: Vec<Signed> = {
+            let plan = Plan::of_kinematics(geometry, false);
+            let columns = Columns::new(&b, graph, geometry, &plan, method);
+            let made = payload::outputs(&columns, of)?;
+            made.into_iter().map(Expr::signed).collect()
+        };
+        let outputs = zeros_for_hidden_ones(&b, graph, outputs);
+        let name = self.name().into();
+        Some(Function::flat(graph, method, name, b.into_graph(), outputs))
+    }
+}
+
 /// Returns the outputs with a zero in place of each sum that is zero at random states, like the effort of gravity about a
 /// vertical axis.
 fn without_hidden_zeros(
@@ -108,6 +128,11 @@ fn without_hidden_zeros(
     if regressor.arguments().is_empty() || regressor == Regressor::BaseParameters {
         return outputs;
     }
+    zeros_for_hidden_ones(b, graph, outputs)
+}
+
+/// Returns the outputs with a zero in place of each one that is zero at random states.
+fn zeros_for_hidden_ones(b: &Builder, graph: &Multibody, outputs: Vec<Signed>) -> Vec<Signed> {
     let mut largest = vec![0.0_f64; outputs.len()];
     for state in random_states(graph, STATES) {
         let values = b.with_graph(|graph| evaluate(graph, &outputs, &state, &mut None));
