@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use bgdyn_codegen::bond_graph::SiteId;
-use bgdyn_codegen::method::Method;
+use bgdyn_codegen::method::{Directional, Method};
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::{bond_graph, read};
@@ -48,7 +48,9 @@ fn whole_model(path: &str) -> Model {
     let slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
     // The functions of other frames are alike.
     let repeats = |m: &Method| m.is_derived() && m.site() > Some(SiteId(0));
-    let wanted = |m: &Method| (size <= SMALL || !slow(m)) && !repeats(m);
+    let is_long = |m: &Method| *m == Method::Directional(Directional::InverseCurvature);
+    let fits = |m: &Method| (size <= SMALL || !slow(m)) && (size <= SMALL / 2 || !is_long(m));
+    let wanted = |m: &Method| fits(m) && !repeats(m);
     let methods = Method::possible_of(&graph).into_iter().filter(wanted);
     let methods = methods.map(|m| m.name_in(closed, &graph.sites)).collect();
     let options = Options {
