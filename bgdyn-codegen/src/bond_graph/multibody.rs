@@ -158,6 +158,15 @@ impl Multibody {
         self.first_compound().is_none()
     }
 
+    /// Returns whether q̇ = v for every position that a joint has for itself.
+    pub fn rates_are_velocities(&self) -> bool {
+        let of_joint = |frame: &LinkFrame| match frame.motion {
+            Motion::Compound(motion) => motion.manifold.is_empty(),
+            _ => true,
+        };
+        self.frames.iter().all(of_joint)
+    }
+
     /// Returns the first link whose joint has several degrees of freedom or a lead, is coupled, or is prescribed;
     /// the base if its motion is given.
     pub fn first_compound(&self) -> Option<&LinkFrame> {

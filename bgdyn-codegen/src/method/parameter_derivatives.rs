@@ -50,7 +50,7 @@ impl ParameterDerivatives {
                 "Derivatives of the accelerations by base parameters, as in [`BASE_PARAMETERS`]: ∂q̈/∂π_b = −M⁻¹ Y_b(q, v, q̈)."
             }
             ParameterDerivatives::RunTime(_) => {
-                "Derivatives of the accelerations by run-time parameters, in the order of the struct's fields: ∂q̈/∂p = −M⁻¹ ∂τ/∂p at q̈."
+                "Derivatives of the accelerations by run-time parameters, a column for each field of the struct: ∂q̈/∂p = −M⁻¹ ∂τ/∂p at q̈."
             }
         }
     }

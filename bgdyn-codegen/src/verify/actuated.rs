@@ -2,8 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{dot, largest, minus, turned};
-use super::open_tree::TreeLaw;
+use super::compare::{SizedLaw, dot, largest, minus, turned};
 use crate::bond_graph::ClosedTree;
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -16,7 +15,7 @@ pub(super) fn laws(
     method: Method,
     form: impl Fn(Method) -> Option<Function>,
     (at, found): (&Inputs<Dd>, Vec<Dd>),
-) -> Option<Vec<TreeLaw>> {
+) -> Option<Vec<SizedLaw>> {
     let actuated = closed.closure.drives()?;
     let value = |method, at: &Inputs<Dd>| form(method).map(|f| f.evaluate(at.clone()).0);
     let n = at.v.len();

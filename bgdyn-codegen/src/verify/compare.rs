@@ -21,6 +21,9 @@ pub(super) struct Law {
     pub allowed: f64,
 }
 
+/// What a law says, its two sides, and the size of their terms.
+pub(super) type SizedLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
+
 /// Compares a function's result with the expected one. `size` is the size of the terms that may cancel in
 /// them.
 pub(super) fn differs(

@@ -2,16 +2,13 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{dot, largest, minus, times};
+use super::compare::{SizedLaw, dot, largest, minus, times};
 use super::dual::{constants, rates, with_rates};
 use super::literal_values::{LiteralValues, State};
 use crate::expr::{Builder, Expr, Inputs, Leaf, evaluate};
 use crate::formulation::rates_along;
 use crate::method::{Directional, Method};
 use crate::random::Random;
-
-/// A law, its two sides, and the size of their terms.
-pub(super) type DirectionalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
 /// Returns any directions dq, dv and a third one, and the factors l of an adjoint.
 fn directions(n: usize) -> [Vec<Dd>; 4] {
@@ -45,14 +42,11 @@ pub(super) fn law(
     literal: &LiteralValues<'_>,
     of: Directional,
     (state, found): (&State, &[Dd]),
-) -> Option<DirectionalLaw> {
+) -> Option<SizedLaw> {
     let at = &state.at;
     let n = at.v.len();
     let all = directions(n);
     let [first, second, third, factors] = all.each_ref().map(|x| &x[..]);
-    if of == Directional::InverseCurvature {
-        return Some(second_law(literal, (state, found), factors));
-    }
     let along_all = |found: &[Dd]| vec![dot(found, &all[..3].concat())];
     let rates = literal.prepared.graph.rates_along(&at.q, first);
     let efforts_along = |a: (&[Dd], &[Dd])| literal.effort_rates(at, &rates, second, a);
@@ -92,7 +86,7 @@ pub(super) fn law(
             let size = largest(found).max(largest(&along));
             (text, along_all(found), vec![dot(factors, &along)], size)
         }
-        Directional::InverseCurvature => unreachable!("its law is above"),
+        Directional::InverseCurvature => second_law(literal, (state, found), factors),
     })
 }
 
@@ -104,7 +98,7 @@ fn second_law(
     literal: &LiteralValues<'_>,
     (state, found): (&State, &[Dd]),
     factors: &[Dd],
-) -> DirectionalLaw {
+) -> SizedLaw {
     let n = state.at.v.len();
     let [dq, dv, da, _] = directions(n);
     let mut random = Random(41);

@@ -6,10 +6,10 @@ use bgdyn_runtime::Dd;
 
 use super::Difference;
 use super::actuated;
-use super::compare::{EXACT, Law, SOLVED, differs, dot, largest, minus, plus, times};
+use super::compare::{EXACT, Law, SOLVED, SizedLaw, differs, dot, largest, minus, plus, times};
 use super::directional;
 use super::literal_values::{LiteralValues, State};
-use super::open_tree::{self, TreeLaw};
+use super::open_tree;
 use super::operational;
 use super::parameters;
 use super::payload;
@@ -113,7 +113,7 @@ impl Subject<'_> {
             Method::Operational(_) => 0.0,
             _ => state.size,
         };
-        let sides = |laws: Vec<TreeLaw>, allowed: f64| -> Vec<Sides> {
+        let sides = |laws: Vec<SizedLaw>, allowed: f64| -> Vec<Sides> {
             let laws = laws.into_iter();
             laws.map(|(text, found, expected, size)| {
                 Sides::new(text, allowed, found, expected).sized(size)

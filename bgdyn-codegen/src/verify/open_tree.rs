@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{dot, largest, minus, plus, times, turned};
+use super::compare::{SizedLaw, dot, largest, minus, plus, times, turned};
 use crate::bond_graph::ClosedTree;
 use crate::expr::Inputs;
 use crate::formulation::{Prepared, create, specification};
@@ -16,16 +16,13 @@ struct OpenTree {
     bias: Vec<Dd>,
 }
 
-/// A law's two sides, with the size of their terms.
-pub(super) type TreeLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
-
 /// Returns the laws of a method; `form` creates methods of the whole mechanism by the literal sum.
 pub(super) fn laws(
     closed: &ClosedTree,
     method: Method,
     form: impl Fn(Method) -> Option<Function>,
     (at, found): (&Inputs<Dd>, Vec<Dd>),
-) -> Vec<TreeLaw> {
+) -> Vec<SizedLaw> {
     let value = |method| form(method).map(|f| f.evaluate(at.clone()).0);
     let tree = || OpenTree::new(closed, &form, at);
     let laws = match method {
@@ -96,7 +93,7 @@ impl OpenTree {
     }
 
     /// Returns M q̈ + h = τ + Bᵀ λ and B q̈ = −Ḃ q̇.
-    fn dynamics(&self, at: &Inputs<Dd>, found: &[Dd]) -> Vec<TreeLaw> {
+    fn dynamics(&self, at: &Inputs<Dd>, found: &[Dd]) -> Vec<SizedLaw> {
         let (accelerations, lambda) = found.split_at(at.v.len());
         let needed = self.efforts(at, &at.v, accelerations);
         let of_rows = self.of_rows(lambda, at.v.len());
@@ -112,7 +109,7 @@ impl OpenTree {
     }
 
     /// Returns B q̇ = 0 and Sᵀ M (q̇ − q̇₀) = 0; `map` is S.
-    fn projection(&self, at: &Inputs<Dd>, found: &[Dd], map: &[Dd]) -> Vec<TreeLaw> {
+    fn projection(&self, at: &Inputs<Dd>, found: &[Dd], map: &[Dd]) -> Vec<SizedLaw> {
         let fast = largest(found).max(largest(&at.v));
         let left = self.inertial(at, &minus(found, &at.v));
         let n = map.len() / at.v.len().max(1);

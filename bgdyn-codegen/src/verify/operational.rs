@@ -2,14 +2,11 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{largest, minus, plus, times};
+use super::compare::{SizedLaw, largest, minus, plus, times};
 use crate::expr::Inputs;
 use crate::function::Function;
 use crate::method::{Method, Operational, Shape};
 use crate::random::Random;
-
-/// A law, its two sides, and the size of their terms.
-pub(super) type OperationalLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
 /// The functions by equation (6), at a state.
 struct LiteralTask<'a> {
@@ -60,7 +57,7 @@ pub(super) fn law(
     form: &dyn Fn(Method) -> Option<Function>,
     of: Operational,
     (at, found): (&Inputs<Dd>, &[Dd]),
-) -> Option<OperationalLaw> {
+) -> Option<SizedLaw> {
     let n = at.v.len();
     let (_, entries) = found.split_at(n);
     let value = |method| Some(form(method)?.evaluate(at.clone()).0);

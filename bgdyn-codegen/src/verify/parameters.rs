@@ -2,22 +2,19 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{largest, times};
+use super::compare::{SizedLaw, largest, times};
 use super::dual::{constants, rates, with_rates};
 use super::literal_values::{LiteralValues, State};
 use crate::expr::Inputs;
 use crate::method::{Method, PARAMETERS_PER_BODY, ParameterDerivatives};
 use crate::random::Random;
 
-/// A law, its two sides, and the size of their terms.
-pub(super) type ParameterLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
-
 /// Returns the law of a method; `found` is its result. None where the literal mass matrix is singular.
 pub(super) fn law(
     literal: &LiteralValues<'_>,
     of: ParameterDerivatives,
     (state, found): (&State, &[Dd]),
-) -> Option<ParameterLaw> {
+) -> Option<SizedLaw> {
     let n = state.at.v.len();
     let forward = literal.form(Method::ForwardDynamics)?;
     let (accelerations, refused) = forward.evaluate(state.at.clone());

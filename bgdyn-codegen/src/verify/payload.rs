@@ -4,8 +4,8 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{dot, largest, times};
-use super::regressor::{LiteralRegressors, RegressorLaw};
+use super::compare::{SizedLaw, dot, largest, times};
+use super::regressor::LiteralRegressors;
 use crate::bond_graph::{Multibody, Site};
 use crate::expr::Inputs;
 use crate::math::Vec3;
@@ -24,7 +24,7 @@ pub(super) fn laws(
     (graph, literals): (&Multibody, &LiteralRegressors),
     (of, found): (PayloadRegressor, &[Dd]),
     at: &Inputs<Dd>,
-) -> Option<Vec<RegressorLaw>> {
+) -> Option<Vec<SizedLaw>> {
     let mut random = Random(47);
     let mut number = || Dd::from_f64(random.signed());
     let points: Vec<PlacedMass> = (0..POINTS)

@@ -4,15 +4,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::compare::{dot, largest, minus, plus, times};
+use super::compare::{SizedLaw, dot, largest, minus, plus, times};
 use crate::expr::Inputs;
 use crate::formulation::{Prepared, columns, create, specification};
 use crate::function::Function;
 use crate::method::{Method, Regressor};
 use crate::random::Random;
-
-/// A law, its two sides, and the size of their terms.
-pub(super) type RegressorLaw = (&'static str, Vec<Dd>, Vec<Dd>, f64);
 
 /// The functions that the laws of regressors read.
 pub(super) struct LiteralRegressors {
@@ -36,27 +33,24 @@ impl LiteralRegressors {
             without_rotors: literal(&bare, Method::InverseDynamics)?,
         })
     }
-}
 
-impl LiteralRegressors {
     /// Returns K π and Y(q, v, a) π for these parameters.
     pub(super) fn by_any(&self, at: &Inputs<Dd>, parameters: Vec<Dd>) -> (Vec<Dd>, Vec<Dd>) {
-        let of = Reference {
-            of: self,
-            parameters,
-            at,
-        };
+        let of = self.reference(at, parameters);
         (of.base_parameters(), of.efforts(&at.v, &at.a))
     }
 
     /// Returns (M a_r + C(q, v) v_r + g) π for these parameters.
     pub(super) fn two_velocities(&self, at: &Inputs<Dd>, parameters: Vec<Dd>) -> Vec<Dd> {
-        let of = Reference {
+        self.reference(at, parameters).two_velocities()
+    }
+
+    fn reference<'a>(&'a self, at: &'a Inputs<Dd>, parameters: Vec<Dd>) -> Reference<'a> {
+        Reference {
             of: self,
             parameters,
             at,
-        };
-        of.two_velocities()
+        }
     }
 }
 
@@ -144,16 +138,12 @@ pub(super) fn laws(
     (prepared, literals): (&Prepared<'_>, &LiteralRegressors),
     (regressor, function): (Regressor, &Function),
     at: &Inputs<Dd>,
-) -> Option<Vec<RegressorLaw>> {
+) -> Option<Vec<SizedLaw>> {
     let mut random = Random(29);
     let count = 10 * prepared.graph.moving_links().len();
     let number = |_| Dd::from_f64(random.signed());
     let parameters: Vec<Dd> = (0..count).map(number).collect();
-    let of = Reference {
-        of: literals,
-        parameters,
-        at,
-    };
+    let of = literals.reference(at, parameters);
     let found = match regressor {
         Regressor::BaseParameters => of.base_parameters(),
         _ => function.evaluate(at.clone()).0,

@@ -5,7 +5,9 @@ use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::method::{Centroidal, Method};
 use bgdyn_codegen::options::Options;
 
-use crate::checked::{checked, every_turned_sign_is_refused, of_folder, quick_loops};
+use crate::checked::{
+    checked, checked_methods, every_turned_sign_is_refused, of_folder, only, quick_loops,
+};
 use crate::common::random::Draft;
 use crate::common::rng::Rng;
 use crate::common::{Robot, golden};
@@ -16,17 +18,8 @@ fn methods(robot: &Robot) -> Vec<Method> {
     centroidal.into_iter().chain(rate).collect()
 }
 
-fn options(robot: &Robot) -> Options {
-    let names = methods(robot).into_iter().map(|method| method.name(&[]));
-    Options {
-        methods: Some(names.collect()),
-        ..Options::default()
-    }
-}
-
 fn passes(robot: &Robot, what: &str) {
-    let model = checked(robot, &options(robot), what);
-    assert_eq!(model.functions.len(), methods(robot).len(), "{what}");
+    checked_methods(robot, &methods(robot), what);
 }
 
 #[test]
@@ -48,7 +41,7 @@ fn golden_robots_equal_the_definitions() {
 #[test]
 fn turned_signs_are_refused() {
     let robot = golden::robot("puma560");
-    let model = checked(&robot, &options(&robot), "puma560");
+    let model = checked_methods(&robot, &methods(&robot), "puma560");
     every_turned_sign_is_refused(&model, |_, _| true);
 }
 
@@ -99,7 +92,7 @@ fn own_inertia_has_the_same_momentum() {
         for of in ["recursion_own", "literal"] {
             let options = Options {
                 formulation: by_name(of),
-                ..options(&robot)
+                ..only(&robot, &methods(&robot))
             };
             let model = checked(&robot, &options, &format!("{name}, {of}"));
             let mut functions = model.functions.iter();

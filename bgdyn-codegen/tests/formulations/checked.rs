@@ -1,6 +1,7 @@
 //! Checks every function of a model as it is checked before it is written, and that the check finds a turned sign.
 
 use bgdyn_codegen::function::Function;
+use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::selection::model;
@@ -14,6 +15,36 @@ pub fn checked(robot: &Robot, options: &Options, what: &str) -> Model {
     let found = check_model(&model);
     assert!(found.is_empty(), "{what}\n{}", explain(&found));
     model
+}
+
+/// Returns the options that ask for these methods alone.
+pub fn only(robot: &Robot, methods: &[Method]) -> Options {
+    let sites = &robot.graph.sites;
+    let names = methods.iter().map(|method| method.name(sites));
+    Options {
+        methods: Some(names.collect()),
+        ..Options::default()
+    }
+}
+
+/// Returns the model with these methods; fails if one of them is missing or differs from equation (6).
+pub fn checked_methods(robot: &Robot, methods: &[Method], what: &str) -> Model {
+    let model = checked(robot, &only(robot, methods), what);
+    assert_eq!(model.functions.len(), methods.len(), "{what}");
+    model
+}
+
+/// Returns the multiplications and additions of these methods, in the emitted form; zero for those that the mechanism
+/// does not have.
+pub fn counted<const N: usize>(robot: &Robot, methods: [Method; N]) -> [usize; N] {
+    let possible = Method::possible_of(robot.graph);
+    methods.map(|method| {
+        if !possible.contains(&method) {
+            return 0;
+        }
+        let operations = robot.emitted(method).operations();
+        operations.mul + operations.add
+    })
 }
 
 /// Fails if the check does not find the turned sign of an output. `is_read` says of which outputs: not of those that are

@@ -2,9 +2,10 @@
 //! trees, joints of every type, loops and constraints; refusals; counts of operations.
 
 use bgdyn_codegen::method::{Directional, Method, ParameterDerivatives, Shape};
-use bgdyn_codegen::options::Options;
 
-use crate::checked::{checked, every_turned_sign_is_refused, of_folder, quick_loops};
+use crate::checked::{
+    checked_methods, counted, every_turned_sign_is_refused, of_folder, quick_loops,
+};
 use crate::common::random::Draft;
 use crate::common::rng::Rng;
 use crate::common::{Robot, golden};
@@ -18,20 +19,10 @@ fn methods(robot: &Robot) -> Vec<Method> {
     all.filter(of_this).collect()
 }
 
-fn options(robot: &Robot) -> Options {
-    let sites = &robot.graph.sites;
-    let names = methods(robot).into_iter().map(|method| method.name(sites));
-    Options {
-        methods: Some(names.collect()),
-        ..Options::default()
-    }
-}
-
 fn passes(robot: &Robot, what: &str) -> Vec<Method> {
     let all = methods(robot);
     if !all.is_empty() {
-        let model = checked(robot, &options(robot), what);
-        assert_eq!(model.functions.len(), all.len(), "{what}");
+        checked_methods(robot, &all, what);
     }
     all
 }
@@ -45,28 +36,37 @@ fn random_trees_equal_equation_6() {
     }
 }
 
-/// Run-time parameters: masses, places, lengths.
+/// Run-time parameters: masses, centres of mass, inertias.
 #[test]
 fn specs_with_run_time_parameters_equal_equation_6() {
     let mut with = 0;
-    let folders = [
-        "specs",
-        "specs/loops",
-        "tests/scalars/specs",
-        "tests/numeric/specs",
-    ];
-    for (name, text) in folders.into_iter().flat_map(of_folder) {
-        if text.contains("parameter:") {
-            let all = passes(&Robot::read(&text, Some(&name)), &name);
-            let run_time = |method: &Method| {
-                let of = ParameterDerivatives::RunTime;
-                matches!(method, Method::ParameterDerivatives(found) if *found != ParameterDerivatives::Base
-                    && *found != of(0))
-            };
-            with += usize::from(all.iter().any(run_time));
-        }
+    for (name, text) in ["tests/scalars/specs", "tests/numeric/specs"]
+        .into_iter()
+        .flat_map(of_folder)
+    {
+        let robot = Robot::read(&text, Some(&name));
+        let all = passes(&robot, &name);
+        let of_run_time = ParameterDerivatives::RunTime(robot.graph.parameters.len());
+        let found = all.contains(&Method::ParameterDerivatives(of_run_time));
+        assert_eq!(found, text.contains("parameter:"), "{name}");
+        with += usize::from(found);
     }
-    assert!(with > 0);
+    assert!(with > 1);
+}
+
+/// The motion of the base consists of run-time parameters as well.
+#[test]
+fn given_bases_equal_equation_6() {
+    for name in ["scara", "puma560"] {
+        let (_, text) = of_folder("specs")
+            .into_iter()
+            .find(|(stem, _)| stem == name)
+            .expect("the spec");
+        let text = text.replacen("format: 1\n", "format: 1\nbase: given\n", 1);
+        let robot = Robot::read(&text, Some(name));
+        let of_run_time = Method::ParameterDerivatives(ParameterDerivatives::RunTime(9));
+        assert!(passes(&robot, &text).contains(&of_run_time), "{name}");
+    }
 }
 
 /// Free bases, balls, screws: the derivatives along the velocities do not commute.
@@ -92,10 +92,44 @@ fn loops_and_constraints_equal_equation_6() {
     }
 }
 
+/// Derivatives by coordinates commute, exactly: the entries are the same expressions. Along velocities of a free body they
+/// do not.
+#[test]
+fn second_derivatives_by_coordinates_are_symmetric() {
+    let symmetric = |text: &str| {
+        let robot = Robot::read(text, Some("symmetric"));
+        let (n, found) = (robot.nv(), robot.emitted(CURVATURE));
+        let outputs = &found.blocks.last().expect("a block").outputs;
+        (0..n * n).all(|k| outputs[k] == outputs[k % n * n + k / n])
+    };
+    let (_, five_bar) = quick_loops()
+        .into_iter()
+        .find(|(name, _)| name == "five_bar")
+        .expect("the spec");
+    assert!(symmetric(&five_bar));
+    let chain = "format: 1
+links:
+  - name: nut
+    joint: { name: screw, type: helical, axis: z, lead: 10 mm }
+    mass: 2
+    com: [0.1, 0, 0.2]
+    inertia: { xx: 0.1, yy: 0.2, zz: 0.25 }
+  - name: hand
+    parent: nut
+    joint: { name: wrist, type: JOINT, axis: [1, 2, 0], origin: { xyz: [0.3, 0.1, 0.2] } }
+    mass: 1
+    com: [0.1, 0.2, 0.05]
+    inertia: { xx: 0.01, yy: 0.02, zz: 0.025 }
+";
+    assert!(symmetric(&chain.replace("JOINT", "revolute")));
+    let ball = chain.replace("JOINT, axis: [1, 2, 0]", "spherical");
+    assert!(!symmetric(&ball));
+}
+
 #[test]
 fn every_turned_sign_is_found() {
     let robot = golden::robot("scara4");
-    let model = checked(&robot, &options(&robot), "scara4");
+    let model = checked_methods(&robot, &methods(&robot), "scara4");
     every_turned_sign_is_refused(&model, |function, k| match function.shape() {
         Shape::Checked(_) => k >= robot.nv(),
         _ => true,
@@ -126,13 +160,9 @@ const COUNTS: [(&str, [usize; 2]); 6] = [
 #[test]
 fn counts_do_not_grow() {
     let by_base = Method::ParameterDerivatives(ParameterDerivatives::Base);
-    let counted = COUNTS.map(|(name, _)| {
+    let found = COUNTS.map(|(name, _)| {
         let robot = golden::robot(name);
-        let counts = [CURVATURE, by_base].map(|method| {
-            let operations = robot.emitted(method).operations();
-            operations.mul + operations.add
-        });
-        (name, counts)
+        (name, counted(&robot, [CURVATURE, by_base]))
     });
-    assert_eq!(counted, COUNTS);
+    assert_eq!(found, COUNTS);
 }

@@ -8,7 +8,7 @@ use crate::common::{Robot, golden};
 use crate::golden_values::{close, numbers, values};
 
 /// Relative to the largest entry.
-const TOLERANCE: f64 = 1e-12;
+const TOLERANCE: f64 = 1e-14;
 
 /// Largest factor by which inverse mass matrices of these robots enlarge rounding errors.
 const CONDITION: f64 = 1e2;

@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{finish, reopen};
+use super::differentiate::{finish, pairs_with_cheapest, reopen};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::formulation::slopes::{along_efforts, derivatives};
 use crate::formulation::{Formulation, Prepared};
@@ -42,31 +42,20 @@ impl Formulation for ByParameters {
         let Method::ParameterDerivatives(of) = method else {
             return None;
         };
-        let efforts: Vec<Function> = match of {
-            ParameterDerivatives::Base => {
-                let regressor = prepared.function(efforts(of))?;
-                vec![(*regressor).clone()]
-            }
-            ParameterDerivatives::RunTime(_) => {
-                let inverse = prepared.candidates(efforts(of));
-                let inverse = inverse.accepted.iter();
-                inverse.map(|candidate| candidate.plain.clone()).collect()
-            }
+        let regressor = match of {
+            ParameterDerivatives::Base => Some(prepared.function(efforts(of))?),
+            ParameterDerivatives::RunTime(_) => None,
+        };
+        let inverse = prepared.candidates(efforts(of));
+        let efforts: Vec<&Function> = match &regressor {
+            Some(regressor) => vec![regressor],
+            None => inverse.accepted.iter().map(|c| &c.plain).collect(),
         };
         let forward = prepared.candidates(Method::ForwardDynamics);
         let forward = forward.accepted.iter().chain(&forward.borderline);
         let forward: Vec<&Function> = forward.map(|candidate| &candidate.plain).collect();
-        // Each of forward dynamics with the cheapest of the efforts, and the cheapest with each other one.
-        let first = forward.iter().map(|forward| (efforts.first(), *forward));
-        let others = efforts
-            .iter()
-            .skip(1)
-            .filter_map(|efforts| Some((Some(efforts), *forward.first()?)));
-        let pairs = first.chain(others);
-        let pairs: Vec<(&Function, &Function)> = pairs
-            .filter_map(|(efforts, forward)| Some((efforts?, forward)))
-            .collect();
-        let ways = pairs.into_iter().flat_map(|pair| {
+        let pairs = pairs_with_cheapest(&efforts, &forward).into_iter();
+        let ways = pairs.flat_map(|pair| {
             let ways = [Solution::ByElimination, Solution::ByInverse].into_iter();
             ways.filter_map(move |way| from(prepared, of, pair, way))
         });

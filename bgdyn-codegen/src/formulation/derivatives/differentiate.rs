@@ -18,6 +18,19 @@ pub(super) fn reopen(function: &Function) -> (Builder, Vec<Signed>) {
     )
 }
 
+/// Returns the pairs of functions to try, of two lists with the cheapest ones first: the first efforts with each forward
+/// dynamics, and the first forward dynamics with each other efforts.
+pub(super) fn pairs_with_cheapest<'a>(
+    efforts: &[&'a Function],
+    forward: &[&'a Function],
+) -> Vec<(&'a Function, &'a Function)> {
+    let of_first = efforts.iter().take(1);
+    let of_first = of_first.flat_map(|e| forward.iter().map(move |f| (*e, *f)));
+    let others = efforts.iter().skip(1);
+    let others = others.flat_map(|e| forward.iter().take(1).map(move |f| (*e, *f)));
+    of_first.chain(others).collect()
+}
+
 /// Returns the derivatives along the tangent: column j is d/dε x(q + ε q̇) with q̇ = N(q) e_j. Where conditions on
 /// velocities alone leave more ways to move than velocities, there is a column for each velocity of the open tree.
 pub(super) fn position_derivatives(

@@ -12,7 +12,9 @@
 
 use bgdyn_runtime::Dd;
 
-use super::differentiate::{finish, position_derivatives, position_tangents, rates_along, reopen};
+use super::differentiate::{
+    finish, pairs_with_cheapest, position_derivatives, position_tangents, rates_along, reopen,
+};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, adjoints, copy_into};
 use crate::formulation::slopes::{along_efforts, derivatives};
@@ -53,20 +55,15 @@ impl Formulation for AlongDirections {
         };
         let graph = prepared.graph;
         let inverse = prepared.candidates(Method::InverseDynamics);
-        let mut inverse = inverse.accepted.iter().map(|candidate| &candidate.plain);
+        let inverse = inverse.accepted.iter().map(|candidate| &candidate.plain);
         if !of.is_forward() {
             return cheapest(inverse.map(|from| of_inverse(graph, of, from)));
         }
+        let inverse: Vec<&Function> = inverse.collect();
         let forward = prepared.candidates(Method::ForwardDynamics);
         let forward = forward.accepted.iter().chain(&forward.borderline);
         let forward: Vec<&Function> = forward.map(|candidate| &candidate.plain).collect();
-        // Each of forward dynamics with the cheapest of inverse dynamics, and the cheapest with each other one.
-        let first = inverse.next()?;
-        let pairs = forward.iter().map(|forward| (first, *forward));
-        let others = forward
-            .first()
-            .map(|forward| inverse.map(|inverse| (inverse, *forward)));
-        let pairs = pairs.chain(others.into_iter().flatten());
+        let pairs = pairs_with_cheapest(&inverse, &forward).into_iter();
         cheapest(pairs.map(|pair| of_forward(graph, of, pair)))
     }
 }
@@ -204,9 +201,10 @@ fn curvature(b: &Builder, graph: &BondGraph, [by_q, by_v, by_a]: &[Vec<Signed>; 
     let along_v = |x: &[Signed]| derivatives(b, x, n, Leaf::Velocity);
     let (qq, vq, vv, aq) = (along_q(by_q), along_q(by_v), along_v(by_v), along_q(by_a));
     let pairs = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-    // Column j of a matrix is its derivative along v_j. Of two equal entries the one along the outer joint has fewer
-    // operations.
-    let commutes = graph.plain();
+    // Column j of a matrix is its derivative along v_j. Derivatives by coordinates commute; of two equal entries the one
+    // along the outer joint has fewer operations.
+    let tree = graph.closed.as_ref().map_or(graph, |closed| &closed.tree);
+    let commutes = tree.rates_are_velocities();
     let outer = |m: &[Vec<Signed>], (i, j): (usize, usize)| m[i.max(j)][i.min(j)];
     let by_positions = pairs().map(|(i, j)| match commutes {
         true => outer(&qq, (i, j)),

@@ -111,7 +111,7 @@ impl ParameterColumns {
             let made = payload::outputs(&columns, of)?;
             made.into_iter().map(Expr::signed).collect()
         };
-        let outputs = zeros_for_hidden_ones(&b, graph, outputs);
+        let outputs = with_exact_zeros(&b, graph, outputs);
         let name = self.name().into();
         Some(Function::flat(graph, method, name, b.into_graph(), outputs))
     }
@@ -128,11 +128,12 @@ fn without_hidden_zeros(
     if regressor.arguments().is_empty() || regressor == Regressor::BaseParameters {
         return outputs;
     }
-    zeros_for_hidden_ones(b, graph, outputs)
+    with_exact_zeros(b, graph, outputs)
 }
 
-/// Returns the outputs with a zero in place of each one that is zero at random states.
-fn zeros_for_hidden_ones(b: &Builder, graph: &Multibody, outputs: Vec<Signed>) -> Vec<Signed> {
+/// Returns the outputs with a zero in place of each one that is zero at random states: of a sum, like the effort of
+/// gravity about a vertical axis, rounding errors would be left.
+fn with_exact_zeros(b: &Builder, graph: &Multibody, outputs: Vec<Signed>) -> Vec<Signed> {
     let mut largest = vec![0.0_f64; outputs.len()];
     for state in random_states(graph, STATES) {
         let values = b.with_graph(|graph| evaluate(graph, &outputs, &state, &mut None));
