@@ -1,26 +1,13 @@
 # Sourced by run.sh: compiles the programs that are timed, and the C that the peers generate.
-packages=$(echo "$venv"/lib/python3*/site-packages)
-mujoco=$packages/mujoco
-pinocchio="-isystem $packages/cmeel.prefix/include -isystem $packages/cmeel.prefix/include/eigen3
-  -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_LIMIT_VECTOR_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS
-  -DBOOST_FUSION_INVOKE_MAX_ARITY=12"
-fast="-O3 -march=native"
-
-# program NAME COMPILER OPTIONS: bin/NAME from cpp/NAME.cpp, where that is newer.
-program() {
-  local to=$PEERS_DIR/bin/$1 from=$here/cpp/$1.cpp compiler=$2
-  shift 2
-  [ "$to" -nt "$from" ] || "$compiler" -std=c++17 -DNDEBUG "$from" "$@" -o "$to"
-}
-program generated g++ $fast -ldl
-[ "$free" ] || program generated_lanes g++ $fast -ldl
-program pinocchio clang++-19 $fast $pinocchio
-[ "$free" ] || program mujoco clang++-19 $fast -isystem "$mujoco/include" "$mujoco"/libmujoco.so.* -Wl,-rpath,"$mujoco"
+program generated "$here/cpp/generated.cpp" g++ $fast -ldl
+[ "$free" ] || program generated_lanes "$here/cpp/generated_lanes.cpp" g++ $fast -ldl
+program pinocchio "$here/cpp/pinocchio.cpp" clang++-19 $fast $pinocchio
+[ "$free" ] || program mujoco "$here/cpp/mujoco.cpp" clang++-19 $fast -isystem "$mujoco/include" "$mujoco"/libmujoco.so.* -Wl,-rpath,"$mujoco"
 # Its library is compiled for any x86-64: with -march=native Eigen would align memory in another way.
-[ "$free" ] || program kdl clang++-19 -O3 -isystem /usr/include/eigen3 -lorocos-kdl
-program casadi_codegen clang++-19 -O1 -isystem "$packages/casadi/include" $pinocchio \
+[ "$free" ] || program kdl "$here/cpp/kdl.cpp" clang++-19 -O3 -isystem /usr/include/eigen3 -lorocos-kdl
+program casadi_codegen "$here/cpp/casadi_codegen.cpp" clang++-19 -O1 -isystem "$packages/casadi/include" $pinocchio \
   -L"$packages/casadi" -lcasadi -Wl,-rpath,"$packages/casadi"
-program cppad_codegen clang++-19 -O1 -isystem "$PEERS_DIR/include" $pinocchio -ldl
+program cppad_codegen "$here/cpp/cppad_codegen.cpp" clang++-19 -O1 -isystem "$PEERS_DIR/include" $pinocchio -ldl
 
 # Ours, with the machine's instructions and with those of any x86-64 (or other) machine.
 ours() {
@@ -35,9 +22,6 @@ if [ -z "$free" ]; then
     --target-dir "$PEERS_DIR/dynibo"
   cp "$PEERS_DIR/dynibo/release/dynibo-peer" "$PEERS_DIR/bin/dynibo"
 fi
-
-# What a compiler, or a generator, may take for one function: beyond it, the table has a dash.
-patience=${PEERS_PATIENCE:-60}
 
 # generate SPEC: the description for the peers, and their C, by both compilers.
 generate() {
@@ -63,14 +47,6 @@ generate() {
     case $c in */casadi_*) lanes "$c" ;; esac
   done
   touch "$folder/done"
-}
-
-# compile C COMPILER OPTIONS
-compile() {
-  local c=$1 compiler=$2
-  shift 2
-  timeout "$patience" "$compiler" $fast -fno-math-errno -DNDEBUG "$@" -fPIC -shared -w "$c" -o "${c%.c}.$compiler.so" -lm \
-    || echo "$compiler gave up $c"
 }
 
 # CasADi's C for vectors of 8 doubles: constants spread over the lanes, arguments taken as given, everything but the

@@ -7,8 +7,6 @@ cargo_release() {
   RUSTFLAGS=$1 cargo build --release --manifest-path "$root/Cargo.toml" --target "$host" --target-dir "$PEERS_DIR/rust" \
     --config 'profile.release.package.bgdyn-codegen.opt-level=1' "${@:2}"
 }
-cargo_release "-C target-cpu=native" -p bgdyn-cli -p peers_plots
-cp "$PEERS_DIR/rust/$host/release"/{bgdyn,plots} "$PEERS_DIR/bin/"
 
 # import_talos SPEC: the humanoid TALOS, its grippers closed by one joint each, free in the world.
 import_talos() {

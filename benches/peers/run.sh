@@ -36,10 +36,13 @@ fi
 
 . "$here/install.sh"
 . "$here/cargo.sh"
+cargo_release "-C target-cpu=native" -p bgdyn-cli -p peers_plots
+cp "$PEERS_DIR/rust/$host/release"/{bgdyn,plots} "$PEERS_DIR/bin/"
 if [ "$talos" ]; then
   import_talos "$talos"
   specs+=$'\n'$talos
 fi
+. "$here/compilers.sh"
 . "$here/build.sh"
 for spec in $specs; do generate "$spec"; done
 "$PEERS_DIR/venv/bin/python" "$here/measure.py" $options $specs

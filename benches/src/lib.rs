@@ -3,9 +3,9 @@
 #![forbid(unsafe_code)]
 
 pub mod clock;
-pub mod counts;
 pub mod inputs;
 pub mod joints;
+pub mod outcome;
 pub mod plain;
 pub mod states;
 

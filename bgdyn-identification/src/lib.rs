@@ -27,6 +27,7 @@ pub mod pseudo_inertia;
 mod result;
 pub mod spectrum;
 pub mod statistics;
+pub mod sticking;
 pub mod suspect;
 pub mod triangle;
 

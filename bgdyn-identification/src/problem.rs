@@ -6,7 +6,7 @@ use crate::base::Base;
 use crate::bodies::{BodyProblem, Cone};
 use crate::deviations::{deviations, is_seen, meat};
 use crate::fault::LogFault;
-use crate::fit::{Fit, fit};
+use crate::fit::{Fit, fit, residuals};
 use crate::judge::judge;
 use crate::log::Quality;
 use crate::model::{Model, PARAMETER_NAMES, Parameters, Unknown};
@@ -14,6 +14,7 @@ use crate::options::Options;
 use crate::prepare::Samples;
 use crate::pseudo_inertia::{made_definite, smallest_eigenvalue};
 use crate::result::{BaseParameter, Identification, Identified, Judgement};
+use crate::sticking::sticking;
 
 /// Least squares of a motion.
 pub(crate) struct Problem {
@@ -128,6 +129,7 @@ impl Problem {
             eigenvalues: (0..model.links.len()).map(link).collect(),
             covariance: larger(cov, &robust),
             numbers,
+            sticking: sticking(&self.samples, &self.residual(), options.skip_below),
             left_out,
             impossible,
             steps: bodies.steps,
@@ -147,6 +149,11 @@ impl Problem {
                 left: Default::default(),
             },
         })
+    }
+
+    /// Returns what least squares leave of each effort.
+    fn residual(&self) -> Vec<f64> {
+        residuals(&self.columns, &self.tau, &self.fit.values)
     }
 
     fn base_parameters(&self, model: &Model<'_>, meat: &DMatrix<f64>) -> Vec<BaseParameter> {

@@ -7,6 +7,7 @@ use crate::judge::JointResidual;
 use crate::log::Quality;
 use crate::model::Unknown;
 use crate::prepare::Samples;
+use crate::sticking::Sticking;
 
 /// A base parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +75,8 @@ pub struct Identification {
     pub numbers: Vec<Identified>,
     /// Covariance of them.
     pub covariance: DMatrix<f64>,
+    /// Joints that dry friction holds near rest.
+    pub sticking: Vec<Sticking>,
     /// Joint columns that are zero in this motion, and keep the file's numbers.
     pub left_out: Vec<Unknown>,
     /// Links whose numbers in the file are no body that can exist.

@@ -11,12 +11,14 @@ pub(crate) fn json(model: &Model<'_>, found: &Identification) -> Value {
         let channel = &quality.joints[j];
         let left = |k: usize| found.judgement.left[k][j].rms;
         let bodies = &found.judgement.left[2][j];
+        let sticking = found.sticking.iter().find(|s| s.joint == j);
         json!({
             "name": joint.name, "range": channel.range, "rest": channel.rest, "step": channel.step,
             "spikes": found.spikes[j], "sigma": found.sigma[j], "effort": bodies.effort,
             "rms": { "file": left(0), "least_squares": left(1), "bodies": left(2) },
             "by_velocity": bodies.by_velocity, "by_position": bodies.by_position,
             "correlation": bodies.correlation,
+            "sticking": sticking.map(|s| json!({ "below": s.below, "factor": s.factor })),
         })
     });
     let base = found.base.iter().map(|p| {

@@ -65,6 +65,16 @@ pub(crate) fn summary(machine: &IdentifiedMachine, found: &Identification) -> St
             model.name(*unknown)
         ));
     }
+    for sticks in &found.sticking {
+        let joint = &model.joints[sticks.joint];
+        let unit = if joint.linear { "m/s" } else { "rad/s" };
+        lines.push(format!(
+            "  {}: rows slower than {} {unit} are {:.1} times as far off as fast ones. Dry friction that holds the joint takes any effort up to F; `--skip-below` leaves such rows out",
+            joint.name,
+            short(sticks.below),
+            sticks.factor
+        ));
+    }
     let unseen: Vec<&str> = found
         .base
         .iter()

@@ -12,7 +12,7 @@ use bgdyn_runtime::Cause;
 use bgdyn_runtime::closure::{BranchBlock, Conditions, Mechanism, assemble};
 use bgdyn_runtime::nalgebra::{SMatrix, SVector};
 
-use crate::c_program::{CCall, CProgram, compile, compilers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers_for, run};
 use crate::closed_mechanisms::paths;
 use crate::runtime_positions::{ROOM, Reference, Vector, integrated, vector};
 use crate::same_bits::{files, model, name, text_of};
@@ -140,7 +140,7 @@ fn check<T: CNumber, const NC: usize>(name: &str, model: &Model, counts: &mut [u
         }] += 1;
     }
     let files = files(model, &[("float", T::NAME)]);
-    for compiler in compilers() {
+    for compiler in compilers_for(&files) {
         let compiled = compile::<T>(&compiler, &format!("{name}_assembled"), &files, &program);
         let found = run(&compiled, &rows);
         assert_eq!(found.len(), states.len());

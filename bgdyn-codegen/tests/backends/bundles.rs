@@ -4,7 +4,7 @@ use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::{BundleOption, Options};
 use bgdyn_codegen::random::Random;
 
-use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers_for, numbers, run};
 use crate::same_bits::{MOMENTA, files, model, name, selected};
 use crate::values::{CNumber, close_to, expected, state};
 
@@ -94,7 +94,7 @@ fn check<T: CNumber>(path: &str, methods: &[&str]) {
     let program = CProgram::of(&model, vec![call]);
     let rows: Vec<Vec<T>> = states.iter().map(numbers).collect();
     let files = files(&model, &[("float", T::NAME)]);
-    for compiler in compilers() {
+    for compiler in compilers_for(&files) {
         let folder = format!("{}_bundle", name(path));
         let program = compile::<T>(&compiler, &folder, &files, &program);
         for (k, found) in run(&program, &rows).into_iter().enumerate() {

@@ -15,9 +15,8 @@ use bgdyn_codegen::model::Model;
 use crate::values::CNumber;
 
 /// The flags with which generated C must compile without a warning, and with which it has Rust's bits.
-const FLAGS: [&str; 11] = [
+const FLAGS: [&str; 10] = [
     "-std=c99",
-    "-O2",
     "-ffp-contract=off",
     "-Wall",
     "-Wextra",
@@ -28,6 +27,23 @@ const FLAGS: [&str; 11] = [
     "-Wfloat-conversion",
     "-Werror",
 ];
+
+/// Bytes of a C file that is long: compiled by one compiler and not optimised, because that takes minutes otherwise.
+/// With `BGDYN_ALL_C` no file is long.
+const LONG: usize = 200_000;
+
+fn is_long(bytes: usize) -> bool {
+    bytes > LONG && std::env::var_os("BGDYN_ALL_C").is_none()
+}
+
+/// Returns the compilers for these files: all of the machine, or the first one for long ones.
+pub fn compilers_for(files: &[GeneratedFile]) -> Vec<String> {
+    let mut found = compilers();
+    if files.iter().any(|file| is_long(file.text.len())) {
+        found.truncate(1);
+    }
+    found
+}
 
 /// Returns the compilers of this machine among gcc and clang. A clang of a distribution may have its version in its
 /// name; the newest one is taken.
@@ -79,8 +95,13 @@ pub fn compile<T: CNumber>(
 /// ones.
 pub fn build(compiler: &str, folder: &Path, file: &str, main: &str, flags: &[&str]) -> PathBuf {
     fs::write(folder.join("main.c"), main).expect("a file");
+    let size = fs::metadata(folder.join(format!("{file}.c")))
+        .expect("a file")
+        .len();
+    let level = if is_long(size as usize) { "-O0" } else { "-O2" };
     let output = Command::new(compiler)
         .current_dir(folder)
+        .arg(level)
         .args(FLAGS)
         .args(flags)
         .args([&format!("{file}.c"), "main.c", "-o", "program", "-lm"])

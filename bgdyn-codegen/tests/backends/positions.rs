@@ -9,7 +9,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::read;
 
-use crate::c_program::{CCall, CProgram, compile, compilers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers_for, run};
 use crate::closed_mechanisms::paths;
 use crate::runtime_positions::{Reference, Vector, vector};
 use crate::same_bits::{files, model, name, text_of};
@@ -89,7 +89,7 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
     };
     let rows: Vec<Vec<T>> = states.iter().zip(&starts).zip(&units).map(row).collect();
     let (files, mut counts) = (files(model, &[("float", T::NAME)]), [0, 0]);
-    for compiler in compilers() {
+    for compiler in compilers_for(&files) {
         let called = format!("{name}_positions");
         let compiled = compile::<T>(&compiler, &called, &files, &program);
         let all = states.iter().zip(&starts).zip(&units);

@@ -10,7 +10,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::random::Random;
 use bgdyn_codegen::{read, selection};
 
-use crate::c_program::{CCall, CProgram, compile, compilers, numbers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers_for, numbers, run};
 use crate::values::{CNumber, Expected, close_to, expected, state};
 
 /// States of each mechanism.
@@ -86,7 +86,7 @@ fn compare<T: CNumber>(
     let calls = functions.iter().map(|f| CCall::of(f, sizes, size(f)));
     let program = CProgram::of(model, calls.collect());
     let rows: Vec<Vec<T>> = states.iter().map(numbers).collect();
-    for compiler in compilers() {
+    for compiler in compilers_for(&files) {
         let program = compile::<T>(&compiler, name, &files, &program);
         let found = run(&program, &rows);
         assert_eq!(found.len(), states.len(), "{compiler}: {name}");
@@ -284,9 +284,10 @@ fn positions_that_are_not_numbers() {
             numbers(&state)
         });
         let rows: Vec<Vec<f64>> = broken.collect();
-        for compiler in compilers() {
+        let files = files(&model, &[]);
+        for compiler in compilers_for(&files) {
             let folder = format!("{}_broken", name(path));
-            let program = compile::<f64>(&compiler, &folder, &files(&model, &[]), &program);
+            let program = compile::<f64>(&compiler, &folder, &files, &program);
             for (k, found) in run(&program, &rows).iter().enumerate() {
                 // Neither of the SCARA's first angle nor of the height of its quill depends anything.
                 let is_read = found[1..]

@@ -17,7 +17,7 @@ use bgdyn_runtime::ACTUATORS;
 use bgdyn_runtime::closure::{Dependent, close_from};
 use nalgebra::SVector;
 
-use crate::c_program::{CCall, CProgram, compile, compilers, run};
+use crate::c_program::{CCall, CProgram, compile, compilers_for, run};
 use crate::values::CNumber;
 
 /// States of each scene.
@@ -266,7 +266,7 @@ fn check<T: CNumber>(path: &str, options: &Options) {
     let rows: Vec<Vec<T>> = states.iter().map(row).collect();
     let files = files(&case, T::NAME);
     let name = path.replace(['/', '.'], "_");
-    for compiler in compilers() {
+    for compiler in compilers_for(&files) {
         let compiled = compile::<T>(&compiler, &name, &files, &program);
         for (state, found) in states.iter().zip(run(&compiled, &rows)) {
             let mut answers: Vec<(i128, Vec<T>)> = functions

@@ -83,7 +83,7 @@ impl Adaptive {
     }
 
     /// Returns the efforts τ = Y(q, v, v_r, a_r) (π + K p̂) − K_D s, with rotors and friction, and learns from the
-    /// errors: p̂ changes by −Γ Kᵀ Yᵀ s.
+    /// errors: p̂ changes by −Γ Y_Fᵀ s.
     pub fn effort(&mut self, wanted: &Wanted<JOINTS>, q: &Joints, v: &Joints) -> Joints {
         let model = &self.model;
         let mut reference = Reference::new(wanted, q, v);
@@ -99,10 +99,11 @@ impl Adaptive {
         effort
     }
 
-    /// Returns Γ Kᵀ Yᵀ s, by the generated `adaptive_step`, which does not form Y.
+    /// Returns Γ Y_Fᵀ s; Y_F has the ten columns of a payload at the flange, and is not formed.
     pub fn change(&self, q: &Joints, v: &Joints, reference: &Reference) -> Load {
         let Reference { v: v_r, a: a_r, s } = reference;
-        let of_base = self.model.arm.adaptive_step(q, v, v_r, a_r, s);
-        self.map.transposed(&of_base).component_mul(&self.rates)
+        let arm = &self.model.arm;
+        let step = arm.payload_adaptive_step_flange(q, v, v_r, a_r, s);
+        step.component_mul(&self.rates)
     }
 }

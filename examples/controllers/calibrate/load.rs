@@ -51,13 +51,4 @@ impl LoadMap {
         }
         base
     }
-
-    /// Returns Kᵀ y.
-    pub fn transposed(&self, y: &BaseParameters) -> Load {
-        let mut load = Load::zeros();
-        for &(i, k, x) in &self.entries {
-            load[k] += x * y[i];
-        }
-        load
-    }
 }

@@ -33,7 +33,7 @@ bgdyn::bgdyn!(
         regressor,
         base_regressor,
         adaptive_regressor,
-        adaptive_step,
+        payload_adaptive_step_flange,
         parameters,
         base_parameters,
         pose_link7,

@@ -5,7 +5,7 @@ use crate::acts::{self, Calibration, Carried, Tracking};
 use crate::cycle::Cycle;
 use crate::plant::{PART_MASS, Sample};
 use crate::robot::{ArmModel, Numbers};
-use crate::timing::{StepTimes, step_times};
+use crate::timing::step_time;
 use crate::truth_numbers::{self, EffortErrors};
 
 /// Share of the mass within which the load counts as found.
@@ -33,8 +33,8 @@ pub struct Results {
     pub carried: [Carried; 2],
     /// Errors of the positions while the part is held, from 1 s after it was taken.
     pub settled: [Tracking; 2],
-    /// Time of a step of the adaptation.
-    pub times: StepTimes,
+    /// Time of a step of the adaptation, ns.
+    pub step_time: f64,
 }
 
 impl Results {
@@ -58,7 +58,7 @@ impl Results {
             settled: carried
                 .each_ref()
                 .map(|run| Tracking::of(run.samples.iter().filter(late))),
-            times: step_times(&found, &carried[1]),
+            step_time: step_time(&found, &carried[1]),
             calibration,
             cycle,
             cycles,

@@ -11,17 +11,8 @@ use crate::robot::ArmModel;
 /// Timed passes.
 pub const PASSES: usize = 101;
 
-/// Times of one call, ns.
-#[derive(Clone, Copy, Debug)]
-pub struct StepTimes {
-    /// The generated `adaptive_step`: Yᵀ s for all base parameters.
-    pub generated: f64,
-    /// With it the ten numbers of the load: Γ Kᵀ Yᵀ s.
-    pub load: f64,
-}
-
-/// Times the adaptation at the states of a run.
-pub fn step_times(model: &ArmModel, run: &Carried) -> StepTimes {
+/// Returns the time of a step of the law for a load, Γ Y_Fᵀ s, at the states of a run, ns.
+pub fn step_time(model: &ArmModel, run: &Carried) -> f64 {
     let law = Adaptive::new(model, &run.samples[0].q, true);
     let states: Vec<(Joints, Joints, Reference)> = run
         .samples
@@ -31,13 +22,7 @@ pub fn step_times(model: &ArmModel, run: &Carried) -> StepTimes {
             (s.measured, s.velocity, reference)
         })
         .collect();
-    let generated = shortest(&states, |(q, v, r)| {
-        model.arm.adaptive_step(q, v, &r.v, &r.a, &r.s)
-    });
-    StepTimes {
-        generated,
-        load: shortest(&states, |(q, v, r)| law.change(q, v, r)),
-    }
+    shortest(&states, |(q, v, r)| law.change(q, v, r))
 }
 
 /// Returns the shortest time of a call over the passes, ns: another program on the machine only makes passes longer.

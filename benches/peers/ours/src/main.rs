@@ -3,61 +3,16 @@
 //! all outputs instead, for as many states as this says, a line each.
 #![forbid(unsafe_code)]
 
-use std::hint::black_box;
 use std::process::ExitCode;
 
-use benches::clock;
-use benches::inputs::{Input, Lanes, inputs_of};
 use benches::joints::joint_kinds;
-use benches::states::{State, states_of};
+use benches::outcome::{Outcome, entries, measure, upper};
+use benches::states::states_of;
 use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::runtime::wide::{f64x4, f64x8};
 
-/// The line to print; `None` if the model does not have the operation.
-type Outcome = Option<String>;
-
 /// Times an operation of a robot in a number of lanes.
 type Timed = fn(&str, usize) -> Outcome;
-
-/// Times `call`, and adds up the `outputs` of its results over all states; or prints them, if that is asked.
-fn measure<T: Lanes, R, const N: usize, const NQ: usize>(
-    states: &[State],
-    call: impl Fn(&Input<T, N, NQ>) -> R,
-    outputs: impl Fn(&R) -> Vec<T>,
-) -> Outcome {
-    let inputs = inputs_of::<T, N, NQ>(states);
-    if let Ok(number) = std::env::var("PEERS_VALUES") {
-        let number = number.parse().unwrap_or(0);
-        let line = |input| {
-            let outputs = outputs(&call(input));
-            let words: Vec<String> = outputs.iter().map(|x| format!("{:e}", x.lane(0))).collect();
-            words.join(" ")
-        };
-        let lines: Vec<String> = inputs.iter().take(number).map(line).collect();
-        return Some(lines.join("\n"));
-    }
-    let mut sum = 0.0;
-    for input in &inputs {
-        for x in outputs(&call(input)) {
-            sum += (0..T::LANES).map(|lane| x.lane(lane)).sum::<f64>();
-        }
-    }
-    let time = clock::median(inputs.len(), clock::span(), |k| {
-        black_box(&call(black_box(&inputs[k])));
-    });
-    Some(format!("{:.3} {sum:.12e}", time / T::LANES as f64))
-}
-
-/// Returns all entries, column by column.
-fn entries<T: Lanes, const R: usize, const C: usize>(m: &SMatrix<T, R, C>) -> Vec<T> {
-    m.iter().copied().collect()
-}
-
-/// Returns the entries of the upper triangle, because some peers compute only that.
-fn upper<T: Lanes, const N: usize>(m: &SMatrix<T, N, N>) -> Vec<T> {
-    let places = (0..N).flat_map(|j| (0..=j).map(move |i| (i, j)));
-    places.map(|place| m[place]).collect()
-}
 
 /// The operations of a model, including `derivatives` if it is small.
 macro_rules! time {

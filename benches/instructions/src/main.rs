@@ -1,17 +1,19 @@
 //! Counts the instructions of a call of each method of each robot of `specs/` with callgrind, in code for
 //! x86-64-v3, and compares them with the recorded counts for this compiler:
-//! `benches/instructions/VERSION.csv`.
+//! `VERSION.csv` beside this program.
 //!
-//! `cargo bench -p benches --bench instructions` counts and compares, and exits with 1 if a call takes
+//! `cargo run --release -p instructions` counts and compares, and exits with 1 if a call takes
 //! over 2 % more, or if this compiler has no file: `-- --write` records the counts. Counts are exact: the
 //! same on every machine under any load. Without valgrind or on other systems than x86-64 Linux it prints
 //! so and counts nothing; with `CI_STRICT=1` that is a failure.
+
+mod counts;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::{env, fs};
 
-use benches::counts;
+use counts::CALLS;
 
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 const FLAGS: &str = "-C target-cpu=x86-64-v3";
@@ -35,11 +37,10 @@ fn count(write: bool) -> Result<bool, String> {
         );
         return Ok(env::var_os("CI_STRICT").is_none_or(|strict| strict != "1"));
     }
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("instructions");
-    let file = folder.join(format!("{}.csv", compiler()?));
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("{}.csv", compiler()?));
     if !write && !file.is_file() {
         return Err(format!(
-            "{}: this compiler has no counts on file; record them by `cargo bench -p benches --bench instructions -- --write`",
+            "{}: this compiler has no counts on file; record them by `cargo run --release -p instructions -- --write`",
             file.display()
         ));
     }
@@ -96,14 +97,12 @@ fn compiler() -> Result<String, String> {
 fn program() -> Result<PathBuf, String> {
     let cargo = env::var_os("CARGO").unwrap_or("cargo".into());
     let mut build = Command::new(cargo);
-    build.args(["bench", "-p", "benches", "--bench", "probes"]);
-    build.args(["--no-run", "--target", TARGET, "--message-format=json"]);
+    build.args(["build", "--release", "-p", "probes"]);
+    build.args(["--target", TARGET, "--message-format=json"]);
     build.current_dir(env!("CARGO_MANIFEST_DIR"));
     build
         .env("RUSTFLAGS", FLAGS)
         .env_remove("CARGO_ENCODED_RUSTFLAGS");
-    // With several codegen units, inlining would depend on the other code.
-    build.env("CARGO_PROFILE_BENCH_CODEGEN_UNITS", "1");
     let messages = printed(&mut build)?;
     let named = |line: &str| {
         let path = line.split_once("\"executable\":\"")?.1.split('"').next()?;
@@ -133,7 +132,7 @@ fn measured(program: &Path) -> Result<counts::Counts, String> {
         let mut run = Command::new("valgrind");
         run.args(["--tool=callgrind", "--dump-line=no"]);
         run.arg(format!("--callgrind-out-file={}", profile.display()));
-        match printed(run.arg(program).args(&left_out)) {
+        match printed(run.arg(program).arg(CALLS.to_string()).args(&left_out)) {
             Ok(_) => break,
             Err(said) => match stopped_in(&said).filter(|probe| !left_out.contains(probe)) {
                 Some(probe) => {
@@ -149,5 +148,5 @@ fn measured(program: &Path) -> Result<counts::Counts, String> {
     let mut annotate = Command::new("callgrind_annotate");
     annotate.args(["--inclusive=yes", "--threshold=100", "--auto=no"]);
     let text = printed(annotate.arg(&profile))?;
-    Ok(counts::of_profile(&text, counts::CALLS))
+    Ok(counts::of_profile(&text, CALLS))
 }
