@@ -12,9 +12,7 @@ use bgdyn_codegen::build_script::Build;
 fn main() {
     let specs = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../specs");
     let out = PathBuf::from(env::var("OUT_DIR").unwrap());
-    robots::generate(&specs, &out, |robot| {
-        format!("{:?} {:?}", robot.tip, robot.path)
-    });
+    robots::generate(&specs, &out, |path, _, tip| format!("{tip:?} {path:?}"));
     fs::write(out.join("bundles.rs"), bundles(&specs)).unwrap();
 }
 

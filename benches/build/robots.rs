@@ -17,61 +17,47 @@ const METHODS: [&str; 5] = [
     "gravity",
 ];
 
-/// A generated mechanism.
-pub struct Robot {
-    /// Name of the module and of the file.
-    pub name: String,
-    /// Where the spec is.
-    pub path: PathBuf,
-    /// The mechanism of the spec.
-    pub mechanism: Mechanism,
-    /// The last frame on the last link, else the last link.
-    pub tip: String,
-}
-
 /// Generates the robots of `specs` into `out`: `models.rs` contains their modules, `robots.rs` a call of the macro
 /// `robots!`, which the including file defines. For each robot it has the module, the struct, the Jacobian of the tip,
-/// and what `rest` returns.
-pub fn generate(specs: &Path, out: &Path, rest: impl Fn(&Robot) -> String) {
+/// and what `rest` returns for the path, the mechanism and the tip.
+pub fn generate(specs: &Path, out: &Path, rest: impl Fn(&Path, &Mechanism, &str) -> String) {
     println!("cargo::rerun-if-changed={}", specs.display());
     let (mut models, mut calls) = (String::new(), String::new());
-    for robot in robots(specs) {
-        let (name, tip) = (&robot.name, &robot.tip);
+    for path in paths(specs) {
+        let (name, mechanism) = (stem(&path), mechanism(&path));
+        let tip = tip(&mechanism);
         let methods = METHODS.map(String::from).into_iter();
         let methods = methods.chain([format!("jacobian_world_{tip}")]);
-        let written = Build::new(&robot.path).methods(methods).write();
+        let written = Build::new(&path).methods(methods).write();
         written.unwrap_or_else(|error| panic!("{error}"));
         let include = format!("include!(concat!(env!(\"OUT_DIR\"), \"/{name}.rs\"));");
         writeln!(models, "{include}").unwrap();
-        let (model, rest) = (struct_ident(name), rest(&robot));
+        let (model, rest) = (struct_ident(&name), rest(&path, &mechanism, tip));
         writeln!(calls, "{name} {model} jacobian_world_{tip} {rest},").unwrap();
     }
     fs::write(out.join("models.rs"), models).unwrap();
     fs::write(out.join("robots.rs"), format!("robots! {{\n{calls}}}\n")).unwrap();
 }
 
-/// Reads the specs of a folder, in the order of their names.
-fn robots(specs: &Path) -> Vec<Robot> {
+/// Returns the paths of the specs in a folder, in the order of their names.
+fn paths(specs: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(specs).expect("a folder of specs");
     let mut paths: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "yaml"));
     paths.sort();
-    paths.into_iter().map(robot).collect()
+    paths
 }
 
-fn robot(path: PathBuf) -> Robot {
-    let text = fs::read_to_string(&path).expect("a spec");
-    let name = stem(&path);
-    let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&name));
+fn mechanism(path: &Path) -> Mechanism {
+    let text = fs::read_to_string(path).expect("a spec");
+    let (mechanism, faults) = bgdyn_codegen::read(&text, Some(&stem(path)));
     let shown = path.display().to_string();
-    let mechanism = mechanism.unwrap_or_else(|| panic!("{}", faults.render(&shown, &text)));
+    mechanism.unwrap_or_else(|| panic!("{}", faults.render(&shown, &text)))
+}
+
+/// Returns the last frame on a link, else the last link.
+fn tip(mechanism: &Mechanism) -> &str {
     let frame = mechanism.frames().iter().rev().find(|f| f.link.is_some());
     let link = mechanism.links().last().expect("a link");
-    let tip = frame.map_or(&link.name, |f| &f.name).clone();
-    Robot {
-        name,
-        path,
-        mechanism,
-        tip,
-    }
+    frame.map_or(&link.name, |f| &f.name)
 }

@@ -11,7 +11,7 @@ use textbook::mechanism::{bodies, slides};
 fn main() {
     let specs = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../../specs");
     let out = PathBuf::from(env::var("OUT_DIR").unwrap());
-    robots::generate(&specs, &out, |robot| {
-        format!("{:?}", slides(&bodies(&robot.mechanism)))
+    robots::generate(&specs, &out, |_, mechanism, _| {
+        format!("{:?}", slides(&bodies(mechanism)))
     });
 }
