@@ -5,14 +5,15 @@ use std::fs;
 use std::path::Path;
 
 use bgdyn_codegen::bond_graph::SiteId;
-use bgdyn_codegen::method::{Directional, Method};
+use bgdyn_codegen::method::Method;
 use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::{bond_graph, read};
 
 use crate::same_bits::{check, model_of, name, text_of};
 
-/// Derivatives are compared for up to so many velocities of the open tree.
+/// Derivatives are compared for up to so many velocities of the open tree; regressors, momenta, directions and the like
+/// for half as many.
 const SMALL: usize = 8;
 
 /// Mechanisms beside those of the specs: actuated joints that are not the independent ones, planar loops of every form on
@@ -45,11 +46,11 @@ fn whole_model(path: &str) -> Model {
     let graph = bond_graph::build(&mechanism.expect("sound"));
     let closed = graph.closed.as_deref();
     let size = closed.map_or(graph.coordinates.len(), |c| c.tree.coordinates.len());
-    let slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
     // The functions of other frames are alike.
     let repeats = |m: &Method| m.is_derived() && m.site() > Some(SiteId(0));
-    let is_long = |m: &Method| *m == Method::Directional(Directional::InverseCurvature);
-    let fits = |m: &Method| (size <= SMALL || !slow(m)) && (size <= SMALL / 2 || !is_long(m));
+    let is_slow = |m: &Method| m.differentiates_dynamics() || matches!(m, Method::Operational(_));
+    let is_long = |m: &Method| m.is_derived() && !is_slow(m);
+    let fits = |m: &Method| (size <= SMALL || !is_slow(m)) && (size <= SMALL / 2 || !is_long(m));
     let wanted = |m: &Method| fits(m) && !repeats(m);
     let methods = Method::possible_of(&graph).into_iter().filter(wanted);
     let methods = methods.map(|m| m.name_in(closed, &graph.sites)).collect();

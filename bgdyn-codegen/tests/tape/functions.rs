@@ -5,10 +5,11 @@ use bgdyn_codegen::choice::{Choice, Preference, prefer};
 use bgdyn_codegen::formulation::by_name;
 use bgdyn_codegen::function::Function;
 use bgdyn_codegen::mechanism::Mechanism;
-use bgdyn_codegen::method::{Directional, Method};
+use bgdyn_codegen::method::Method;
 use bgdyn_codegen::system::SceneEquations;
 
-/// Mechanisms with more velocities have no derivatives here: these are created slowly.
+/// Mechanisms with more velocities have no derivatives here, and those with more than half as many no regressors,
+/// momenta, directions and the like: these are created slowly.
 const LARGE: usize = 8;
 /// Sites of a mechanism whose functions are compared.
 const SITES: usize = 2;
@@ -28,8 +29,8 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
     let methods = Method::possible_of(&graph).into_iter().filter(|method| {
         let sites = if method.is_derived() { 1 } else { SITES };
         let first = method.site().is_none_or(|site| site.0 < sites);
-        let is_slow = slow.contains(method) || method.is_derived();
-        let is_long = *method == Method::Directional(Directional::InverseCurvature);
+        let is_slow = slow.contains(method) || matches!(method, Method::Operational(_));
+        let is_long = method.is_derived() && !is_slow;
         // They have formulations of their own.
         let chosen = formulation.is_none() || !method.is_derived();
         first
