@@ -137,7 +137,8 @@ def text(results, specs):
     of_c = [r for r in results if "generated C" in r["columns"]]
     held = [r for r in of_c if r["columns"]["generated C"] <= ASKED]
     slower = [f"`{r['operation']}` of {r['robot']}" for r in of_c if r["columns"]["generated C"] >= 1.0]
-    quiet = "on a core of their own (`chrt -f`, `taskset`)" if PREFIX else "on a machine that did other work too"
+    quiet = "with priority on one core (`chrt -f`, `taskset`)" if PREFIX else "without priority"
+    quiet += f"; the load of the machine was {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores"
     singular = max((r["worst"] for r in results if r["operation"] == "operational_inertia"), default=0.0)
     worst = max(r["worst"] for r in results if r["operation"] != "operational_inertia")
     places = [f"`{s.stem}` from [`{p}`](../{p})" for s in specs for p in [os.path.relpath(s.parent, ROOT)]]
