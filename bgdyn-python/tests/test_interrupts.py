@@ -7,6 +7,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,14 @@ BATCH = """q, v = np.zeros((4_000_000, 9)), np.zeros(3)
 bicycle.forward_dynamics(q, v, v, threads=THREADS, on_singular="nan")"""
 CLOSING = """q = np.zeros((1_000_000, 4)) + bars.neutral()
 bars.close(q, threads=THREADS)"""
+
+
+@pytest.fixture(autouse=True)
+def signals_arrive() -> Iterator[None]:
+    """A process that is started in the background may ignore SIGINT, and so do those that it starts."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def interrupted(code: str) -> subprocess.CompletedProcess[str]:
