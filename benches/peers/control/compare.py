@@ -5,7 +5,9 @@
 Fails where results differ, or where nothing was compared.
 """
 
+import datetime
 import os
+import re
 import statistics
 import sys
 from pathlib import Path
@@ -126,7 +128,7 @@ def table(results, robots):
 def versions():
     pip = page.output(str(DIR / "venv/bin/pip"), "list", "--format=freeze")
     pip = dict(line.split("==") for line in pip.split() if "==" in line)
-    clang = page.re.search(r"version ([0-9.]+)", page.output("clang-19", "--version"))
+    clang = re.search(r"version ([0-9.]+)", page.output("clang-19", "--version"))
     gcc = page.output("gcc", "-dumpfullversion").strip()
     rustc = page.output("rustc", "--version").split()[1]
     return f"Pinocchio {pip['pin']}, CasADi {pip['casadi']}; rustc {rustc}, clang {clang.group(1)}, gcc {gcc}"
@@ -142,7 +144,7 @@ def text(results, specs):
     singular = max((r["worst"] for r in results if r["operation"] == "operational_inertia"), default=0.0)
     worst = max(r["worst"] for r in results if r["operation"] != "operational_inertia")
     places = [f"`{s.stem}` from [`{p}`](../{p})" for s in specs for p in [os.path.relpath(s.parent, ROOT)]]
-    date, commit = page.datetime.date.today().isoformat(), page.output("git", "rev-parse", "--short", "HEAD").strip()
+    date, commit = datetime.date.today().isoformat(), page.output("git", "rev-parse", "--short", "HEAD").strip()
     notes = Path(__file__).with_name("notes.md")
     return f"""# Methods of controllers compared with other systems
 

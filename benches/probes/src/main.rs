@@ -1,5 +1,6 @@
 //! The program that `instructions` counts: each method of each robot of `specs/` over the same states, in
-//! a function of its own. `probes NAME …` omits the named ones: `palletiser::double::bias`.
+//! a function of its own, `probes CALLS [NAME …]`: CALLS calls of each, without the named ones, such as
+//! `palletiser::double::bias`.
 
 // Those of the other benchmarks, which depend on the generator.
 #[path = "../../src/inputs.rs"]
