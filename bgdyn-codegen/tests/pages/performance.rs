@@ -197,8 +197,9 @@ fn the_page_holds_what_is_generated() {
     text += "\n## How fast\n\n\
              [peers.md](peers.md) compares times with Pinocchio, MuJoCo, KDL, dynibo and the C that CasADi \
              and CppADCodeGen generate, measured alternately by `benches/peers/run.sh`, which takes any \
-             spec. `cargo bench` times every method of the specs next to textbook recursions and needs none \
-             of these systems. [order.md](order.md) shows what each choice of order gains, \
+             spec. [peers_control.md](peers_control.md) does so for M⁻¹, Λ, regressors, directions, \
+             adjoints, second derivatives and momenta. `cargo bench` times every method of the specs next \
+             to textbook recursions and needs none of these systems. [order.md](order.md) shows what each choice of order gains, \
              [compile_time.md](compile_time.md) what a model costs while compiling, [chains.md](chains.md) \
              what long chains take.\n";
     let page = folder("docs/performance.md");
