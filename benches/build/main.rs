@@ -2,6 +2,7 @@
 //! with the methods of a controller, one by one and in a bundle.
 
 mod robots;
+mod specs;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -10,10 +11,10 @@ use std::{env, fs};
 use bgdyn_codegen::build_script::Build;
 
 fn main() {
-    let specs = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../specs");
+    let folder = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../specs");
     let out = PathBuf::from(env::var("OUT_DIR").unwrap());
-    robots::generate(&specs, &out, |path, _, tip| format!("{tip:?} {path:?}"));
-    fs::write(out.join("bundles.rs"), bundles(&specs)).unwrap();
+    specs::generate(&folder, |path, _, tip| format!("{tip:?} {path:?}"));
+    fs::write(out.join("bundles.rs"), bundles(&folder)).unwrap();
 }
 
 /// Writes the modules of the arms with a bundle, and returns the text that includes them.

@@ -2,16 +2,17 @@
 
 #[path = "../build/robots.rs"]
 mod robots;
+#[path = "../build/specs.rs"]
+mod specs;
 
 use std::env;
-use std::path::PathBuf;
+use std::path::Path;
 
 use textbook::mechanism::{bodies, slides};
 
 fn main() {
-    let specs = PathBuf::from(env::var("CARGO_MANIFEST_DIR").unwrap()).join("../../specs");
-    let out = PathBuf::from(env::var("OUT_DIR").unwrap());
-    robots::generate(&specs, &out, |_, mechanism, _| {
+    let folder = Path::new(&env::var("CARGO_MANIFEST_DIR").unwrap()).join("../../specs");
+    specs::generate(&folder, |_, mechanism, _| {
         format!("{:?}", slides(&bodies(mechanism)))
     });
 }

@@ -1,6 +1,7 @@
 //! What a program of the comparison with other systems prints for an operation.
 
 use std::hint::black_box;
+use std::process::ExitCode;
 
 use nalgebra::SMatrix;
 
@@ -10,6 +11,38 @@ use crate::states::State;
 
 /// The line to print; `None` if the model does not have the operation.
 pub type Outcome = Option<String>;
+
+/// Times an operation of a robot in a number of lanes.
+pub type Timed = fn(&str, usize) -> Outcome;
+
+/// Prints the line of the operation that the arguments name, `PROGRAM ROBOT OPERATION [LANES]`. The exit code is 2 for
+/// another robot, 3 for what the robot does not have.
+pub fn answer(program: &str, robots: &[(&str, Timed)]) -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (robot, operation, lanes) = match &arguments[..] {
+        [robot, operation] => (robot, operation, 1),
+        [robot, operation, lanes] => (robot, operation, lanes.parse().unwrap_or(0)),
+        _ => {
+            eprintln!("usage: {program} ROBOT OPERATION [LANES]");
+            return ExitCode::from(2);
+        }
+    };
+    let Some((_, timed)) = robots.iter().find(|(name, _)| name == robot) else {
+        let known: Vec<&str> = robots.iter().map(|(name, _)| *name).collect();
+        eprintln!("no robot is called {robot}: there are {}", known.join(", "));
+        return ExitCode::from(2);
+    };
+    match timed(operation, lanes) {
+        Some(line) => {
+            println!("{line}");
+            ExitCode::SUCCESS
+        }
+        None => {
+            eprintln!("{robot} has no {operation} in {lanes} lanes");
+            ExitCode::from(3)
+        }
+    }
+}
 
 /// Times `call`, ns a state, and adds up the `outputs` of its results over all states. With `PEERS_VALUES` it returns all
 /// outputs instead, for as many states as this says, a line each.

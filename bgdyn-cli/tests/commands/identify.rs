@@ -41,6 +41,7 @@ fn a_log_gives_back_its_truth() {
             joint["by_velocity"].as_f64().expect("a share") < 0.3,
             "{joint}"
         );
+        assert!(joint["sticking"].is_null(), "{joint}");
     }
     // Base parameters: K of the truth within the deviations.
     let numbers = true_numbers(&found["base_map"]["columns"]);
@@ -112,6 +113,39 @@ fn a_payload_is_found_alone() {
         "other links are untouched:\n{written}"
     );
     assert_eq!(found["judged_on"], "last third");
+}
+
+#[test]
+fn a_joint_that_sticks_is_named() {
+    // Near rest something else holds the second joint, and its friction takes nothing.
+    let (lift, still, coulomb) = (1, 0.15, 2.0);
+    let mut rows = simulated(&truth(), 4, 20.0);
+    let speed =
+        |pair: &[Vec<f64>]| (pair[1][1 + lift] - pair[0][1 + lift]) / (pair[1][0] - pair[0][0]);
+    let speeds: Vec<f64> = rows.windows(2).map(speed).collect();
+    for (row, v) in rows
+        .iter_mut()
+        .zip(&speeds)
+        .filter(|(_, v)| v.abs() < still)
+    {
+        row[4 + lift] -= coulomb * v.signum();
+    }
+    let folder = files("identify_sticking", &arm(1.0), &[("log.csv", csv(&rows))]);
+    let path = |name: &str| text(&folder.join(name));
+    let run = |more: &[&str]| {
+        let (spec, log) = (path("arm.yaml"), path("log.csv"));
+        let usual = ["identify", &spec, &log, "--rotors", "--cut", "20 Hz"];
+        bgdyn(&[&usual, more].concat()).good()
+    };
+    let found: Value = serde_json::from_str(&run(&["--json"])).expect("JSON");
+    let [turn, lift, bend] = [0, 1, 2].map(|j| found["joints"][j]["sticking"].clone());
+    assert!(turn.is_null() && bend.is_null(), "{turn} {bend}");
+    let below = lift["below"].as_f64().expect("a speed");
+    assert!((0.1..0.25).contains(&below), "{below}");
+    assert!(lift["factor"].as_f64().expect("a factor") > 6.0, "{lift}");
+    let named = "lift: rows slower than";
+    assert!(run(&[]).contains(named));
+    assert!(!run(&["--skip-below", "0.3 rad/s"]).contains(named));
 }
 
 /// Runs with a changed log; returns stderr after checking that nothing was written.

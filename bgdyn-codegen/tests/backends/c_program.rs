@@ -29,11 +29,16 @@ const FLAGS: [&str; 10] = [
 ];
 
 /// Bytes of a C file that is long: compiled by one compiler and not optimised, because that takes minutes otherwise.
-/// With `BGDYN_ALL_C` no file is long.
+/// With [`all_is_compiled`] no file is long.
 const LONG: usize = 200_000;
 
+/// Returns whether the long test asks for everything, optimised, by `BGDYN_ALL_C`.
+pub fn all_is_compiled() -> bool {
+    std::env::var_os("BGDYN_ALL_C").is_some()
+}
+
 fn is_long(bytes: usize) -> bool {
-    bytes > LONG && std::env::var_os("BGDYN_ALL_C").is_none()
+    bytes > LONG && !all_is_compiled()
 }
 
 /// Returns the compilers for these files: all of the machine, or the first one for long ones.

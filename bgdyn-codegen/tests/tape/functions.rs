@@ -8,8 +8,8 @@ use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::method::Method;
 use bgdyn_codegen::system::SceneEquations;
 
-/// Mechanisms with more velocities have no derivatives here, and those with more than half as many no regressors,
-/// momenta, directions and the like: these are created slowly.
+/// Mechanisms with more velocities have no derivatives here, and those with more than half as many no regressors, payloads,
+/// directions and derivatives by parameters: these are created slowly.
 const LARGE: usize = 8;
 /// Sites of a mechanism whose functions are compared.
 const SITES: usize = 2;

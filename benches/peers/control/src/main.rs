@@ -9,7 +9,7 @@ use std::process::ExitCode;
 
 use benches::inputs::Input;
 use benches::joints::joint_kinds;
-use benches::outcome::{Outcome, entries, measure, upper};
+use benches::outcome::{Outcome, Timed, answer, entries, measure, upper};
 use benches::states::{State, states_of};
 
 /// The operations of a model.
@@ -88,10 +88,13 @@ macro_rules! operations {
 
 /// A function for each robot, and the list of them.
 macro_rules! robots {
-    ($($size:ident $module:ident $model:ident $inverse:ident $inertia:ident $spec:literal,)*) => {
+    ($($module:ident $model:ident $size:ident $inverse:ident $inertia:ident $spec:literal,)*) => {
         mod timed {
             use super::*;
-            $(pub(super) fn $module(operation: &str) -> Outcome {
+            $(pub(super) fn $module(operation: &str, lanes: usize) -> Outcome {
+                if lanes > 1 {
+                    return None;
+                }
                 let mechanism = benches::read($spec.as_ref()).unwrap_or_else(|e| panic!("{e}"));
                 let kinds = joint_kinds(&mechanism).unwrap_or_else(|e| panic!("{e}"));
                 let states: &[State] = &states_of(&kinds);
@@ -99,30 +102,12 @@ macro_rules! robots {
             })*
         }
 
-        const ROBOTS: &[(&str, fn(&str) -> Outcome)] = &[$((stringify!($module), timed::$module)),*];
+        const ROBOTS: &[(&str, Timed)] = &[$((stringify!($module), timed::$module)),*];
     };
 }
+include!(concat!(env!("OUT_DIR"), "/models.rs"));
 include!(concat!(env!("OUT_DIR"), "/robots.rs"));
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [robot, operation] = &arguments[..] else {
-        eprintln!("usage: control ROBOT OPERATION");
-        return ExitCode::from(2);
-    };
-    let Some((_, timed)) = ROBOTS.iter().find(|(name, _)| name == robot) else {
-        let known: Vec<&str> = ROBOTS.iter().map(|(name, _)| *name).collect();
-        eprintln!("no robot is called {robot}: there are {}", known.join(", "));
-        return ExitCode::from(2);
-    };
-    match timed(operation) {
-        Some(line) => {
-            println!("{line}");
-            ExitCode::SUCCESS
-        }
-        None => {
-            eprintln!("{robot} has no {operation}");
-            ExitCode::from(3)
-        }
-    }
+    answer("control", ROBOTS)
 }

@@ -6,13 +6,10 @@
 use std::process::ExitCode;
 
 use benches::joints::joint_kinds;
-use benches::outcome::{Outcome, entries, measure, upper};
+use benches::outcome::{Outcome, Timed, answer, entries, measure, upper};
 use benches::states::states_of;
 use bgdyn::nalgebra::{SMatrix, SVector};
 use bgdyn::runtime::wide::{f64x4, f64x8};
-
-/// Times an operation of a robot in a number of lanes.
-type Timed = fn(&str, usize) -> Outcome;
 
 /// The operations of a model, including `derivatives` if it is small.
 macro_rules! time {
@@ -63,7 +60,7 @@ macro_rules! time {
 
 /// A function for each robot, and the list of them.
 macro_rules! robots {
-    ($($size:ident $module:ident $model:ident $spec:literal,)*) => {
+    ($($module:ident $model:ident $size:ident $spec:literal,)*) => {
         mod timed {
             use super::*;
             $(#[allow(clippy::result_large_err, reason = "in lanes it has the accelerations")]
@@ -94,31 +91,9 @@ macro_rules! robots {
         }
     };
 }
+include!(concat!(env!("OUT_DIR"), "/models.rs"));
 include!(concat!(env!("OUT_DIR"), "/robots.rs"));
 
 fn main() -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (robot, operation, lanes) = match &arguments[..] {
-        [robot, operation] => (robot, operation, 1),
-        [robot, operation, lanes] => (robot, operation, lanes.parse().unwrap_or(0)),
-        _ => {
-            eprintln!("usage: ours ROBOT OPERATION [LANES]");
-            return ExitCode::from(2);
-        }
-    };
-    let Some((_, timed)) = ROBOTS.iter().find(|(name, _)| name == robot) else {
-        let known: Vec<&str> = ROBOTS.iter().map(|(name, _)| *name).collect();
-        eprintln!("no robot is called {robot}: there are {}", known.join(", "));
-        return ExitCode::from(2);
-    };
-    match timed(operation, lanes) {
-        Some(line) => {
-            println!("{line}");
-            ExitCode::SUCCESS
-        }
-        None => {
-            eprintln!("{robot} has no {operation} in {lanes} lanes");
-            ExitCode::from(3)
-        }
-    }
+    answer("ours", ROBOTS)
 }
