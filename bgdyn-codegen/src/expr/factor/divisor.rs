@@ -123,10 +123,34 @@ pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -
 
 /// Returns x / a, if a divides x.
 pub(super) fn quotient(x: &[Var], a: &[Var]) -> Option<Vec<Var>> {
-    if a.len() > x.len() || a.iter().any(|f| x.binary_search(f).is_err()) {
+    if !divides(a, x) {
         return None;
     }
-    let (mut rest, mut missing) = (Vec::new(), Vec::new());
+    let (mut rest, mut missing) = (Vec::with_capacity(x.len() - a.len()), Vec::new());
     divide(x, a, &mut rest, &mut missing);
-    missing.is_empty().then_some(rest)
+    Some(rest)
+}
+
+/// Returns whether the factors a are among those of x.
+fn divides(a: &[Var], x: &[Var]) -> bool {
+    let mut of_x = x.iter();
+    a.len() <= x.len() && a.iter().all(|f| of_x.by_ref().find(|g| *g >= f) == Some(f))
+}
+
+/// Returns whether x = a · b.
+pub(super) fn is_product(x: &[Var], a: &[Var], b: &[Var]) -> bool {
+    let (mut of_a, mut of_b) = (a, b);
+    x.len() == a.len() + b.len()
+        && x.iter()
+            .all(|f| match (of_a.split_first(), of_b.split_first()) {
+                (Some((g, rest)), _) if f == g => {
+                    of_a = rest;
+                    true
+                }
+                (_, Some((g, rest))) if f == g => {
+                    of_b = rest;
+                    true
+                }
+                _ => false,
+            })
 }

@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use super::divisor::{
-    DivisorKey, FactorOrNumber, Occurrence, divide, insert, near, quotient, quotient_of, scales,
+    DivisorKey, FactorOrNumber, Occurrence, divide, insert, is_product, near, quotient,
+    quotient_of, scales,
 };
 use super::divisors::Divisors;
 use super::network::{Network, NetworkTerm, Var, is_unit, product_cost};
@@ -17,6 +18,8 @@ pub(super) struct Extraction<'a, 'g> {
     divisors: Divisors,
     /// Two products, as reusable memory.
     scratch: (Vec<Var>, Vec<Var>),
+    /// The factors of a term, as reusable memory.
+    literals: Vec<FactorOrNumber>,
 }
 
 impl<'a, 'g> Extraction<'a, 'g> {
@@ -26,6 +29,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             network,
             divisors: Divisors::default(),
             scratch: Default::default(),
+            literals: Vec::new(),
         };
         for i in 0..extraction.network.sums.len() {
             if extraction.network.needed[i] {
@@ -67,22 +71,22 @@ impl<'a, 'g> Extraction<'a, 'g> {
         if term.cost() == 0 {
             return;
         }
-        let mut literals: Vec<FactorOrNumber> = Vec::with_capacity(term.factors.len() + 1);
-        literals.extend(term.factors.iter().map(|&f| FactorOrNumber::Factor(f)));
+        let mut literals = std::mem::take(&mut self.literals);
+        literals.clear();
         if !is_unit(k) {
-            literals.insert(0, FactorOrNumber::Number(self.divisors.number_id(k.abs())));
+            literals.push(FactorOrNumber::Number(self.divisors.number_id(k.abs())));
         }
-        let mut seen: Vec<(FactorOrNumber, FactorOrNumber)> = Vec::new();
+        let factors = self.terms(var)[t].factors.iter();
+        literals.extend(factors.map(|&f| FactorOrNumber::Factor(f)));
+        // Equal factors follow each other: a pair is noted where it is first.
+        let repeated = |i: usize| i > 0 && literals[i] == literals[i - 1];
         for j in 1..literals.len() {
-            for i in 0..j {
-                let pair = (literals[i], literals[j]);
-                if !seen.contains(&pair) {
-                    seen.push(pair);
-                    self.divisors
-                        .note(DivisorKey::Product(pair.0, pair.1), var, 1, -1);
-                }
+            for i in (0..j).filter(|&i| !repeated(i) && (i + 1 == j || !repeated(j))) {
+                let key = DivisorKey::Product(literals[i], literals[j]);
+                self.divisors.note(key, var, 1, -1);
             }
         }
+        self.literals = literals;
     }
 
     fn register_pair(&mut self, var: Var, s: usize, t: usize) {
@@ -129,12 +133,8 @@ impl<'a, 'g> Extraction<'a, 'g> {
         let mut found: Vec<(Var, usize)> = Vec::new();
         for var in self.divisors.occurrences(id) {
             let terms = self.terms(var);
-            let holds = |t: &NetworkTerm| self.without(t, a, b).is_some();
-            found.extend(
-                (0..terms.len())
-                    .filter(|&t| holds(&terms[t]))
-                    .map(|t| (var, t)),
-            );
+            let holding = (0..terms.len()).filter(|&t| self.holds(&terms[t], a, b));
+            found.extend(holding.map(|t| (var, t)));
         }
         let saved = found.len() as isize - 1;
         if saved < bound || saved <= 0 {
@@ -175,6 +175,21 @@ impl<'a, 'g> Extraction<'a, 'g> {
         0
     }
 
+    /// Returns whether a · b divides the term.
+    fn holds(&self, term: &NetworkTerm, a: FactorOrNumber, b: FactorOrNumber) -> bool {
+        let holds = |literal| match literal {
+            FactorOrNumber::Factor(f) => term.factors.binary_search(&f).is_ok(),
+            FactorOrNumber::Number(k) => {
+                !term.factors.is_empty() && near(term.k.abs(), self.divisors.number(k))
+            }
+        };
+        let twice = || match a {
+            FactorOrNumber::Factor(f) => term.factors.iter().filter(|&&g| g == f).count() > 1,
+            FactorOrNumber::Number(_) => false,
+        };
+        holds(b) && holds(a) && (a != b || twice())
+    }
+
     /// Returns the term divided by a · b.
     fn without(
         &self,
@@ -182,20 +197,14 @@ impl<'a, 'g> Extraction<'a, 'g> {
         a: FactorOrNumber,
         b: FactorOrNumber,
     ) -> Option<NetworkTerm> {
-        let missing =
-            |l| matches!(l, FactorOrNumber::Factor(f) if term.factors.binary_search(&f).is_err());
-        if missing(a) || missing(b) {
+        if !self.holds(term, a, b) {
             return None;
         }
         let mut made = term.clone();
         for literal in [a, b] {
             match literal {
-                FactorOrNumber::Number(k) => {
-                    if made.factors.is_empty() || !near(made.k.abs(), self.divisors.number(k)) {
-                        return None;
-                    }
-                    made.k = if made.k < Dd::ZERO { -Dd::ONE } else { Dd::ONE };
-                }
+                FactorOrNumber::Number(_) if made.k < Dd::ZERO => made.k = -Dd::ONE,
+                FactorOrNumber::Number(_) => made.k = Dd::ONE,
                 FactorOrNumber::Factor(f) => {
                     let at = made.factors.binary_search(&f).ok()?;
                     made.factors.remove(at);
@@ -296,8 +305,7 @@ impl<'a, 'g> Extraction<'a, 'g> {
             let other = (0..terms.len()).find(|&t| {
                 t != s
                     && !taken[t]
-                    && terms[t].factors.len() == rest.len() + b.len()
-                    && quotient(&terms[t].factors, b).is_some_and(|x| x == rest)
+                    && is_product(&terms[t].factors, &rest, b)
                     && near(terms[t].k / terms[s].k, r)
             });
             if let Some(t) = other {

@@ -28,26 +28,15 @@ pub(super) struct NetworkTerm {
 }
 
 impl NetworkTerm {
-    fn of(var: Var, k: Dd) -> Self {
-        NetworkTerm {
-            k,
-            factors: vec![var],
-        }
-    }
-
     /// Returns the number of multiplications of the term.
     pub fn cost(&self) -> usize {
         product_cost(self.k, self.factors.len())
     }
 
-    fn times(&self, other: &NetworkTerm) -> NetworkTerm {
-        let mut factors = self.factors.clone();
-        factors.extend(&other.factors);
-        factors.sort_unstable();
-        NetworkTerm {
-            k: self.k * other.k,
-            factors,
-        }
+    /// Multiplies by another term; the factors are not sorted.
+    fn multiply(&mut self, other: &NetworkTerm) {
+        self.k *= other.k;
+        self.factors.extend(&other.factors);
     }
 }
 
@@ -78,8 +67,31 @@ pub(super) fn merged(mut terms: Vec<NetworkTerm>) -> Vec<NetworkTerm> {
 }
 
 /// Returns the multiplications and additions of a sum.
-pub(super) fn sum_cost(terms: &[NetworkTerm]) -> usize {
-    terms.len().saturating_sub(1) + terms.iter().map(NetworkTerm::cost).sum::<usize>()
+fn sum_cost(terms: &[NetworkTerm]) -> usize {
+    terms.len().saturating_sub(1) + cost_of_terms(terms)
+}
+
+/// Returns the multiplications of the terms.
+fn cost_of_terms(terms: &[NetworkTerm]) -> usize {
+    terms.iter().map(NetworkTerm::cost).sum()
+}
+
+/// Returns the cost of the merged sum whole + k · other of two merged sums.
+fn cost_with(whole: &[NetworkTerm], other: &[NetworkTerm], k: Dd) -> usize {
+    let (mut terms, mut cost) = (whole.len(), cost_of_terms(whole));
+    for t in other {
+        let mut sum = t.k * k;
+        if let Ok(at) = whole.binary_search_by(|w| w.factors.cmp(&t.factors)) {
+            sum = cancelling_sum(whole[at].k, sum);
+            terms -= 1;
+            cost -= whole[at].cost();
+        }
+        if sum != Dd::ZERO {
+            terms += 1;
+            cost += product_cost(sum, t.factors.len());
+        }
+    }
+    terms.saturating_sub(1) + cost
 }
 
 /// The sums of a function.
@@ -136,17 +148,16 @@ impl<'a> Network<'a> {
             }]),
             Node::Add(a, b) => {
                 let second = if b.negative { -Dd::ONE } else { Dd::ONE };
-                let terms = vec![
-                    self.scaled(&NetworkTerm::of(a.0, Dd::ONE)),
-                    self.scaled(&NetworkTerm::of(b.node.0, second)),
-                ];
+                let terms = vec![self.scaled(a.0, Dd::ONE), self.scaled(b.node.0, second)];
                 Some(merged(terms))
             }
             Node::Mul(a, b) => {
                 let quotient = |id| matches!(self.graph.node(id), Node::Div(..));
                 self.kept[i as usize] = quotient(a) || quotient(b);
-                let a = self.scaled(&NetworkTerm::of(a.0, Dd::ONE));
-                Some(vec![a.times(&self.scaled(&NetworkTerm::of(b.0, Dd::ONE)))])
+                let mut product = self.scaled(a.0, Dd::ONE);
+                product.multiply(&self.scaled(b.0, Dd::ONE));
+                product.factors.sort_unstable();
+                Some(vec![product])
             }
             Node::Pivot(_, magnitude, _) => {
                 self.kept[magnitude.node.0 as usize] = true;
@@ -156,21 +167,14 @@ impl<'a> Network<'a> {
         };
     }
 
-    /// Returns the term with its factors replaced that are numbers or multiples by a number.
-    fn scaled(&self, term: &NetworkTerm) -> NetworkTerm {
-        let mut made = NetworkTerm {
-            k: term.k,
-            factors: Vec::new(),
+    /// Returns k · var, with var replaced if it is a number or a multiple by a number.
+    fn scaled(&self, var: Var, k: Dd) -> NetworkTerm {
+        let (k, factors) = match self.sums[var as usize].as_deref() {
+            Some([only]) if only.factors.len() <= 1 => (k * only.k, only.factors.clone()),
+            Some([]) => (Dd::ZERO, Vec::new()),
+            _ => (k, vec![var]),
         };
-        for &f in &term.factors {
-            match self.sums[f as usize].as_deref() {
-                Some([only]) if only.factors.len() <= 1 => made = made.times(only),
-                Some([]) => made.k = Dd::ZERO,
-                _ => made.factors.push(f),
-            }
-        }
-        made.factors.sort_unstable();
-        made
+        NetworkTerm { k, factors }
     }
 
     fn count_uses(&mut self, outputs: &[Signed]) {
@@ -235,21 +239,20 @@ impl<'a> Network<'a> {
             for f in self.factors_of(term.factors[0]) {
                 self.uses[f as usize] += usize::from(self.uses[term.factors[0] as usize] > 1);
             }
-            let sum = self.sums[term.factors[0] as usize].as_deref();
-            let scaled = sum.into_iter().flatten().map(|t| NetworkTerm {
-                k: t.k * term.k,
-                factors: t.factors.clone(),
-            });
-            let mut apart = whole.clone();
-            let spread = merged(whole.into_iter().chain(scaled).collect());
-            apart.push(term.clone());
-            let sum = sum.map_or(0, sum_cost);
+            let sum = self.sums[term.factors[0] as usize]
+                .as_deref()
+                .unwrap_or(&[]);
+            let apart = whole.len() + cost_of_terms(&whole) + term.cost() + sum_cost(sum);
             let wanted = self.spread == Inline::One(NodeId(term.factors[0]));
-            whole = if wanted || sum_cost(&spread) <= sum_cost(&apart) + sum {
-                spread
+            if wanted || cost_with(&whole, sum, term.k) <= apart {
+                whole.extend(sum.iter().map(|t| NetworkTerm {
+                    k: t.k * term.k,
+                    factors: t.factors.clone(),
+                }));
             } else {
-                merged(apart)
-            };
+                whole.push(term);
+            }
+            whole = merged(whole);
         }
         let whole = self.cancelled(whole);
         self.sums[i as usize] = Some(whole);
@@ -293,14 +296,15 @@ impl<'a> Network<'a> {
 
     fn factors_of(&self, var: Var) -> Vec<Var> {
         let terms = self.sums[var as usize].as_deref().unwrap_or(&[]);
-        terms.iter().flat_map(|t| t.factors.clone()).collect()
+        let factors = terms.iter().flat_map(|t| &t.factors);
+        factors.copied().collect()
     }
 
     /// Returns the term with products that are read once expanded.
     fn flat(&mut self, term: &NetworkTerm) -> NetworkTerm {
         let mut made = NetworkTerm {
             k: term.k,
-            factors: Vec::new(),
+            factors: Vec::with_capacity(term.factors.len()),
         };
         for &f in &term.factors {
             match self.sums[f as usize].as_deref() {
@@ -315,7 +319,7 @@ impl<'a> Network<'a> {
                             self.uses[inner as usize] -= 1;
                         }
                     }
-                    made = made.times(only);
+                    made.multiply(only);
                 }
                 _ => made.factors.push(f),
             }

@@ -25,7 +25,7 @@ use crate::expr::{Builder, Expr, Leaf, Signed, copy_into};
 use crate::function::{Function, in_triangle};
 use crate::mechanism::closure::ContactAxes;
 use crate::method::Method;
-use crate::passes::factor;
+use crate::passes::cheapest_after_factoring;
 
 /// The tree in the twist of the base with this index, with dependent velocities eliminated.
 pub(super) struct BaseTwist(pub usize);
@@ -84,9 +84,10 @@ impl Formulation for BaseTwist {
         });
         let made = forms.filter_map(|form| function(prepared, base, method, &form));
         // As for loops: see `Elimination`.
-        let chosen =
-            made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
-        chosen.map(|(made, _)| made)
+        let made: Vec<(Function, usize)> = made.collect();
+        let fewest = made.iter().map(|(_, early)| *early).min()?;
+        let forms = made.into_iter().filter(|(_, early)| *early == fewest);
+        cheapest_after_factoring(forms.map(|(made, _)| made))
     }
 }
 

@@ -31,7 +31,7 @@ use crate::expr::{
 use crate::function::{Function, in_triangle};
 use crate::mechanism::closure::{Closure, Polygon, polygons};
 use crate::method::Method;
-use crate::passes::factor;
+use crate::passes::cheapest_after_factoring;
 
 /// The largest number of angles of known arcs with whose axes polygons are tried.
 const MOST_AXES: usize = 2;
@@ -135,7 +135,7 @@ impl Formulation for ClosedLoops {
             let closing = (&closed.closure, &polygons[..]);
             function(prepared, method, closing, form)
         });
-        made.min_by_key(|made| factor(made.clone()).cost().weighted())
+        cheapest_after_factoring(made)
     }
 }
 

@@ -7,7 +7,7 @@ use crate::formulation::joint_motion::along;
 use crate::formulation::{Formulation, Prepared};
 use crate::function::{Function, in_triangle};
 use crate::method::Method;
-use crate::passes::factor;
+use crate::passes::cheapest_after_factoring;
 
 /// The rate of the mass matrix.
 pub(in crate::formulation) struct MassMatrixRate;
@@ -45,12 +45,6 @@ impl Formulation for MassMatrixRate {
         let sums = sums.map(|candidate| symmetric_part(prepared.graph, &candidate.plain));
         cheapest_after_factoring(rates.chain(sums))
     }
-}
-
-fn cheapest_after_factoring(made: impl Iterator<Item = Function>) -> Option<Function> {
-    let made: Vec<Function> = made.collect();
-    let cost = |function: &Function| factor(function.clone()).cost().weighted();
-    made.into_iter().min_by_key(cost)
 }
 
 /// Returns whether C + Cᵀ needs nothing that cancels: C without velocity products is zero, and that of a turning base

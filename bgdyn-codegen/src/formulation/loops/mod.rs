@@ -19,7 +19,7 @@ use crate::bond_graph::{BondGraph, ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
 use crate::method::{Centroidal, Method};
-use crate::passes::factor;
+use crate::passes::cheapest_after_factoring;
 
 /// Elimination of the dependent velocities, on the functions chosen for the open tree.
 pub(super) struct Elimination;
@@ -60,9 +60,10 @@ impl Formulation for Elimination {
         let made = forms.filter_map(|form| function(prepared, method, form));
         // A pivot that others follow may vanish at regular positions, and digits with it: operations decide among the
         // forms with the fewest.
-        let chosen =
-            made.min_by_key(|(made, early)| (*early, factor(made.clone()).cost().weighted()));
-        chosen.map(|(made, _)| made)
+        let made: Vec<(Function, usize)> = made.collect();
+        let fewest = made.iter().map(|(_, early)| *early).min()?;
+        let forms = made.into_iter().filter(|(_, early)| *early == fewest);
+        cheapest_after_factoring(forms.map(|(made, _)| made))
     }
 }
 
