@@ -47,6 +47,7 @@ pub mod inertia;
 mod joint;
 #[cfg(feature = "wide")]
 mod lanes;
+mod log_cholesky;
 pub mod manifold;
 mod operations;
 mod pose;
@@ -77,6 +78,7 @@ pub use dynamics::Dynamics;
 pub use joint::{Limits, Motion, QuasiJoint, QuasiJointKind};
 #[cfg(feature = "wide")]
 pub use lanes::LaneSingular;
+pub use log_cholesky::LogCholesky;
 pub use nalgebra;
 #[cfg(feature = "num-dual")]
 pub use num_dual;

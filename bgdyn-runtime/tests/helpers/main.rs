@@ -2,6 +2,7 @@
 
 #[path = "../exact/mod.rs"]
 mod exact;
+mod log_cholesky;
 mod pose;
 mod products;
 // That of the generator, whose crate depends on this one.
