@@ -5,7 +5,7 @@
 //! (statements in order) → [`emit`] (Rust tokens). Data types import no steps; [`pipeline`] runs the steps in order.
 //!
 //! [`bgdyn_runtime`] defines units, frames, the order of spatial vectors and the sign of gravity.
-//! `docs/extending.md` describes how to add a joint, an effect, a formulation or a backend.
+//! `docs/extending.md` describes how to add a joint, an effect, a constraint, a formulation, a method or a backend.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "source")]

@@ -170,8 +170,8 @@ fn moving_words(text: &str) -> usize {
     text.lines()
         .filter_map(|line| line.split('#').next()?.split_once("type:"))
         .filter(|(_, value)| {
-            let end = value.trim_start().find(|c: char| !c.is_ascii_lowercase());
             let value = value.trim_start();
+            let end = value.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
             moving(&value[..end.unwrap_or(value.len())])
         })
         .count()
