@@ -216,6 +216,12 @@ fn arrays(shape: Shape) -> Arrays {
                 ("aq", square),
             ],
         ),
+        Shape::FourCubes => (
+            Some("SecondDerivatives"),
+            ["qq", "qv", "vv", "aq"]
+                .map(|name| (name, vec!["nv"; 3]))
+                .to_vec(),
+        ),
         Shape::CheckedSquares => (
             Some("ForwardDerivatives"),
             vec![

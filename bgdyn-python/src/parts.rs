@@ -106,6 +106,10 @@ impl Parts {
             Shape::Checked(entries) => (None, vec![Part::entries(entries, nv, results)]),
             Shape::SquarePair => (Some("InverseDerivatives"), vec![square(0, 0), square(1, 0)]),
             Shape::FourSquares => (Some("Curvature"), (0..4).map(|k| square(k, 0)).collect()),
+            Shape::FourCubes => {
+                let cube = |k: usize| Part::run(k * nv * nv * nv, &[nv, nv, nv]);
+                (Some("SecondDerivatives"), (0..4).map(cube).collect())
+            }
             Shape::CheckedSquares => (
                 Some("ForwardDerivatives"),
                 (0..3).map(|k| square(k, nv)).collect(),

@@ -54,3 +54,17 @@ def test_values_of_pinocchio(name: str, source: str) -> None:
     near(by_inverse.v, states[:n], "dtau_dv", 1e-9)
     near(by_forward.q, states[:n], "dqdd_dq", 1e-6)
     near(by_forward.v, states[:n], "dqdd_dv", 1e-6)
+
+
+@pytest.mark.parametrize("name", ["panda7", "puma560", "scara4"])
+def test_second_derivatives_of_pinocchio(name: str) -> None:
+    model = bgdyn.load(GOLDEN / "specs" / f"{name}.yaml")
+    states = json.loads((GOLDEN / "second" / f"{name}.json").read_text())["states"]
+    q, v, a, factors = (np.array([s[k] for s in states]) for k in ("q", "v", "a", "l"))
+    of_number = np.stack(model.inverse_dynamics_curvature(q, v, a, factors), axis=1)
+    near(of_number, states, "curvature", 1e-12)
+    second = model.inverse_dynamics_second(q, v, a)
+    contracted = [np.einsum("si,sijk->sjk", factors, matrices) for matrices in second]
+    near(np.stack(contracted, axis=1), states, "curvature", 1e-12)
+    for key, matrices in second._asdict().items():
+        near(matrices[:1], [states[0]["second"]], key, 1e-12)

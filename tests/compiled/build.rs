@@ -86,7 +86,8 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::Checked(_) => "checked",
             Shape::CheckedSquares => "checked_matrices",
             Shape::Pose => "pose",
-            Shape::CheckedActuated(_)
+            Shape::FourCubes
+            | Shape::CheckedActuated(_)
             | Shape::CheckedTree
             | Shape::CheckedTreeAndRows
             | Shape::CheckedWrenches

@@ -281,6 +281,10 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),
         Shape::SquarePair | Shape::FourSquares => json!(squares(values)),
+        Shape::FourCubes => {
+            let cubes = values.chunks((nv * nv * nv).max(1));
+            json!(cubes.map(squares).collect::<Vec<_>>())
+        }
         Shape::CheckedSquares => json!(squares(&values[nv..])),
         Shape::SlopesByTree => slopes(values),
         Shape::CheckedSlopesByTree => slopes(&values[nv..]),

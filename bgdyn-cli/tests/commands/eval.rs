@@ -102,6 +102,22 @@ fn shapes_of_the_results() {
     assert!(result("potential_energy").is_number());
 }
 
+/// Four lists of matrices, one for each effort.
+#[test]
+fn second_derivatives_are_nested_lists() {
+    let golden = "tests/golden/second/scara4.json";
+    let states = parsed(&fs::read_to_string(root().join(golden)).expect("the values"));
+    let arguments = ["eval", SCARA, "inverse_dynamics_second", "--states", golden];
+    let results = parsed(&bgdyn(&arguments).good())["results"].clone();
+    let wanted = &states["states"][0]["second"];
+    for (list, key) in ["qq", "qv", "vv", "aq"].iter().enumerate() {
+        let found = &results[0][list];
+        assert!(difference(found, &wanted[key]) < 1e-12, "{key}");
+        let lengths = [found, &found[0], &found[0][0]].map(|x| x.as_array().map(Vec::len));
+        assert_eq!(lengths, [Some(4); 3]);
+    }
+}
+
 #[test]
 fn states_that_fail_do_not_spoil_the_others() {
     let states = r#"

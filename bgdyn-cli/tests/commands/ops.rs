@@ -150,7 +150,7 @@ fn accuracy_may_be_preferred() {
 /// Errors are measured at states with every argument: other velocities, directions, parameters of bodies.
 #[test]
 fn methods_with_further_arguments_are_explained() {
-    let names = "adaptive_regressor,base_parameters,inverse_dynamics_along,forward_dynamics_along,inverse_dynamics_adjoint,forward_dynamics_adjoint,inverse_mass_matrix,operational_inverse_l_j4,centroidal_bias,inverse_dynamics_curvature,parameter_derivatives,payload_regressor_l_j4,payload_adaptive_step_l_j4";
+    let names = "adaptive_regressor,base_parameters,inverse_dynamics_along,forward_dynamics_along,inverse_dynamics_adjoint,forward_dynamics_adjoint,inverse_mass_matrix,operational_inverse_l_j4,centroidal_bias,inverse_dynamics_curvature,inverse_dynamics_second,parameter_derivatives,payload_regressor_l_j4,payload_adaptive_step_l_j4";
     let explained = bgdyn(&["ops", SCARA, "--explain", "--methods", names]).good();
     for name in names.split(',') {
         assert!(

@@ -21,7 +21,7 @@ pub(crate) fn add_further_arguments(
     state: &mut Inputs<f64>,
     seed: u64,
 ) {
-    if !method.is_derived() {
+    if !method.is_derived() && !matches!(method, Method::Bundle { .. }) {
         return;
     }
     let mut random = Random(seed);

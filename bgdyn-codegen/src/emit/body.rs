@@ -8,7 +8,7 @@ use super::columns::columns;
 use super::explain::checked;
 use super::products;
 use super::tokens::{argument_type, ident};
-use super::writer::{StoredResult, Writer};
+use super::writer::{Matrices, StoredResult, Writer};
 use crate::expr::Leaf;
 use crate::function::Function;
 use crate::method::{Argument, Entries, Method, Shape};
@@ -59,7 +59,11 @@ fn whole(
     let mut writer = Writer::new(&listing, spelling);
     writer.target = Some(StoredResult {
         whole: finish,
-        several: matches!(shape, Shape::SquarePair | Shape::FourSquares),
+        matrices: match shape {
+            Shape::SquarePair | Shape::FourSquares => Matrices::List,
+            Shape::FourCubes => Matrices::Lists,
+            _ => Matrices::One,
+        },
     });
     let statements = writer.statements();
     // Only results that are returned unchecked are written entry by entry.
@@ -137,7 +141,7 @@ fn separate_block(
     writer.separate = true;
     writer.target = Some(StoredResult {
         whole: &array,
-        several: false,
+        matrices: Matrices::One,
     });
     let statements = writer.statements();
     let result = match block.begins() {
@@ -237,6 +241,14 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
         Shape::FourSquares => {
             let squares = squares(values, 4);
             quote! { [#(#squares),*] }
+        }
+        Shape::FourCubes => {
+            let squares = squares(values, 4 * nv);
+            let cubes = (0..4).map(|k| {
+                let cube = &squares[k * nv..(k + 1) * nv];
+                quote! { [#(#cube),*] }
+            });
+            quote! { [#(#cubes),*] }
         }
         Shape::CheckedSquares => {
             let (accelerations, rest) = values.split_at(nv);

@@ -12,7 +12,7 @@ use quote::{format_ident, quote};
 
 use super::code::{Binding, RESULT};
 use super::tokens::comment;
-use super::writer::Writer;
+use super::writer::{Matrices, Writer};
 use crate::expr::{Node, NodeId, Signed};
 use crate::plan::Destination;
 
@@ -60,12 +60,18 @@ impl Writer<'_> {
                 quote! { #name[#k] }
             }
             Destination::Entry {
+                list,
                 matrix,
                 row,
                 column,
             } => {
-                let several = self.target.as_ref().is_some_and(|target| target.several);
-                let matrix = several.then(|| index(matrix)).map(|k| quote! { [#k] });
+                let matrices = self.target.as_ref().map(|target| target.matrices);
+                let (list, matrix) = (index(list), index(matrix));
+                let matrix = match matrices.unwrap_or(Matrices::One) {
+                    Matrices::One => quote! {},
+                    Matrices::List => quote! { [#matrix] },
+                    Matrices::Lists => quote! { [#list][#matrix] },
+                };
                 let (row, column) = (index(row), index(column));
                 quote! { #name #matrix.data.0[#column][#row] }
             }

@@ -132,6 +132,7 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
         Shape::Symmetric | Shape::Square => quote! { __na::SMatrix<T, NV, NV> },
         Shape::SquarePair => quote! { [__na::SMatrix<T, NV, NV>; 2] },
         Shape::FourSquares => quote! { [__na::SMatrix<T, NV, NV>; 4] },
+        Shape::FourCubes => quote! { [[__na::SMatrix<T, NV, NV>; NV]; 4] },
         Shape::CheckedSquares => quote! { [__na::SMatrix<T, NV, NV>; 3] },
         Shape::SlopesByTree => {
             quote! { (__na::SMatrix<T, NV, NT>, __na::SMatrix<T, NV, NV>) }

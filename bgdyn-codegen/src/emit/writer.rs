@@ -17,8 +17,19 @@ pub(super) struct ColumnArrays {
 pub(super) struct StoredResult<'a> {
     /// Builds the whole result from the block's outputs.
     pub(super) whole: &'a dyn Fn(&[TokenStream]) -> TokenStream,
-    /// Whether the result has several matrices.
-    pub(super) several: bool,
+    /// The matrices of the result.
+    pub(super) matrices: Matrices,
+}
+
+/// The matrices of a result.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Matrices {
+    /// One, if any.
+    One,
+    /// A list.
+    List,
+    /// Several lists.
+    Lists,
 }
 
 /// A block, and how it is written.

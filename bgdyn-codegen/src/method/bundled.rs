@@ -2,17 +2,24 @@
 
 use super::{Argument, Method, Shape};
 
-use Argument::{A, ActuatedTau, Q, Tau, V};
+use Argument::{A, ActuatedTau, AlongA, AlongQ, AlongTau, AlongV, Cotangent, Q, Tau, V};
 
-/// The lists of arguments that a bundle may have, the shortest first.
-const ARGUMENTS: [&[Argument]; 7] = [
+/// The lists of arguments that a bundle may have, the shortest first. A direction and factors of results are the same
+/// leaves of the graph, as are the third direction of inverse dynamics and τ, and that of forward dynamics and a: no list
+/// has both.
+const ARGUMENTS: [&[Argument]; 12] = [
     &[Q],
     &[Q, V],
     &[Q, V, A],
     &[Q, V, Tau],
     &[Q, V, ActuatedTau],
+    &[Q, V, A, Cotangent],
+    &[Q, V, Tau, Cotangent],
     &[Q, V, A, Tau],
     &[Q, V, A, ActuatedTau],
+    &[Q, V, A, Tau, Cotangent],
+    &[Q, V, A, AlongQ, AlongV, AlongA],
+    &[Q, V, Tau, AlongQ, AlongV, AlongTau],
 ];
 
 impl Method {
@@ -30,8 +37,6 @@ impl Method {
     /// that names a joint among those of the accelerations.
     pub fn may_be_bundled(self) -> bool {
         let shape = self.shape();
-        let arguments = self.arguments().iter();
-        let known = |argument: &&Argument| matches!(argument, Q | V | A | Tau | ActuatedTau);
         let names_a_joint = matches!(
             shape,
             Shape::CheckedVector
@@ -40,7 +45,7 @@ impl Method {
                 | Shape::CheckedWrenches
                 | Shape::Checked(_)
         );
-        arguments.clone().count() == arguments.filter(known).count()
+        Method::bundle(&[self]).is_some()
             && (!shape.checked() || names_a_joint)
             && !matches!(self, Method::Scene(_) | Method::Bundle { .. })
     }

@@ -15,16 +15,19 @@ pub enum Directional {
     ForwardAdjoint,
     /// Second derivatives of l·τ.
     InverseCurvature,
+    /// Second derivatives of all efforts.
+    InverseSecond,
 }
 
 impl Directional {
     /// All of them.
-    pub const ALL: [Directional; 5] = [
+    pub const ALL: [Directional; 6] = [
         Directional::InverseAlong,
         Directional::ForwardAlong,
         Directional::InverseAdjoint,
         Directional::ForwardAdjoint,
         Directional::InverseCurvature,
+        Directional::InverseSecond,
     ];
 
     /// Returns its name.
@@ -35,6 +38,7 @@ impl Directional {
             Directional::InverseAdjoint => "inverse_dynamics_adjoint",
             Directional::ForwardAdjoint => "forward_dynamics_adjoint",
             Directional::InverseCurvature => "inverse_dynamics_curvature",
+            Directional::InverseSecond => "inverse_dynamics_second",
         }
     }
 
@@ -46,6 +50,14 @@ impl Directional {
         )
     }
 
+    /// Returns whether it consists of second derivatives.
+    pub fn is_second(self) -> bool {
+        matches!(
+            self,
+            Directional::InverseCurvature | Directional::InverseSecond
+        )
+    }
+
     pub(super) fn arguments(self) -> &'static [Argument] {
         use Argument::{A, AlongA, AlongQ, AlongTau, AlongV, Cotangent, Q, Tau, V};
         match self {
@@ -53,6 +65,7 @@ impl Directional {
             Directional::ForwardAlong => &[Q, V, Tau, AlongQ, AlongV, AlongTau],
             Directional::InverseAdjoint | Directional::InverseCurvature => &[Q, V, A, Cotangent],
             Directional::ForwardAdjoint => &[Q, V, Tau, Cotangent],
+            Directional::InverseSecond => &[Q, V, A],
         }
     }
 
@@ -63,6 +76,7 @@ impl Directional {
             Directional::InverseAdjoint => Shape::VectorTriple,
             Directional::ForwardAdjoint => Shape::Checked(Entries::VectorTriple),
             Directional::InverseCurvature => Shape::FourSquares,
+            Directional::InverseSecond => Shape::FourCubes,
         }
     }
 
@@ -83,6 +97,9 @@ impl Directional {
             Directional::InverseCurvature => {
                 "Second derivatives of the number l·τ: by q and q, by q and v, by v and v, by a and q; the first one gives the row. Row i, column j of the first is the derivative along v_j of that along v_i."
             }
+            Directional::InverseSecond => {
+                "Second derivatives of the joint efforts: by q and q, by q and v, by v and v, by a and q, for each effort a matrix; the first one gives the row. Row i, column j of the first is the derivative along v_j of that along v_i; by a and q means ∂M/∂q."
+            }
         }
     }
 
@@ -95,6 +112,9 @@ impl Directional {
             }
             Directional::InverseCurvature => {
                 "that of l·τ, per product of rad or m, rad/s or m/s, rad/s² or m/s²"
+            }
+            Directional::InverseSecond => {
+                "N·m for a rotation, N for a translation, per product of rad or m, rad/s or m/s, rad/s² or m/s²"
             }
         }
     }

@@ -19,6 +19,8 @@ pub enum Shape {
     SquarePair,
     /// Four NV × NV matrices.
     FourSquares,
+    /// Four lists of NV matrices, NV × NV each.
+    FourCubes,
     /// NV accelerations and three NV × NV matrices, or an error with a joint; only the matrices are
     /// returned.
     CheckedSquares,
@@ -84,6 +86,7 @@ impl Shape {
             Shape::Square => nv * nv,
             Shape::SquarePair => 2 * nv * nv,
             Shape::FourSquares => 4 * nv * nv,
+            Shape::FourCubes => 4 * nv * nv * nv,
             Shape::CheckedSquares => nv + 3 * nv * nv,
             Shape::VectorTriple => 3 * nv,
             Shape::Checked(Entries::ParameterColumns(_)) => 0,

@@ -108,7 +108,7 @@ fn of_bundle(graph: &BondGraph, name: &str, others: &[Method]) -> Result<Method,
     let together: Vec<Method> = others.iter().copied().chain([method]).collect();
     if !method.may_be_bundled() || Method::bundle(&together).is_none() {
         return Err(format!(
-            "`{name}` cannot be in a bundle: it has arguments that a bundle does not have, or its error names other joints; call it by itself"
+            "`{name}` cannot be in this bundle: it has arguments that a bundle does not have together with those of the other methods, or its error names other joints; call it by itself"
         ));
     }
     Ok(method)

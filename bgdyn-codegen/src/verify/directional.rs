@@ -21,20 +21,27 @@ fn directions(n: usize) -> [Vec<Dd>; 4] {
 
 /// Returns the state with directions, as a method reads them.
 pub(super) fn extended(of: Directional, at: &Inputs<Dd>) -> Inputs<Dd> {
-    let [first, modes, third, factors] = directions(at.v.len());
-    let mut at = Inputs {
-        x: first,
-        modes,
-        ..at.clone()
-    };
+    let [.., third, factors] = directions(at.v.len());
+    let mut at = with_directions(at.clone());
     match of {
         Directional::InverseAlong => at.u = third,
         Directional::ForwardAlong => at.a = third,
         Directional::InverseAdjoint
         | Directional::ForwardAdjoint
         | Directional::InverseCurvature => at.x = factors,
+        Directional::InverseSecond => {}
     }
     at
+}
+
+/// Returns the state with any directions.
+pub(super) fn with_directions(at: Inputs<Dd>) -> Inputs<Dd> {
+    let [first, modes, ..] = directions(at.v.len());
+    Inputs {
+        x: first,
+        modes,
+        ..at
+    }
 }
 
 /// Returns the law of a method; `found` is its result at the [`extended`] state.
@@ -86,48 +93,64 @@ pub(super) fn law(
             let size = largest(found).max(largest(&along));
             (text, along_all(found), vec![dot(factors, &along)], size)
         }
-        Directional::InverseCurvature => second_law(literal, (state, found), factors),
+        Directional::InverseCurvature => {
+            let text = "second derivative of l·P along two directions";
+            let along = second_rates(literal, &state.at, n);
+            let expected = vec![dot(factors, &along)];
+            (
+                text,
+                vec![form(found, n)],
+                expected,
+                size.max(largest(found)),
+            )
+        }
+        Directional::InverseSecond => {
+            let text = "second derivatives of P along two directions";
+            let expected = second_rates(literal, &state.at, n);
+            let of_effort = |i: usize| {
+                let matrix =
+                    |list: usize| &found[(list * n + i) * n * n..(list * n + i + 1) * n * n];
+                form(&[0, 1, 2, 3].map(matrix).concat(), n)
+            };
+            let all = (0..n).map(of_effort).collect();
+            (text, all, expected, size.max(largest(found)))
+        }
     })
 }
 
 /// A direction of positions along the velocities, of velocities and of accelerations.
 type FullDirection = [Vec<Dd>; 3];
 
-/// Returns the law of second derivatives: along two directions.
-fn second_law(
-    literal: &LiteralValues<'_>,
-    (state, found): (&State, &[Dd]),
-    factors: &[Dd],
-) -> SizedLaw {
-    let n = state.at.v.len();
+/// Returns the two directions of second derivatives: the first and the second one of the differentiation.
+fn two_directions(n: usize) -> [FullDirection; 2] {
     let [dq, dv, da, _] = directions(n);
     let mut random = Random(41);
-    let [eq, ev, ea] = [(); 3].map(|()| {
+    let second = [(); 3].map(|()| {
         let number = |_| Dd::from_f64(2.0 * random.signed());
         (0..n).map(number).collect::<Vec<Dd>>()
     });
-    let matrices: Vec<&[Dd]> = found.chunks(n * n).collect();
-    let form = |m: usize, x: &[Dd], y: &[Dd]| dot(x, &times(matrices[m], y));
-    // In order: first along d, then along e.
-    let both = form(0, &dq, &eq)
-        + form(1, &dq, &ev)
-        + form(1, &eq, &dv)
-        + form(2, &dv, &ev)
-        + form(3, &da, &eq)
-        + form(3, &ea, &dq);
-    let expected = second_rates(literal, &state.at, &[dq, dv, da], &[eq, ev, ea]);
-    let size = largest(&state.efforts).max(largest(found));
-    let text = "second derivative of l·P along two directions";
-    (text, vec![both], vec![dot(factors, &expected)], size)
+    [[dq, dv, da], second]
 }
 
-/// Returns the derivative along `second` of the derivative of P along `first`.
-fn second_rates(
-    literal: &LiteralValues<'_>,
-    at: &Inputs<Dd>,
-    first: &FullDirection,
-    second: &FullDirection,
-) -> Vec<Dd> {
+/// Returns the second derivative along both directions, from the matrices by q and q, by q and v, by v and v, by a and q.
+fn form(found: &[Dd], n: usize) -> Dd {
+    let [[dq, dv, da], [eq, ev, ea]] = two_directions(n);
+    let product = |m: usize, x: &[Dd], y: &[Dd]| {
+        let matrix = &found[m * n * n..(m + 1) * n * n];
+        dot(x, &times(matrix, y))
+    };
+    // In order: first along d, then along e.
+    product(0, &dq, &eq)
+        + product(1, &dq, &ev)
+        + product(1, &eq, &dv)
+        + product(2, &dv, &ev)
+        + product(3, &da, &eq)
+        + product(3, &ea, &dq)
+}
+
+/// Returns the derivative along the second direction of the derivative of P along the first one.
+fn second_rates(literal: &LiteralValues<'_>, at: &Inputs<Dd>, n: usize) -> Vec<Dd> {
+    let [first, second] = &two_directions(n);
     let graph = literal.prepared.graph;
     let moved = with_rates(&at.q, &graph.rates_along(&at.q, &second[0]));
     // q̇ = N(q) dq changes along the second direction as well.

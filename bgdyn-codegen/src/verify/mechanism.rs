@@ -162,7 +162,12 @@ impl Subject<'_> {
     fn arguments(&self, method: Method, state: &State) -> Inputs<Dd> {
         match method {
             Method::Directional(of) => directional::extended(of, &state.at),
-            _ => of_method(self.literal.prepared.graph, method, &state.at),
+            // Blocks of a bundle may read what other parts take.
+            _ => directional::with_directions(of_method(
+                self.literal.prepared.graph,
+                method,
+                &state.at,
+            )),
         }
     }
 

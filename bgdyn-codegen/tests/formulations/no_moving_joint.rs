@@ -33,3 +33,17 @@ fn everything_is_generated() {
     let (value, _) = energy.evaluate::<f64>(Default::default());
     assert!((value[0] - 3.0 * 9.81 * 2.0).abs() < 1e-12);
 }
+
+#[test]
+fn second_derivatives_are_empty() {
+    let names = ["inverse_dynamics_curvature", "inverse_dynamics_second"];
+    let options = Options {
+        methods: Some(names.map(String::from).to_vec()),
+        ..Options::default()
+    };
+    let place = OutputOptions::source_text("still.yaml".into());
+    let spec = SpecText::mechanism(TEXT, "still");
+    let (tokens, _) = generate_module(&spec, &options, &place).expect("no fault");
+    let text = tokens.to_string();
+    assert!(names.iter().all(|name| text.contains(name)));
+}

@@ -20,7 +20,7 @@ fn methods(robot: &Robot) -> Vec<Method> {
     let last = robot.graph.sites.len().checked_sub(1).map(SiteId);
     let of_this = |method: &Method| match method {
         Method::Operational(of) => of.site().is_none() || of.site() == last,
-        Method::Directional(of) => *of != Directional::InverseCurvature,
+        Method::Directional(of) => !of.is_second(),
         _ => false,
     };
     let all = Method::possible_of(robot.graph).into_iter();

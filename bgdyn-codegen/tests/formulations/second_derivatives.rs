@@ -1,6 +1,7 @@
-//! Tests second derivatives of l·τ and derivatives of the accelerations by parameters: equal to equation (6) on random
-//! trees, joints of every type, loops and constraints; refusals; counts of operations.
+//! Tests second derivatives of l·τ and of all efforts, and derivatives of the accelerations by parameters: equal to
+//! equation (6) on random trees, joints of every type, loops and constraints; refusals; counts of operations.
 
+use bgdyn_codegen::expr::Signed;
 use bgdyn_codegen::method::{Directional, Method, ParameterDerivatives, Shape};
 
 use crate::checked::{
@@ -11,11 +12,14 @@ use crate::common::rng::Rng;
 use crate::common::{Robot, golden};
 
 const CURVATURE: Method = Method::Directional(Directional::InverseCurvature);
+const SECOND: Method = Method::Directional(Directional::InverseSecond);
 
 fn methods(robot: &Robot) -> Vec<Method> {
     let all = Method::possible_of(robot.graph).into_iter();
-    let of_this =
-        |method: &Method| *method == CURVATURE || matches!(method, Method::ParameterDerivatives(_));
+    let of_this = |method: &Method| {
+        let by_parameters = matches!(method, Method::ParameterDerivatives(_));
+        [CURVATURE, SECOND].contains(method) || by_parameters
+    };
     all.filter(of_this).collect()
 }
 
@@ -85,7 +89,8 @@ fn joints_of_every_type_equal_equation_6() {
 #[test]
 fn loops_and_constraints_equal_equation_6() {
     for (name, text) in quick_loops().into_iter().take(3) {
-        assert!(passes(&Robot::read(&text, Some(&name)), &name).contains(&CURVATURE));
+        let passed = passes(&Robot::read(&text, Some(&name)), &name);
+        assert!(passed.contains(&CURVATURE) && passed.contains(&SECOND));
     }
     for (name, text) in of_folder("specs/constraints") {
         passes(&Robot::read(&text, Some(&name)), &name);
@@ -98,9 +103,17 @@ fn loops_and_constraints_equal_equation_6() {
 fn second_derivatives_by_coordinates_are_symmetric() {
     let symmetric = |text: &str| {
         let robot = Robot::read(text, Some("symmetric"));
-        let (n, found) = (robot.nv(), robot.emitted(CURVATURE));
-        let outputs = &found.blocks.last().expect("a block").outputs;
-        (0..n * n).all(|k| outputs[k] == outputs[k % n * n + k / n])
+        let n = robot.nv();
+        let is_symmetric =
+            |outputs: &[Signed]| (0..n * n).all(|k| outputs[k] == outputs[k % n * n + k / n]);
+        let of = |method: Method, matrices: usize| {
+            let found = robot.emitted(method);
+            let outputs = &found.blocks.last().expect("a block").outputs;
+            outputs.chunks(n * n).take(matrices).all(is_symmetric)
+        };
+        let both = [of(CURVATURE, 1), of(SECOND, n)];
+        assert_eq!(both[0], both[1]);
+        both[0]
     };
     let (_, five_bar) = quick_loops()
         .into_iter()
@@ -147,14 +160,15 @@ fn what_lacks_parameters_says_why() {
     assert!(found.contains("has no regressors"), "{found}");
 }
 
-/// Multiplications and additions by robot, before loops and blocks: second derivatives, by base parameters.
-const COUNTS: [(&str, [usize; 2]); 6] = [
-    ("scara_rrpr", [142, 205]),
-    ("stanford_gen", [3028, 2457]),
-    ("puma_gen", [3501, 2768]),
-    ("ur5_gen", [2751, 2447]),
-    ("panda_gen", [6164, 4604]),
-    ("iiwa_gen", [5737, 4448]),
+/// Multiplications and additions by robot, before loops and blocks: second derivatives of l·τ and of τ, by base
+/// parameters.
+const COUNTS: [(&str, [usize; 3]); 6] = [
+    ("scara_rrpr", [142, 118, 205]),
+    ("stanford_gen", [3028, 3221, 2457]),
+    ("puma_gen", [3501, 3923, 2768]),
+    ("ur5_gen", [2751, 2755, 2447]),
+    ("panda_gen", [6164, 8791, 4604]),
+    ("iiwa_gen", [5737, 7203, 4448]),
 ];
 
 #[test]
@@ -162,7 +176,7 @@ fn counts_do_not_grow() {
     let by_base = Method::ParameterDerivatives(ParameterDerivatives::Base);
     let found = COUNTS.map(|(name, _)| {
         let robot = golden::robot(name);
-        (name, counted(&robot, [CURVATURE, by_base]))
+        (name, counted(&robot, [CURVATURE, SECOND, by_base]))
     });
     assert_eq!(found, COUNTS);
 }

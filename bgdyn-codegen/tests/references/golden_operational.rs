@@ -56,7 +56,7 @@ fn check(name: &str, robot: &Robot) {
                 &format!("{name}: {field}"),
             );
         }
-        let first_order = |of: &Directional| *of != Directional::InverseCurvature;
+        let first_order = |of: &Directional| !of.is_second();
         for of in Directional::ALL.into_iter().filter(first_order) {
             let at = match of {
                 Directional::InverseAlong => at("a", "da", "dq"),

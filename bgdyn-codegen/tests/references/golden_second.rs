@@ -1,5 +1,5 @@
-//! Compares second derivatives of l·τ, and derivatives of the accelerations by parameters, with those of Pinocchio
-//! (`golden/second`).
+//! Compares second derivatives of l·τ and of all efforts, and derivatives of the accelerations by parameters, with those of
+//! Pinocchio (`golden/second`).
 
 use bgdyn_codegen::expr::Inputs;
 use bgdyn_codegen::method::{Directional, Method, ParameterDerivatives, Regressor};
@@ -40,6 +40,30 @@ fn check(name: &str) {
             &of("curvature"),
             TOLERANCE,
             &format!("{name}: curvature"),
+        );
+        let second = Method::Directional(Directional::InverseSecond);
+        let found = value(&robot, second, &at);
+        if let Some(tensors) = state.get("second") {
+            let expected = ["qq", "qv", "vv", "aq"].map(|key| numbers(&tensors[key]));
+            close(
+                &found,
+                &expected.concat(),
+                TOLERANCE,
+                &format!("{name}: second derivatives"),
+            );
+        }
+        let n = robot.nv();
+        let entry = |k: usize| {
+            let (list, entry) = (k / (n * n), k % (n * n));
+            let terms = at.x.iter().zip(found.chunks(n * n).skip(list * n));
+            terms.map(|(l, matrix)| l * matrix[entry]).sum()
+        };
+        let contracted: Vec<f64> = (0..4 * n * n).map(entry).collect();
+        close(
+            &contracted,
+            &of("curvature"),
+            TOLERANCE,
+            &format!("{name}: second derivatives times l"),
         );
         let change = value(
             &robot,

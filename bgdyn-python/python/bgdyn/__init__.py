@@ -18,6 +18,7 @@ from ._results import (
     ForwardDerivatives,
     InverseDerivatives,
     Pose,
+    SecondDerivatives,
     Wrenches,
 )
 from ._scene import EnergyEntry, Event, Run, Scene
@@ -36,6 +37,7 @@ __all__ = [
     "Pose",
     "Run",
     "Scene",
+    "SecondDerivatives",
     "SingularError",
     "SpecError",
     "SpecWarning",

@@ -23,7 +23,14 @@ from ._method_types import (
     _QVTauL,
 )
 from ._methods import MethodOfClass
-from ._results import ConstrainedDynamics, Curvature, ForwardDerivatives, InverseDerivatives, Wrenches
+from ._results import (
+    ConstrainedDynamics,
+    Curvature,
+    ForwardDerivatives,
+    InverseDerivatives,
+    SecondDerivatives,
+    Wrenches,
+)
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -353,6 +360,8 @@ class Model:
     """(∂q̈/∂q)ᵀ l, (∂q̈/∂v)ᵀ l, M⁻¹ l, (..., 3, nv)."""
     inverse_dynamics_curvature: MethodOfClass[_QVAL[Curvature, tuple[Array, Array, Array, Array]]]
     """Second derivatives of l·τ: by q and q, by q and v, by v and v, by a and q, (..., nv, nv) each."""
+    inverse_dynamics_second: MethodOfClass[_QVA[SecondDerivatives, tuple[Array, Array, Array, Array]]]
+    """Second derivatives of τ: by q and q, by q and v, by v and v, by a and q, (..., nv, nv, nv) each."""
     parameter_derivatives: MethodOfClass[_QVTau[Array, Array]]
     """∂q̈/∂π_b by base parameters, (..., nv, nbp)."""
     run_time_parameter_derivatives: MethodOfClass[_QVTau[Array, Array]]

@@ -51,6 +51,20 @@ class Curvature(NamedTuple):
     """(..., nv, nv): by a (rows) and q (columns)."""
 
 
+class SecondDerivatives(NamedTuple):
+    """Second derivatives of joint efforts, for each a matrix. Those by q are along the tangent: row i, column j is the
+    derivative along v_j of that along v_i."""
+
+    qq: NDArray[np.float64]
+    """(..., nv, nv, nv): by q and q."""
+    qv: NDArray[np.float64]
+    """(..., nv, nv, nv): by q (rows) and v (columns)."""
+    vv: NDArray[np.float64]
+    """(..., nv, nv, nv): by v and v."""
+    aq: NDArray[np.float64]
+    """(..., nv, nv, nv): by a (rows) and q (columns), ∂M/∂q."""
+
+
 class ConstrainedDynamics(NamedTuple):
     """Accelerations of the open tree and efforts of the rows."""
 

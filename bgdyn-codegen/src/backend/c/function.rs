@@ -163,7 +163,7 @@ fn returned(plan: &FunctionPlan<'_>, flat: &FlatResult, style: &Style) -> String
             let first = element(&flat.fields, range.start);
             (format!("&{first}"), range.len())
         }
-        CheckedValues::Outputs(range) => ("checked".to_string(), range.len()),
+        CheckedValues::Outputs(outputs) => ("checked".to_string(), outputs.len()),
     };
     let refused = if plan.refuses() { "refused" } else { "0" };
     format!(

@@ -113,6 +113,9 @@ fn result_order(shape: Shape) -> Option<&'static str> {
         Shape::FourSquares => {
             "Result: four NV x NV matrices, by q and q, by q and v, by v and v, by a and q."
         }
+        Shape::FourCubes => {
+            "Result: NV x NV matrices, one for each effort, by q and q; then those by q and v, by v and v, by a and q."
+        }
         Shape::Checked(Entries::ParameterColumns(ParameterSet::Base)) => {
             "Result: NV x NBP, row by row."
         }

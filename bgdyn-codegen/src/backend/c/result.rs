@@ -6,10 +6,11 @@ use super::context::FunctionContext;
 use super::scene_result::SceneResult;
 use super::style::Style;
 use super::words::field;
+use crate::expr::Signed;
 use crate::function::Function;
 use crate::layout::StateLayout;
 use crate::method::{Entries, Method, ParameterSet, SceneFunction, Shape};
-use crate::model::Bundle;
+use crate::model::{Bundle, BundlePart};
 use crate::plan::{Destination, matrix_destinations};
 
 /// The flat result of a function.
@@ -51,8 +52,53 @@ pub(super) fn element(fields: &[ResultField], k: usize) -> String {
 pub(super) enum CheckedValues {
     /// Elements of the result.
     Elements(Range<usize>),
-    /// Outputs that are no part of the result.
-    Outputs(Range<usize>),
+    /// Outputs, which need not be a part of the result.
+    Outputs(Vec<usize>),
+}
+
+/// The values that parts of a bundle check.
+#[derive(Default)]
+struct CheckedParts {
+    /// The elements of the struct, if a single part checks values and these are elements.
+    elements: Option<Range<usize>>,
+    /// The outputs of all parts, each value once.
+    outputs: Vec<usize>,
+    values: Vec<Signed>,
+}
+
+impl CheckedParts {
+    /// Adds the values of a part whose elements begin there. Most parts check the same accelerations.
+    fn add(&mut self, values: &CheckedValues, (part, begin): (&BundlePart, usize), of: &Function) {
+        let (elements, outputs) = match values {
+            CheckedValues::Elements(range) => (
+                Some(range.start + begin..range.end + begin),
+                range.clone().collect(),
+            ),
+            CheckedValues::Outputs(outputs) => (None, outputs.clone()),
+        };
+        let all = of.blocks.last().map_or(&[][..], |block| &block.outputs);
+        let is_first = self.outputs.is_empty();
+        for output in outputs {
+            let output = part.outputs.start + output;
+            if !self.values.contains(&all[output]) {
+                self.values.push(all[output]);
+                self.outputs.push(output);
+                if !is_first {
+                    self.elements = None;
+                }
+            }
+        }
+        if is_first {
+            self.elements = elements;
+        }
+    }
+
+    fn values(self) -> CheckedValues {
+        match self.elements {
+            Some(elements) => CheckedValues::Elements(elements),
+            None => CheckedValues::Outputs(self.outputs),
+        }
+    }
 }
 
 impl FlatResult {
@@ -66,10 +112,11 @@ impl FlatResult {
         let flat = |destination: &Destination| match *destination {
             Destination::Element(k) => k,
             Destination::Entry {
+                list,
                 matrix,
                 row,
                 column,
-            } => (matrix * nv + row) * nv + column,
+            } => ((list * nv + matrix) * nv + row) * nv + column,
         };
         let only_checked = match shape {
             Shape::CheckedSquares | Shape::CheckedSlopesByTree | Shape::CheckedWrenches => nv,
@@ -93,7 +140,7 @@ impl FlatResult {
                 CheckedValues::Elements(0..count)
             }
             Shape::CheckedTreeAndRows => CheckedValues::Elements(0..context.nt),
-            _ => CheckedValues::Outputs(0..only_checked),
+            _ => CheckedValues::Outputs((0..only_checked).collect()),
         };
         FlatResult {
             destinations,
@@ -129,32 +176,22 @@ impl FlatResult {
         }
     }
 
-    /// Returns the result of a bundle: that of each part as a field of a struct. Parts that may have no result all check
-    /// the accelerations, so that one of them tells for all.
+    /// Returns the result of a bundle: that of each part as a field of a struct.
     pub(super) fn of_bundle(bundle: &Bundle, context: &FunctionContext<'_>) -> Self {
         let mut whole = FlatResult {
             destinations: Vec::new(),
             elements: 0,
             size: String::new(),
-            checked: CheckedValues::Outputs(0..0),
+            checked: CheckedValues::Outputs(Vec::new()),
             others: Vec::new(),
             fields: Vec::new(),
         };
-        let shifted = |range: &Range<usize>, by: usize| range.start + by..range.end + by;
-        let mut is_checked = false;
+        let mut checked = CheckedParts::default();
         for part in &bundle.parts {
             let one = FlatResult::new(&bundle.function_of(part), context);
             let begin = whole.elements;
-            if part.method.shape().checked() && !is_checked {
-                is_checked = true;
-                whole.checked = match &one.checked {
-                    CheckedValues::Elements(range) => {
-                        CheckedValues::Elements(shifted(range, begin))
-                    }
-                    CheckedValues::Outputs(range) => {
-                        CheckedValues::Outputs(shifted(range, part.outputs.start))
-                    }
-                };
+            if part.method.shape().checked() {
+                checked.add(&one.checked, (part, begin), &bundle.function);
             }
             let shift =
                 |destinations: &Vec<usize>| destinations.iter().map(|k| k + begin).collect();
@@ -170,6 +207,7 @@ impl FlatResult {
                 });
             }
         }
+        whole.checked = checked.values();
         whole
     }
 
@@ -221,6 +259,7 @@ fn size(shape: Shape) -> Option<&'static str> {
         Shape::VectorTriple => "3 * NV",
         Shape::SquarePair => "2 * NV * NV",
         Shape::FourSquares => "4 * NV * NV",
+        Shape::FourCubes => "4 * NV * NV * NV",
         Shape::CheckedSquares => "3 * NV * NV",
         Shape::SlopesByTree => "NV * NT + NV * NV",
         Shape::CheckedSlopesByTree => "NV * NT + 2 * NV * NV",

@@ -33,16 +33,17 @@ pub(super) fn stores(values: &[String], flat: &FlatResult) -> Vec<String> {
         .collect()
 }
 
-/// Returns an array of the outputs that must be finite and are no part of the result.
+/// Returns an array of the outputs that must be finite, where they are no elements of the result.
 pub(super) fn checked(values: &[String], flat: &FlatResult, style: &Style) -> Vec<String> {
-    let CheckedValues::Outputs(range) = &flat.checked else {
+    let CheckedValues::Outputs(outputs) = &flat.checked else {
         return Vec::new();
     };
-    if range.is_empty() {
+    if outputs.is_empty() {
         return Vec::new();
     }
-    let (real, count) = (style.real(), range.len());
-    let all = values[range.clone()].join(", ");
+    let (real, count) = (style.real(), outputs.len());
+    let all: Vec<&str> = outputs.iter().map(|&k| values[k].as_str()).collect();
+    let all = all.join(", ");
     vec![format!("const {real} checked[{count}] = {{{all}}};")]
 }
 

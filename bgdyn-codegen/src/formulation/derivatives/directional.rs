@@ -7,6 +7,7 @@
 //! | adjoint of inverse dynamics | one backward pass over l·τ |
 //! | adjoint of forward dynamics | μ = M⁻¹ l, then that of inverse dynamics at q̈ with −μ |
 //! | second derivatives of l·τ | forward passes over the adjoint of inverse dynamics |
+//! | second derivatives of all efforts | `second.rs` |
 //!
 //! Positions move along the tangent: q̇ = N(q) dq.
 
@@ -15,6 +16,7 @@ use bgdyn_runtime::Dd;
 use super::differentiate::{
     finish, pairs_with_cheapest, position_derivatives, position_tangents, rates_along, reopen,
 };
+use super::second;
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, adjoints, copy_into};
 use crate::formulation::slopes::{along_efforts, derivatives};
@@ -44,6 +46,7 @@ impl Formulation for AlongDirections {
             Method::Directional(of) if of.is_forward() => {
                 vec![Method::InverseDynamics, Method::ForwardDynamics]
             }
+            Method::Directional(Directional::InverseSecond) => second::READS.to_vec(),
             Method::Directional(_) => vec![Method::InverseDynamics],
             _ => Vec::new(),
         }
@@ -53,6 +56,9 @@ impl Formulation for AlongDirections {
         let Method::Directional(of) = method else {
             return None;
         };
+        if of == Directional::InverseSecond {
+            return second::function(prepared);
+        }
         let graph = prepared.graph;
         let inverse = prepared.candidates(Method::InverseDynamics);
         let inverse = inverse.accepted.iter().map(|candidate| &candidate.plain);
@@ -88,8 +94,8 @@ fn of_inverse(graph: &BondGraph, of: Directional, from: &Function) -> Function {
             let gradient = adjoint(&b, graph, (&efforts, &l));
             curvature(&b, graph, &gradient)
         }
-        Directional::ForwardAlong | Directional::ForwardAdjoint => {
-            unreachable!("they are methods of forward dynamics")
+        Directional::ForwardAlong | Directional::ForwardAdjoint | Directional::InverseSecond => {
+            unreachable!("they are not made of inverse dynamics alone")
         }
     };
     finish(graph, Method::Directional(of), from, b, outputs)
@@ -137,9 +143,7 @@ fn of_forward(
             outputs.extend(solved);
             outputs
         }
-        Directional::InverseAlong | Directional::InverseAdjoint | Directional::InverseCurvature => {
-            unreachable!("they are methods of inverse dynamics")
-        }
+        _ => unreachable!("they are methods of inverse dynamics"),
     };
     finish(graph, Method::Directional(of), forward, b, outputs)
 }

@@ -6,6 +6,7 @@
 //! | `forward_dynamics.rs` | derivatives of forward dynamics from those of inverse dynamics |
 //! | `by_parameters.rs` | derivatives of the accelerations by parameters |
 //! | `directional.rs` | derivatives along one direction, and adjoints |
+//! | `second.rs` | second derivatives of all efforts |
 //! | `mass_matrix_rate.rs` | the rate of the mass matrix |
 //! | `by_differentiation.rs` | the formulations of matrices |
 //!
@@ -17,6 +18,7 @@ mod differentiate;
 mod directional;
 mod forward_dynamics;
 mod mass_matrix_rate;
+mod second;
 
 pub(super) use by_differentiation::{Differentiated, ForwardDynamicsDerivatives};
 pub(super) use by_parameters::ByParameters;
