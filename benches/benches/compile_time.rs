@@ -15,17 +15,10 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 use std::{env, fs};
 
+use benches::methods::CONTROLLER;
 use bgdyn_codegen::build_script::Build;
 use bgdyn_codegen::files::stem;
 
-/// The methods of a controller, all in one build.
-const METHODS: [&str; 5] = [
-    "inverse_dynamics",
-    "mass_matrix",
-    "forward_dynamics",
-    "bias",
-    "gravity",
-];
 /// The methods of the chains.
 const LONG: [&str; 3] = ["inverse_dynamics", "mass_matrix", "forward_dynamics"];
 /// A profile of Cargo.
@@ -140,7 +133,7 @@ fn write(table: &str) -> Result<(), String> {
          builds each. Code is that of the program less the empty one's, memory what the build has at its peak. The \
          methods are {five}, of the chains {three}.\n\n{table}",
         circumstances = circumstances(),
-        five = METHODS.join(", "),
+        five = CONTROLLER.join(", "),
         three = LONG.join(", "),
     );
     let (path, _, outside) = page()?;
@@ -248,7 +241,7 @@ fn specs(root: &Path) -> Result<Vec<(PathBuf, &'static [&'static str])>, String>
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "yaml"));
     paths.sort();
-    let short = paths.into_iter().map(|path| (path, &METHODS[..]));
+    let short = paths.into_iter().map(|path| (path, &CONTROLLER[..]));
     let long =
         ["chain32", "chain64"].map(|name| root.join(format!("tests/golden/specs/{name}.yaml")));
     Ok(short.chain(long.map(|path| (path, &LONG[..]))).collect())

@@ -8,13 +8,8 @@ use bgdyn_codegen::mechanism::Mechanism;
 
 use crate::robots;
 
-const METHODS: [&str; 5] = [
-    "inverse_dynamics",
-    "mass_matrix",
-    "forward_dynamics",
-    "bias",
-    "gravity",
-];
+#[path = "../src/methods.rs"]
+mod methods;
 
 /// Generates the mechanisms of this folder. The line of each in `robots!` has the Jacobian of its tip, and what `rest`
 /// returns for the path, the mechanism and the tip.
@@ -24,7 +19,10 @@ pub fn generate(specs: &Path, rest: impl Fn(&Path, &Mechanism, &str) -> String) 
         let tip = tip(mechanism);
         let jacobian = format!("jacobian_world_{tip}");
         let rest = format!("{jacobian} {}", rest(path, mechanism, tip));
-        let methods = METHODS.map(String::from).into_iter().chain([jacobian]);
+        let methods = methods::CONTROLLER
+            .map(String::from)
+            .into_iter()
+            .chain([jacobian]);
         (Build::new(path).methods(methods), rest)
     });
 }

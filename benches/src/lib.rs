@@ -5,6 +5,7 @@
 pub mod clock;
 pub mod inputs;
 pub mod joints;
+pub mod methods;
 pub mod outcome;
 pub mod plain;
 pub mod states;

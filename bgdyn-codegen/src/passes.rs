@@ -35,27 +35,13 @@ pub fn factor(function: Function) -> Function {
     })
 }
 
-/// The number of forms of a function that are factored to compare them.
-const FACTORED: usize = 4;
-
-/// Returns the form that costs least after factoring; the first one of equals. Of many, the cheapest after a single round
-/// are compared.
+/// Returns the form that costs least after factoring; the first one of equals. A single form is not factored.
 pub fn cheapest_after_factoring(forms: impl IntoIterator<Item = Function>) -> Option<Function> {
     let mut forms: Vec<Function> = forms.into_iter().collect();
-    if forms.len() > FACTORED {
-        let once = |f: &Function| on_one_block(f.clone(), expr::factor_once).cost().weighted();
-        let costs: Vec<_> = forms.iter().map(once).collect();
-        let mut cheapest: Vec<usize> = (0..forms.len()).collect();
-        cheapest.sort_by_key(|&i| costs[i]);
-        cheapest.truncate(FACTORED);
-        let all = forms.into_iter().enumerate();
-        let kept = all.filter(|(i, _)| cheapest.contains(i));
-        forms = kept.map(|(_, form)| form).collect();
-    }
     if forms.len() == 1 {
         return forms.pop();
     }
-    let cost = |f: &Function| factor(f.clone()).cost().weighted();
+    let cost = |form: &Function| factor(form.clone()).cost().weighted();
     forms.into_iter().min_by_key(cost)
 }
 

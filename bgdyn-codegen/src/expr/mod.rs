@@ -37,7 +37,7 @@ pub use count::{count, reachable};
 pub use diff::Tangent;
 pub use error::{Bound, ErrorBound};
 pub use eval::{Inputs, evaluate};
-pub use factor::{factor, factor_once, factored_cost};
+pub use factor::{factor, factored_cost};
 pub use fuse::fuse;
 pub use graph::Graph;
 pub(crate) use index::QuickMap;

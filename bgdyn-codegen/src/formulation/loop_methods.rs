@@ -11,6 +11,7 @@ use crate::formulation::solve;
 use crate::formulation::velocity_map::VelocityMap;
 use crate::function::{Function, in_triangle};
 use crate::method::{Centroidal, Method};
+use crate::passes::cheapest_after_factoring;
 
 /// The motion of the open tree for the independent velocities and accelerations.
 pub(super) struct LoopMotion<'a, 'g> {
@@ -49,6 +50,17 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
         Method::Centroidal(_) => vec![method],
         _ => vec![],
     }
+}
+
+/// Returns the cheapest of the forms of a function with the fewest early pivots, each with their number. A pivot that
+/// others follow may vanish at regular positions, and digits with it.
+pub(super) fn cheapest_with_fewest(
+    forms: impl Iterator<Item = (Function, usize)>,
+) -> Option<Function> {
+    let forms: Vec<(Function, usize)> = forms.collect();
+    let fewest = forms.iter().map(|(_, early)| *early).min()?;
+    let forms = forms.into_iter().filter(|(_, early)| *early == fewest);
+    cheapest_after_factoring(forms.map(|(form, _)| form))
 }
 
 impl<'a, 'g> LoopMotion<'a, 'g> {

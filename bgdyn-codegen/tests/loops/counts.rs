@@ -2,6 +2,8 @@
 
 use bgdyn_codegen::expr::Operations;
 use bgdyn_codegen::method::{Method, SceneFunction};
+use bgdyn_codegen::options::Options;
+use bgdyn_codegen::selection;
 
 use super::actuated::parallel_robots;
 use super::references::{file, spec};
@@ -47,6 +49,40 @@ fn the_page_has_the_counts() {
     ];
     let rows = MECHANISMS.map(|(name, title)| row(title, &Robot::read(&spec(name)), methods));
     assert_on_page(rows.into_iter());
+}
+
+/// Multiplications and additions of all methods that are generated without options, together: a new choice among forms
+/// shows here for methods that no page counts.
+const TOTALS: [(&str, usize); 15] = [
+    ("andrews", 2453),
+    ("bricard", 6358),
+    ("delta_robot", 9386),
+    ("excavator", 3390),
+    ("five_bar", 1219),
+    ("four_bar", 669),
+    ("parallel_rods", 46),
+    ("parallelograms", 1369),
+    ("rssr", 2846),
+    ("six_bar", 2189),
+    ("slider_crank", 398),
+    ("slider_crank_near_singular", 380),
+    ("spatial_slider_crank", 2751),
+    ("spherical_four_bar", 718),
+    ("stewart_platform", 30084),
+];
+
+#[test]
+fn totals_of_all_methods_do_not_grow() {
+    let total = |name: &str| {
+        let (mechanism, _) = bgdyn_codegen::read(&spec(name), Some(name));
+        let mechanism = mechanism.unwrap_or_else(|| panic!("{name}: faults"));
+        let model = selection::model(mechanism, &Options::default());
+        let functions = model.expect("no name is asked for").functions;
+        let counts = functions.iter().map(|function| function.operations());
+        counts.map(|o| o.mul + o.add).sum::<usize>()
+    };
+    let found = TOTALS.map(|(name, _)| (name, total(name)));
+    assert_eq!(found, TOTALS);
 }
 
 /// The methods that are generated if they are asked for.

@@ -99,20 +99,14 @@ fn readers(graph: &Graph, outputs: &[Signed]) -> Vec<usize> {
 
 /// Returns the same values with fewer operations, if the pass finds them.
 pub fn factor(graph: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed>) {
-    let best = polished(rounds(graph, outputs, ROUNDS));
+    let best = rounds(graph, outputs, ROUNDS);
     (best.graph, best.outputs)
 }
 
 /// Estimates the cost of the function that [`factor`] returns; for long functions, after a single round.
 pub fn factored_cost(graph: Graph, outputs: Vec<Signed>) -> Cost {
-    let best = polished(rounds(graph, outputs, 1));
-    cost(&best.graph, &best.outputs)
-}
-
-/// Returns the values after a single round: the first estimate of what [`factor`] saves.
-pub fn factor_once(graph: Graph, outputs: Vec<Signed>) -> (Graph, Vec<Signed>) {
     let best = rounds(graph, outputs, 1);
-    (best.graph, best.outputs)
+    cost(&best.graph, &best.outputs)
 }
 
 fn rounds(graph: Graph, outputs: Vec<Signed>, most: usize) -> Best {
@@ -131,10 +125,6 @@ fn rounds(graph: Graph, outputs: Vec<Signed>, most: usize) -> Best {
     if most > 1 && cost.operations.total() <= MAX_INLINED_OPERATIONS {
         best.improve(Inline::Products);
     }
-    best
-}
-
-fn polished(mut best: Best) -> Best {
     if best.cost.operations.total() <= MAX_POLISHED_OPERATIONS {
         best.polish();
     }

@@ -16,7 +16,7 @@ use bgdyn_runtime::Dd;
 use rows::{BaseRows, row_axes};
 
 use super::arguments::Arguments;
-use super::loop_methods::{entries, minus, reduced};
+use super::loop_methods::{cheapest_with_fewest, entries, minus, reduced};
 use super::loop_rows::LoopForm;
 use super::velocity_map::VelocityMap;
 use super::{Formulation, Offer, Prepared, solve};
@@ -25,7 +25,6 @@ use crate::expr::{Builder, Expr, Leaf, Signed, copy_into};
 use crate::function::{Function, in_triangle};
 use crate::mechanism::closure::ContactAxes;
 use crate::method::Method;
-use crate::passes::cheapest_after_factoring;
 
 /// The tree in the twist of the base with this index, with dependent velocities eliminated.
 pub(super) struct BaseTwist(pub usize);
@@ -82,12 +81,7 @@ impl Formulation for BaseTwist {
             in_stages: other && has_mass(method),
             axes: axes.clone(),
         });
-        let made = forms.filter_map(|form| function(prepared, base, method, &form));
-        // As for loops: see `Elimination`.
-        let made: Vec<(Function, usize)> = made.collect();
-        let fewest = made.iter().map(|(_, early)| *early).min()?;
-        let forms = made.into_iter().filter(|(_, early)| *early == fewest);
-        cheapest_after_factoring(forms.map(|(made, _)| made))
+        cheapest_with_fewest(forms.filter_map(|form| function(prepared, base, method, &form)))
     }
 }
 

@@ -11,7 +11,7 @@ use bgdyn_runtime::ACTUATORS;
 use super::actuators::on_tree;
 use super::arguments::Arguments;
 use super::closing_loads::{add_to_joints, reactions};
-use super::loop_methods::{LoopMotion, compose, reads};
+use super::loop_methods::{LoopMotion, cheapest_with_fewest, compose, reads};
 use super::loop_rows::{LoopForm, loop_bias, loop_residuals, loop_rows};
 use super::velocity_map::{FirstPivot, VelocityMap};
 use super::{Formulation, Offer, Prepared};
@@ -19,7 +19,6 @@ use crate::bond_graph::{BondGraph, ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
 use crate::method::{Centroidal, Method};
-use crate::passes::cheapest_after_factoring;
 
 /// Elimination of the dependent velocities, on the functions chosen for the open tree.
 pub(super) struct Elimination;
@@ -57,13 +56,7 @@ impl Formulation for Elimination {
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
         let forms = forms(prepared.graph, method).into_iter();
-        let made = forms.filter_map(|form| function(prepared, method, form));
-        // A pivot that others follow may vanish at regular positions, and digits with it: operations decide among the
-        // forms with the fewest.
-        let made: Vec<(Function, usize)> = made.collect();
-        let fewest = made.iter().map(|(_, early)| *early).min()?;
-        let forms = made.into_iter().filter(|(_, early)| *early == fewest);
-        cheapest_after_factoring(forms.map(|(made, _)| made))
+        cheapest_with_fewest(forms.filter_map(|form| function(prepared, method, form)))
     }
 }
 
