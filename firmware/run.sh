@@ -7,10 +7,11 @@ cd "$(dirname "$0")"
 . ../tests/skip.sh
 programs=(scara puma560 payload)
 
-# run CPU FLAGS…: runs the controllers.
+# run CPU FLAGS…: builds the controllers, all at once because each is linked on one core, and runs them.
 run() {
   local cpu=$1 program
   shift
+  on "$cpu" "$cargo" build -q --release "$@" $(printf -- '--bin %s ' "${programs[@]}")
   for program in "${programs[@]}"; do
     on "$cpu" "$cargo" run -q --release "$@" --bin "$program"
   done

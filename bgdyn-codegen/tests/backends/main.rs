@@ -1,5 +1,8 @@
 //! The backends: what each of them says of itself, and that generated C has the evaluator's bits.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod assembled;
 mod bundles;
 mod c_program;

@@ -1,5 +1,8 @@
 //! Tests of lost digits, single hard states, and any argument.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod accuracy;
 mod bars;
 #[path = "../common/mod.rs"]

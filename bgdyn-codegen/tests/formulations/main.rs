@@ -1,5 +1,8 @@
 //! Tests that formulations equal each other and obey the laws of mechanics.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod bundles;
 mod centroidal;
 mod checked;

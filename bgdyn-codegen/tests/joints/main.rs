@@ -1,6 +1,9 @@
 //! Tests joints with several degrees of freedom and joints that follow others: golden values, laws of
 //! mechanics, equal mechanisms written in two ways, the generator's own check, faults.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod constraint_references;
 mod constraints;
 mod coupled_scenes;

@@ -1,6 +1,9 @@
 //! Tests mechanisms with loops: reference solutions with multipliers, random loops against the open tree with
 //! multipliers, the generator's own check, faults.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 #[path = "../joints/free_bodies.rs"]
 mod free_bodies;
 #[path = "../joints/maker.rs"]

@@ -1,5 +1,8 @@
 //! Tests against values from outside of the generator, and against the equations as printed.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 #[path = "../common/mod.rs"]
 mod common;
 mod golden;

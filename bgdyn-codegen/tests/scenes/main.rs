@@ -1,5 +1,8 @@
 //! Tests scenes with the evaluator: laws of every scene file and of scenes in the tests.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod bench;
 mod bodies;
 mod causality;

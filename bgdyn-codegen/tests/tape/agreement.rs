@@ -209,6 +209,19 @@ impl Seen {
         assert!(missing.is_empty(), "no function with {missing:?}");
     }
 
+    /// Adds what another part of the test compared.
+    #[allow(dead_code, reason = "one of the tests has parts")]
+    pub fn add(&mut self, other: Seen) {
+        self.functions += other.functions;
+        self.calls += other.calls;
+        self.refused += other.refused;
+        self.finite += other.finite;
+        self.cut += other.cut;
+        self.products += other.products;
+        self.looped += other.looped;
+        self.kinds.extend(other.kinds);
+    }
+
     fn note(&mut self, function: &Function) {
         self.functions += 1;
         self.cut += usize::from(function.blocks.len() > 1);

@@ -1,6 +1,9 @@
 //! Tests that tapes have the bits of the evaluator: every method of the mechanisms and every function of the scenes in
 //! the repository, and random functions, in random states, at large angles, with refused pivots, NaN and infinities.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod agreement;
 #[path = "../common/mod.rs"]
 mod common;

@@ -1,6 +1,9 @@
 //! Tests wheels, balls and knife edges: reference solutions, random mechanisms against the open tree with
 //! multipliers, also with loops beside them, the generator's own check, counts, faults.
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 #[path = "../joints/findings.rs"]
 #[allow(dead_code, reason = "shared with the tests of joints")]
 mod findings;

@@ -1,6 +1,9 @@
 //! Tests the generator's own verification: every spec and every scene passes, and functions with an error
 //! of each known kind do not (`mistakes`).
 
+#[path = "../common/allocator.rs"]
+mod allocator;
+
 mod mistakes;
 
 use std::path::{Path, PathBuf};

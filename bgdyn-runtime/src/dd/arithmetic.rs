@@ -29,6 +29,7 @@ impl Dd {
 }
 
 /// Returns `a + b` exactly, for any order of their sizes (Knuth's two-sum).
+#[inline]
 pub(super) const fn two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     if !hi.is_finite() {
@@ -50,6 +51,7 @@ pub(super) const fn two_sum(a: f64, b: f64) -> Dd {
 }
 
 /// Returns `a + b` exactly, where |`a`| ≥ |`b`|, or `a` is 0 (Dekker's fast two-sum).
+#[inline]
 const fn quick_two_sum(a: f64, b: f64) -> Dd {
     let hi = a + b;
     if !hi.is_finite() {
@@ -62,6 +64,7 @@ const fn quick_two_sum(a: f64, b: f64) -> Dd {
 }
 
 /// Returns the upper 26 bits of `a` and the rest (Veltkamp).
+#[inline]
 fn split(a: f64) -> (f64, f64) {
     let t = 134_217_729.0 * a; // 2²⁷ + 1
     let hi = t - (t - a);
@@ -69,6 +72,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// Returns the rounding error of the product `p` of `a` and `b`, neither larger than [`LARGE`] (Dekker).
+#[inline]
 fn product_error(a: f64, b: f64, p: f64) -> f64 {
     let (a_hi, a_lo) = split(a);
     let (b_hi, b_lo) = split(b);
@@ -125,6 +129,7 @@ impl Dd {
 impl Add for Dd {
     type Output = Self;
 
+    #[inline]
     fn add(self, other: Self) -> Self {
         let (a, b) = (self, other);
         if !a.hi.is_finite() || !b.hi.is_finite() {
@@ -146,6 +151,7 @@ impl Add for Dd {
 impl Sub for Dd {
     type Output = Self;
 
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -154,6 +160,7 @@ impl Sub for Dd {
 impl Mul for Dd {
     type Output = Self;
 
+    #[inline]
     fn mul(self, other: Self) -> Self {
         let (a, b) = (self, other);
         let p = a.hi * b.hi;
@@ -200,6 +207,7 @@ impl Div for Dd {
 impl Neg for Dd {
     type Output = Self;
 
+    #[inline]
     fn neg(self) -> Self {
         Self {
             hi: -self.hi,
@@ -209,18 +217,21 @@ impl Neg for Dd {
 }
 
 impl AddAssign for Dd {
+    #[inline]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
 }
 
 impl SubAssign for Dd {
+    #[inline]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }
 }
 
 impl MulAssign for Dd {
+    #[inline]
     fn mul_assign(&mut self, other: Self) {
         *self = *self * other;
     }

@@ -1,13 +1,14 @@
 //! Greedy extraction of common products and common two-term sums from the sums of a network.
 
 use bgdyn_runtime::Dd;
+use smallvec::smallvec;
 
 use super::divisor::{
     DivisorKey, FactorOrNumber, Occurrence, divide, insert, is_product, near, quotient,
     quotient_of, scales,
 };
 use super::divisors::Divisors;
-use super::network::{Network, NetworkTerm, Var, is_unit, product_cost};
+use super::network::{Factors, Network, NetworkTerm, Var, is_unit, product_cost};
 
 /// Largest distance of two terms of a sum that are extracted together; the run time grows with it.
 const WINDOW: usize = 32;
@@ -17,7 +18,7 @@ pub(super) struct Extraction<'a, 'g> {
     network: &'a mut Network<'g>,
     divisors: Divisors,
     /// Two products, as reusable memory.
-    scratch: (Vec<Var>, Vec<Var>),
+    scratch: (Factors, Factors),
     /// The factors of a term, as reusable memory.
     literals: Vec<FactorOrNumber>,
 }
@@ -152,11 +153,11 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 let term = match (a, b) {
                     (FactorOrNumber::Number(k), FactorOrNumber::Factor(f)) => NetworkTerm {
                         k: self.divisors.number(k),
-                        factors: vec![f],
+                        factors: smallvec![f],
                     },
                     (FactorOrNumber::Factor(f), FactorOrNumber::Factor(g)) => NetworkTerm {
                         k: Dd::ONE,
-                        factors: vec![f, g],
+                        factors: smallvec![f, g],
                     },
                     _ => unreachable!("a term has one number"),
                 };
@@ -244,8 +245,8 @@ impl<'a, 'g> Extraction<'a, 'g> {
     /// Extracts a + r b if that saves `bound`; otherwise returns the actual saving.
     fn try_sum(&mut self, id: usize, a: u32, b: u32, r: u32, bound: isize) -> isize {
         let (a, b) = (
-            self.divisors.product(a).to_vec(),
-            self.divisors.product(b).to_vec(),
+            Factors::from_slice(self.divisors.product(a)),
+            Factors::from_slice(self.divisors.product(b)),
         );
         let r = self.divisors.number(r);
         let mut found: Vec<Occurrence> = Vec::new();
