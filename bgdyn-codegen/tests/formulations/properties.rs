@@ -77,7 +77,7 @@ fn speed(state: &State) -> f64 {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 24,
+        cases: 48,
         failure_persistence: None,
         max_shrink_iters: 400,
         ..ProptestConfig::default()

@@ -2,7 +2,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::network::{Factors, Var, is_unit};
+use super::network::{Var, is_unit};
 use crate::expr::index::mix;
 
 /// A divisor: a · b of two factors (or a number and a factor), or a + r b of two products without a common
@@ -65,7 +65,7 @@ pub(super) struct Occurrence {
     pub var: Var,
     pub terms: [usize; 2],
     pub k: Dd,
-    pub rest: Factors,
+    pub rest: Vec<Var>,
 }
 
 /// Returns numbers by which a + r b may be multiplied: so that one of its own factors is 1, or one of its
@@ -93,13 +93,13 @@ pub(super) fn quotient_of(x: Dd, y: Dd) -> Dd {
     }
 }
 
-pub(super) fn insert(factors: &mut Factors, f: Var) {
+pub(super) fn insert(factors: &mut Vec<Var>, f: Var) {
     let at = factors.partition_point(|&g| g <= f);
     factors.insert(at, f);
 }
 
 /// Returns the factors of x and of y without the common ones, and the number of common ones.
-pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Factors, b: &mut Factors) -> usize {
+pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Vec<Var>, b: &mut Vec<Var>) -> usize {
     a.clear();
     b.clear();
     let (mut i, mut j) = (0, 0);
@@ -116,17 +116,17 @@ pub(super) fn divide(x: &[Var], y: &[Var], a: &mut Factors, b: &mut Factors) -> 
             std::cmp::Ordering::Equal => (i, j) = (i + 1, j + 1),
         }
     }
-    a.extend_from_slice(&x[i..]);
-    b.extend_from_slice(&y[j..]);
+    a.extend(&x[i..]);
+    b.extend(&y[j..]);
     x.len() - a.len()
 }
 
 /// Returns x / a, if a divides x.
-pub(super) fn quotient(x: &[Var], a: &[Var]) -> Option<Factors> {
+pub(super) fn quotient(x: &[Var], a: &[Var]) -> Option<Vec<Var>> {
     if !divides(a, x) {
         return None;
     }
-    let (mut rest, mut missing) = (Factors::new(), Factors::new());
+    let (mut rest, mut missing) = (Vec::with_capacity(x.len() - a.len()), Vec::new());
     divide(x, a, &mut rest, &mut missing);
     Some(rest)
 }

@@ -4,16 +4,15 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use bgdyn_runtime::Dd;
-use smallvec::SmallVec;
 
 use super::divisor::{DivisorKey, number_key};
-use super::network::{Factors, Var};
+use super::network::Var;
 use crate::expr::index::{Index, mix};
 
 /// A divisor, with the variables whose sums may contain it.
 struct Divisor {
     key: DivisorKey,
-    occurrences: SmallVec<[Var; 4]>,
+    occurrences: Vec<Var>,
     /// Upper bound of the saving.
     bound: isize,
 }
@@ -25,7 +24,7 @@ pub(super) struct Divisors {
     /// The divisors by their key.
     by_key: Index,
     queue: BinaryHeap<(isize, Reverse<usize>)>,
-    products: Vec<Factors>,
+    products: Vec<Vec<Var>>,
     product_ids: Index,
     numbers: Vec<Dd>,
     number_ids: Index,
@@ -61,7 +60,7 @@ impl Divisors {
                 self.by_key.insert(hash, id as u32);
                 self.all.push(Divisor {
                     key,
-                    occurrences: SmallVec::new(),
+                    occurrences: Vec::new(),
                     bound: cost,
                 });
                 id
@@ -81,7 +80,7 @@ impl Divisors {
     }
 
     /// Returns the variables whose sums may contain it, each once, in order.
-    pub fn occurrences(&mut self, id: usize) -> SmallVec<[Var; 4]> {
+    pub fn occurrences(&mut self, id: usize) -> Vec<Var> {
         let occurrences = &mut self.all[id].occurrences;
         occurrences.sort_unstable();
         occurrences.dedup();
@@ -110,12 +109,12 @@ impl Divisors {
     /// Returns the id of a product of variables.
     pub fn product_id(&mut self, factors: &[Var]) -> u32 {
         let hash = factors.iter().fold(1, |h, &f| mix(h, u64::from(f)));
-        let is_it = |id: u32| self.products[id as usize][..] == *factors;
+        let is_it = |id: u32| self.products[id as usize] == factors;
         if let Some(id) = self.product_ids.find(hash, is_it) {
             return id;
         }
         let id = self.products.len() as u32;
-        self.products.push(Factors::from_slice(factors));
+        self.products.push(factors.to_vec());
         self.product_ids.insert(hash, id);
         id
     }

@@ -1,14 +1,13 @@
 //! Greedy extraction of common products and common two-term sums from the sums of a network.
 
 use bgdyn_runtime::Dd;
-use smallvec::smallvec;
 
 use super::divisor::{
     DivisorKey, FactorOrNumber, Occurrence, divide, insert, is_product, near, quotient,
     quotient_of, scales,
 };
 use super::divisors::Divisors;
-use super::network::{Factors, Network, NetworkTerm, Var, is_unit, product_cost};
+use super::network::{Network, NetworkTerm, Var, is_unit, product_cost};
 
 /// Largest distance of two terms of a sum that are extracted together; the run time grows with it.
 const WINDOW: usize = 32;
@@ -18,7 +17,7 @@ pub(super) struct Extraction<'a, 'g> {
     network: &'a mut Network<'g>,
     divisors: Divisors,
     /// Two products, as reusable memory.
-    scratch: (Factors, Factors),
+    scratch: (Vec<Var>, Vec<Var>),
     /// The factors of a term, as reusable memory.
     literals: Vec<FactorOrNumber>,
 }
@@ -153,11 +152,11 @@ impl<'a, 'g> Extraction<'a, 'g> {
                 let term = match (a, b) {
                     (FactorOrNumber::Number(k), FactorOrNumber::Factor(f)) => NetworkTerm {
                         k: self.divisors.number(k),
-                        factors: smallvec![f],
+                        factors: vec![f],
                     },
                     (FactorOrNumber::Factor(f), FactorOrNumber::Factor(g)) => NetworkTerm {
                         k: Dd::ONE,
-                        factors: smallvec![f, g],
+                        factors: vec![f, g],
                     },
                     _ => unreachable!("a term has one number"),
                 };
@@ -245,8 +244,8 @@ impl<'a, 'g> Extraction<'a, 'g> {
     /// Extracts a + r b if that saves `bound`; otherwise returns the actual saving.
     fn try_sum(&mut self, id: usize, a: u32, b: u32, r: u32, bound: isize) -> isize {
         let (a, b) = (
-            Factors::from_slice(self.divisors.product(a)),
-            Factors::from_slice(self.divisors.product(b)),
+            self.divisors.product(a).to_vec(),
+            self.divisors.product(b).to_vec(),
         );
         let r = self.divisors.number(r);
         let mut found: Vec<Occurrence> = Vec::new();

@@ -1,7 +1,6 @@
 //! A function as a network of sums of products, Σ kᵢ · Π factors, read from the expression graph.
 
 use bgdyn_runtime::Dd;
-use smallvec::{SmallVec, smallvec};
 
 use crate::expr::fold::cancelling_sum;
 use crate::expr::{Graph, Node, NodeId, Signed, reachable};
@@ -9,9 +8,6 @@ use crate::expr::{Graph, Node, NodeId, Signed, reachable};
 /// A value that terms refer to: a node of the graph, or a sum created by the pass, numbered after the last
 /// node.
 pub(super) type Var = u32;
-
-/// The factors of a product. Most have few: they need no memory of their own.
-pub(super) type Factors = SmallVec<[Var; 4]>;
 
 /// The values that are expanded in the terms that read them, although they have other readers.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -28,7 +24,7 @@ pub(super) enum Inline {
 #[derive(Clone, Debug)]
 pub(super) struct NetworkTerm {
     pub k: Dd,
-    pub factors: Factors,
+    pub factors: Vec<Var>,
 }
 
 impl NetworkTerm {
@@ -40,7 +36,7 @@ impl NetworkTerm {
     /// Multiplies by another term; the factors are not sorted.
     fn multiply(&mut self, other: &NetworkTerm) {
         self.k *= other.k;
-        self.factors.extend_from_slice(&other.factors);
+        self.factors.extend(&other.factors);
     }
 }
 
@@ -148,7 +144,7 @@ impl<'a> Network<'a> {
         self.sums[i as usize] = match *node {
             Node::Constant(c) => Some(vec![NetworkTerm {
                 k: c.value(),
-                factors: Factors::new(),
+                factors: Vec::new(),
             }]),
             Node::Add(a, b) => {
                 let second = if b.negative { -Dd::ONE } else { Dd::ONE };
@@ -175,8 +171,8 @@ impl<'a> Network<'a> {
     fn scaled(&self, var: Var, k: Dd) -> NetworkTerm {
         let (k, factors) = match self.sums[var as usize].as_deref() {
             Some([only]) if only.factors.len() <= 1 => (k * only.k, only.factors.clone()),
-            Some([]) => (Dd::ZERO, Factors::new()),
-            _ => (k, smallvec![var]),
+            Some([]) => (Dd::ZERO, Vec::new()),
+            _ => (k, vec![var]),
         };
         NetworkTerm { k, factors }
     }
@@ -308,7 +304,7 @@ impl<'a> Network<'a> {
     fn flat(&mut self, term: &NetworkTerm) -> NetworkTerm {
         let mut made = NetworkTerm {
             k: term.k,
-            factors: Factors::with_capacity(term.factors.len()),
+            factors: Vec::with_capacity(term.factors.len()),
         };
         for &f in &term.factors {
             match self.sums[f as usize].as_deref() {

@@ -1,7 +1,6 @@
 //! Rebuilds an expression graph from sums of products.
 
 use bgdyn_runtime::Dd;
-use smallvec::SmallVec;
 
 use super::network::{Network, NetworkTerm, Var};
 use crate::expr::{Graph, NodeId, Signed};
@@ -100,11 +99,11 @@ impl Rebuild<'_> {
 
     /// Returns the sum of the terms in the order in which their factors are created.
     fn sum(&mut self, terms: &[NetworkTerm]) -> Signed {
-        let mut sorted: Vec<(SmallVec<[Signed; 4]>, Dd)> = terms
+        let mut sorted: Vec<(Vec<Signed>, Dd)> = terms
             .iter()
             .map(|t| {
                 let plus = |&f: &Var| self.at(Signed::plus(NodeId(f)));
-                let mut factors: SmallVec<[Signed; 4]> = t.factors.iter().map(plus).collect();
+                let mut factors: Vec<Signed> = t.factors.iter().map(plus).collect();
                 factors.sort();
                 (factors, t.k)
             })
@@ -114,7 +113,7 @@ impl Rebuild<'_> {
             (last.is_none(), last, factors.len())
         });
         // A positive term comes first, so that the code does not begin with a sign.
-        let added = |(factors, k): &(SmallVec<[Signed; 4]>, Dd)| {
+        let added = |(factors, k): &(Vec<Signed>, Dd)| {
             factors
                 .iter()
                 .fold(*k > Dd::ZERO, |plus, f| plus ^ f.negative)
