@@ -11,7 +11,9 @@
 //! For a function whose accuracy depends on the order of its operations ([`Function::ordered`]), only the
 //! last pass is applied.
 
-use crate::expr::{self, Cost, Graph, Signed};
+use std::collections::HashSet;
+
+use crate::expr::{self, Cost, Graph, NeededNodes, Signed};
 use crate::function::{Considered, Function};
 use crate::split_blocks::{cut, is_cut};
 
@@ -35,9 +37,15 @@ pub fn factor(function: Function) -> Function {
     })
 }
 
-/// Returns the form that costs least after factoring; the first one of equals. A single form is not factored.
+/// Returns the form, in one block, that costs least after factoring; the first one of equals. Forms with the expressions of
+/// an earlier one are left out, and a single form is not factored.
 pub fn cheapest_after_factoring(forms: impl IntoIterator<Item = Function>) -> Option<Function> {
-    let mut forms: Vec<Function> = forms.into_iter().collect();
+    let mut known = HashSet::new();
+    let is_new = |form: &Function| {
+        let needed = NeededNodes::new(&form.graph, &form.blocks[0].outputs);
+        known.insert((form.ordered, needed))
+    };
+    let mut forms: Vec<Function> = forms.into_iter().filter(is_new).collect();
     if forms.len() == 1 {
         return forms.pop();
     }

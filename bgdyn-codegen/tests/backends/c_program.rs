@@ -28,17 +28,18 @@ const FLAGS: [&str; 10] = [
     "-Werror",
 ];
 
-/// Bytes of a C file that is long: compiled by one compiler and not optimised, because that takes minutes otherwise.
-/// With [`all_is_compiled`] no file is long.
-const LONG: usize = 200_000;
+/// Bytes of a C file that is long: compiled by one compiler and not optimised, because that takes minutes otherwise; the
+/// others are optimised a little.
+/// With [`everything`] no file is long.
+const LONG: usize = 60_000;
 
-/// Returns whether the long test asks for everything, optimised, by `BGDYN_ALL_C`.
-pub fn all_is_compiled() -> bool {
-    std::env::var_os("BGDYN_ALL_C").is_some()
+/// Returns whether the long test asks for everything, optimised.
+pub fn everything() -> bool {
+    std::env::var_os("BGDYN_EVERYTHING").is_some()
 }
 
 fn is_long(bytes: usize) -> bool {
-    bytes > LONG && !all_is_compiled()
+    bytes > LONG && !everything()
 }
 
 /// Returns the compilers for these files: all of the machine, or the first one for long ones.
@@ -103,7 +104,11 @@ pub fn build(compiler: &str, folder: &Path, file: &str, main: &str, flags: &[&st
     let size = fs::metadata(folder.join(format!("{file}.c")))
         .expect("a file")
         .len();
-    let level = if is_long(size as usize) { "-O0" } else { "-O2" };
+    let level = match everything() {
+        true => "-O2",
+        false if is_long(size as usize) => "-O0",
+        false => "-O1",
+    };
     let output = Command::new(compiler)
         .current_dir(folder)
         .arg(level)

@@ -10,7 +10,7 @@ use bgdyn_codegen::model::Model;
 use bgdyn_codegen::options::Options;
 use bgdyn_codegen::{bond_graph, read};
 
-use crate::c_program::all_is_compiled;
+use crate::c_program::everything;
 use crate::same_bits::{check, model_of, name, text_of};
 
 /// Derivatives, regressors, directions and derivatives by parameters are compared for up to so many velocities of the open
@@ -50,7 +50,7 @@ fn whole_model(path: &str) -> Model {
     // The functions of other frames are alike.
     let repeats = |m: &Method| m.is_derived() && m.site() > Some(SiteId(0));
     let is_slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
-    let few = SMALL[usize::from(all_is_compiled())];
+    let few = SMALL[usize::from(everything())];
     let fits = |m: &Method| size <= few || !is_slow(m);
     let wanted = |m: &Method| fits(m) && !repeats(m);
     let methods = Method::possible_of(&graph).into_iter().filter(wanted);

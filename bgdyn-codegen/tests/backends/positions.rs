@@ -150,7 +150,7 @@ fn trees() {
         "tests/free_joints/coupled.yaml",
         "specs/scara.yaml",
     ] {
-        let model = model(path, &Options::default());
+        let model = model_of_positions(path);
         check::<f64>(&name(path), &model);
         check::<f32>(&name(path), &model);
     }

@@ -7,6 +7,9 @@ use bgdyn_codegen::files::{beside, stem};
 use bgdyn_codegen::mechanism::Mechanism;
 use bgdyn_codegen::system::SceneEquations;
 
+/// One of so many mechanisms or scenes is compared by tests that do not compare all.
+const ONE_OF: usize = 3;
+
 /// Folders with sound files, relative to the root.
 const FOLDERS: [&str; 13] = [
     "specs",
@@ -47,6 +50,13 @@ fn files(scenes: bool) -> Vec<PathBuf> {
     all.retain(is_one);
     all.sort();
     all
+}
+
+/// Returns one of [`ONE_OF`] of them, from the `first` on; all of them if the long test asks for everything.
+pub fn some_of<T>(all: Vec<T>, first: usize) -> impl Iterator<Item = T> {
+    let everything = std::env::var_os("BGDYN_EVERYTHING").is_some();
+    let step = if everything { 1 } else { ONE_OF };
+    all.into_iter().skip(first.min(step - 1)).step_by(step)
 }
 
 /// Returns the mechanisms with their names.

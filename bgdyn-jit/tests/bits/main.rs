@@ -1,5 +1,5 @@
 //! Tests that machine code has the bits of the evaluator, where the tape's tests compare: every method of the mechanisms
-//! and every function of the scenes in the repository, and random functions, in random states, at large angles, with
+//! and every function of the scenes in the repository (in the usual run of one of three), and random functions, in random states, at large angles, with
 //! refused pivots, NaN and infinities.
 
 #[path = "../../../bgdyn-codegen/tests/tape/agreement.rs"]
@@ -73,7 +73,10 @@ impl Comparison {
 fn methods_of_every_mechanism_have_the_bits_of_the_evaluator() {
     // Every other mechanism with code that is made quickly.
     let part = |mut all: Comparison, first: usize| {
-        for (name, mechanism) in files::mechanisms().into_iter().skip(first).step_by(2) {
+        for (name, mechanism) in files::some_of(files::mechanisms(), 1)
+            .skip(first)
+            .step_by(2)
+        {
             for function in functions(&mechanism, None) {
                 all.compare(&format!("{name}: {}", function.name), &function, None);
             }
@@ -87,10 +90,10 @@ fn methods_of_every_mechanism_have_the_bits_of_the_evaluator() {
         seen.add(quick.join().expect("the other half"));
         seen
     });
-    assert!(seen.functions > 800 && seen.refused > 500, "{seen:?}");
+    assert!(seen.functions > 250 && seen.refused > 150, "{seen:?}");
     assert!(seen.finite > seen.calls / 4, "{seen:?}");
     assert!(
-        seen.cut > 3 && seen.products > 1 && seen.looped > 3,
+        seen.cut > 3 && seen.products > 0 && seen.looped > 1,
         "{seen:?}"
     );
 }
@@ -98,7 +101,7 @@ fn methods_of_every_mechanism_have_the_bits_of_the_evaluator() {
 #[test]
 fn functions_of_every_scene_have_the_bits_of_the_evaluator() {
     let mut all = Comparison::new();
-    for (name, system) in files::scenes() {
+    for (name, system) in files::some_of(files::scenes(), 1) {
         for function in scene_functions(&system) {
             let name = format!("{name}: {}", function.name);
             all.compare(&name, &function, Some(&system));
@@ -106,7 +109,7 @@ fn functions_of_every_scene_have_the_bits_of_the_evaluator() {
     }
     all.assert_seldom_by_tape();
     let seen = all.seen;
-    assert!(seen.functions > 300 && seen.refused > 20, "{seen:?}");
+    assert!(seen.functions > 100 && seen.refused > 5, "{seen:?}");
     seen.assert_has(&KINDS);
 }
 

@@ -1,12 +1,14 @@
 //! Finds the cheapest plans of the recursion for each method, once per mechanism.
 
+use std::collections::HashMap;
+
 use super::expressions::outputs;
 use super::geometry::Geometry;
 use super::plan::{MomentaPlan, Plan};
 use super::plan_search::{BestPlan, Tried};
 use super::{centroidal, derivatives, plan_search};
 use crate::bond_graph::Multibody;
-use crate::expr::{self, Builder, Cost, factored_cost};
+use crate::expr::{self, Builder, Cost, NeededNodes, factored_cost};
 use crate::formulation::Prepared;
 use crate::method::Method;
 
@@ -82,9 +84,14 @@ fn search_plans(prepared: &Prepared<'_>, method: Method, momenta: MomentaPlan) -
         }
     }
     if candidates.len() > 1 {
-        let after =
-            |tried: &Tried| cost_after_factoring(graph, geometry, method, &tried.plan).weighted();
-        candidates.sort_by_cached_key(after);
+        // Many plans give the same expressions: these are factored once.
+        let mut costs: HashMap<NeededNodes, usize> = HashMap::new();
+        candidates.sort_by_cached_key(|tried| {
+            let (graph, outputs) = outputs(Builder::silent(), graph, geometry, method, &tried.plan);
+            let needed = NeededNodes::new(&graph, &outputs);
+            let cost = || factored_cost(graph, outputs).weighted();
+            *costs.entry(needed).or_insert_with(cost)
+        });
     }
     best.plans.splice(..0, candidates);
     best
