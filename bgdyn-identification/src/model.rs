@@ -1,5 +1,6 @@
 //! What is identified: links and joints with the numbers of the file, and what gives the rows of their regressor.
 
+pub use bgdyn_runtime::JOINT_COLUMNS;
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 /// Parameters of a body.
@@ -8,8 +9,6 @@ pub const BODY_PARAMETERS: usize = 10;
 pub const PARAMETER_NAMES: [&str; BODY_PARAMETERS] = [
     "m", "mx", "my", "mz", "Ixx", "Ixy", "Iyy", "Ixz", "Iyz", "Izz",
 ];
-/// Names of the columns of a joint, in order.
-pub const JOINT_COLUMNS: [&str; 4] = ["rotor", "viscous", "coulomb", "offset"];
 /// Coulomb friction in [`JOINT_COLUMNS`].
 pub const COULOMB: usize = 2;
 
@@ -148,10 +147,5 @@ pub const SIGN_WIDTH: f64 = 1e-3;
 
 /// Returns the columns of a joint, in the order of [`JOINT_COLUMNS`]: a, v, sign v (smoothed), 1.
 pub fn joint_columns(v: f64, a: f64) -> [f64; 4] {
-    joint_columns_within(v, a, SIGN_WIDTH)
-}
-
-/// Returns the same with another width of the sign.
-pub fn joint_columns_within(v: f64, a: f64, width: f64) -> [f64; 4] {
-    [a, v, (v / width).tanh(), 1.0]
+    bgdyn_runtime::joint_columns(v, a, SIGN_WIDTH)
 }

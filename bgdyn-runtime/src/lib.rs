@@ -45,6 +45,7 @@ mod dynamics;
 mod float;
 pub mod inertia;
 mod joint;
+mod joint_columns;
 #[cfg(feature = "wide")]
 mod lanes;
 mod log_cholesky;
@@ -76,6 +77,7 @@ pub use description::{Coriolis, Derivatives, Description, Frame, JointGroups, Ki
 pub use dual::DualPart;
 pub use dynamics::Dynamics;
 pub use joint::{Limits, Motion, QuasiJoint, QuasiJointKind};
+pub use joint_columns::{JOINT_COLUMNS, joint_columns};
 #[cfg(feature = "wide")]
 pub use lanes::LaneSingular;
 pub use log_cholesky::LogCholesky;

@@ -19,6 +19,9 @@ const ENTRIES: [(&str, usize, usize); 6] = [
     ("yz", 1, 2),
 ];
 
+/// A product of inertia below this part of its moments is a rounding error of a zero.
+const ROUNDING: f64 = 1e-13;
+
 /// A spec with numbers found.
 pub(crate) struct Written(String);
 
@@ -86,7 +89,9 @@ fn in_spec(p: &Parameters) -> Parameters {
     own[0] = mass;
     own.fixed_rows_mut::<3>(1).copy_from(&c);
     for (at, (_, i, k)) in ENTRIES.iter().enumerate() {
-        own[4 + at] = tensor[(*i, *k)];
+        let rounding = ROUNDING * (tensor[(*i, *i)] + tensor[(*k, *k)]);
+        let entry = tensor[(*i, *k)];
+        own[4 + at] = if entry.abs() < rounding { 0.0 } else { entry };
     }
     own
 }

@@ -17,6 +17,7 @@ mod golden_specs;
 mod graph;
 mod identify;
 mod identify_logs;
+mod identify_writes;
 mod import;
 mod joints;
 mod loops;

@@ -3,7 +3,8 @@
 use bgdyn::Scalar;
 use bgdyn::nalgebra::{Matrix3, Matrix4, SMatrix, SVector, Vector3};
 use bgdyn::runtime::{
-    Argument, Dd, Pose, inertia, inner_products, manifold, matrix, mirror, rotation, vector,
+    Argument, Dd, LogCholesky, Pose, inertia, inner_products, joint_columns, manifold, matrix,
+    mirror, rotation, vector,
 };
 
 /// Functions that must not panic, and `all`, which keeps them in the program and returns their number.
@@ -83,6 +84,10 @@ macro_rules! scalar {
                 rotate(j: &Matrix3<T>, r: &Matrix3<T>) -> Matrix3<T> = inertia::rotate(j, r);
                 pseudo_inertia(j: &Matrix3<T>) -> Matrix3<T> = inertia::pseudo_inertia(j);
                 from_pseudo_inertia(d: &Matrix3<T>) -> Matrix3<T> = inertia::from_pseudo_inertia(d);
+                to_parameters(x: &LogCholesky<T>) -> SVector<T, 10> = x.to_parameters();
+                from_parameters(p: &SVector<T, 10>) -> LogCholesky<T> = LogCholesky::from_parameters(p);
+                by_numbers(x: &LogCholesky<T>) -> SMatrix<T, 10, 10> = x.jacobian();
+                columns_of_joint(v: T, a: T, w: T) -> [T; 4] = joint_columns(v, a, w);
                 transform_point(x: &Pose<T>, p: &Vector3<T>) -> Vector3<T> = x.transform_point(p);
                 transform_vector(x: &Pose<T>, v: &Vector3<T>) -> Vector3<T> = x.transform_vector(v);
                 transform_twist(x: &Pose<T>, v: &SVector<T, 6>) -> SVector<T, 6> = x.transform_twist(v);
