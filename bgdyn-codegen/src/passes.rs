@@ -42,6 +42,7 @@ pub fn factor(function: Function) -> Function {
 pub fn cheapest_after_factoring(forms: impl IntoIterator<Item = Function>) -> Option<Function> {
     let mut known = HashSet::new();
     let is_new = |form: &Function| {
+        debug_assert!(form.blocks.len() == 1 && form.loops.is_none());
         let needed = NeededNodes::new(&form.graph, &form.blocks[0].outputs);
         known.insert((form.ordered, needed))
     };

@@ -11,8 +11,7 @@ pub const JOINT_COLUMNS: [&str; 4] = ["rotor", "viscous", "coulomb", "offset"];
 /// zero in the rows of all other joints.
 ///
 /// `v` and `a` are velocity and acceleration of the joint, in rad/s and rad/s² or m/s and m/s². `width` is w, the speed at
-/// which the smoothed sign is 76 % of 1, greater than 0, in the unit of `v`. Nothing is checked: numbers that are not
-/// finite give results that are not.
+/// which the smoothed sign is 76 % of 1, greater than 0, in the unit of `v`. Nothing is checked.
 ///
 /// ```
 /// use bgdyn_runtime::joint_columns;

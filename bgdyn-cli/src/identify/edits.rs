@@ -43,14 +43,7 @@ impl<'a> Edits<'a> {
 
     /// Adds the comment of a number at the end of a line.
     pub(super) fn comment(&mut self, at: usize, number: NewNumber) {
-        let end = self.text[at..]
-            .find('\n')
-            .map_or(self.text.len(), |n| at + n);
-        let end = if self.text[..end].ends_with('\r') {
-            end - 1
-        } else {
-            end
-        };
+        let end = end_of_line(self.text, at);
         self.comments.entry(end).or_default().push(number);
     }
 
@@ -59,7 +52,7 @@ impl<'a> Edits<'a> {
         self.replaced.push((bytes, text));
     }
 
-    /// Returns the text with all changes.
+    /// Returns the text with all changes; new lines end as the first line of the text.
     pub(super) fn apply(mut self) -> String {
         for (end, numbers) in std::mem::take(&mut self.comments) {
             let line = self.text[..end].rsplit('\n').next().unwrap_or("");
@@ -75,14 +68,25 @@ impl<'a> Edits<'a> {
         }
         self.replaced
             .sort_by_key(|(range, _)| (range.start, range.end));
+        let returns = self.text[..self.text.find('\n').unwrap_or(0)].ends_with('\r');
         let (mut text, mut at) = (String::new(), 0);
         for (range, new) in self.replaced {
             text += &self.text[at..range.start];
-            text += &new;
+            text += &if returns {
+                new.replace('\n', "\r\n")
+            } else {
+                new
+            };
             at = range.end;
         }
         text + &self.text[at..]
     }
+}
+
+/// Returns where the line of a byte ends, before its `\r\n` or `\n`.
+pub(super) fn end_of_line(text: &str, at: usize) -> usize {
+    let end = text[at..].find('\n').map_or(text.len(), |n| at + n);
+    end - usize::from(text[..end].ends_with('\r'))
 }
 
 /// Returns `± 0.08; was 3.2286; mostly from the file`.

@@ -5,7 +5,7 @@ use bgdyn_identification::{Identification, pseudo_inertia::to_centre};
 use nalgebra::SMatrix;
 
 use super::IdentifiedMachine;
-use super::edits::{Edits, NewNumber, digits, written};
+use super::edits::{Edits, NewNumber, digits, end_of_line, written};
 use super::json::number;
 use super::spans::{Place, PlaceShape, spans};
 
@@ -217,9 +217,7 @@ impl Writer<'_> {
         }
         let line = self.text[..start].rfind('\n').map_or(0, |n| n + 1);
         let indent = " ".repeat(self.text[line..start].chars().count());
-        let end = self.text[end..]
-            .find('\n')
-            .map_or(self.text.len(), |n| end + n);
+        let end = end_of_line(self.text, end);
         self.edits.text(
             end..end,
             format!("\n{indent}{key}: {value} # was not given"),
@@ -296,9 +294,7 @@ impl Writer<'_> {
                 let start = place.bytes.start;
                 let line = self.text[..start].rfind('\n').map_or(0, |n| n + 1);
                 let indent = " ".repeat(start - line);
-                let at = self.text[place.bytes.end..]
-                    .find('\n')
-                    .map_or(end, |n| place.bytes.end + n);
+                let at = end_of_line(self.text, place.bytes.end);
                 let text = new.iter().map(|line| format!("\n{indent}{line}")).collect();
                 self.edits.text(at..at, text);
                 self.edits.text(end..end, format!("{gap}{remarks}"));

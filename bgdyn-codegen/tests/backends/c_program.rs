@@ -28,9 +28,8 @@ const FLAGS: [&str; 10] = [
     "-Werror",
 ];
 
-/// Bytes of a C file that is long: compiled by one compiler and not optimised, because that takes minutes otherwise; the
-/// others are optimised a little.
-/// With [`everything`] no file is long.
+/// Bytes of a C file that is long: compiled by one compiler and not optimised, because that takes minutes otherwise. The
+/// others are optimised by `-O1`. With [`everything`] no file is long, and all are optimised by `-O2`.
 const LONG: usize = 60_000;
 
 /// Returns whether the long test asks for everything, optimised.

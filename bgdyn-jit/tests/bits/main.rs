@@ -1,6 +1,6 @@
 //! Tests that machine code has the bits of the evaluator, where the tape's tests compare: every method of the mechanisms
-//! and every function of the scenes in the repository (in the usual run of one of three), and random functions, in random states, at large angles, with
-//! refused pivots, NaN and infinities.
+//! and every function of the scenes in the repository (one of three of them in the usual run), and random functions, in
+//! random states, at large angles, with refused pivots, NaN and infinities.
 
 #[path = "../../../bgdyn-codegen/tests/tape/agreement.rs"]
 mod agreement;

@@ -2,6 +2,7 @@
 
 #[path = "../exact/mod.rs"]
 mod exact;
+mod joint_columns;
 mod log_cholesky;
 mod pose;
 mod products;
