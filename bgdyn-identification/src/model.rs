@@ -145,7 +145,13 @@ impl Model<'_> {
 /// The speed at which the smoothed sign is 76 % of 1, rad/s or m/s.
 pub const SIGN_WIDTH: f64 = 1e-3;
 
-/// Returns [`bgdyn_runtime::joint_columns`] with the width [`SIGN_WIDTH`].
+/// Returns the columns of a joint, in the order of [`JOINT_COLUMNS`]: a, v, sign v (smoothed), 1.
 pub fn joint_columns(v: f64, a: f64) -> [f64; 4] {
-    bgdyn_runtime::joint_columns(v, a, SIGN_WIDTH)
+    joint_columns_within(v, a, SIGN_WIDTH)
+}
+
+/// Returns the same with another width of the sign: [`bgdyn_runtime::joint_columns`] with the `tanh` of the standard
+/// library, on whose last bit it depends in which maximum the search for a motion ends.
+pub fn joint_columns_within(v: f64, a: f64, width: f64) -> [f64; 4] {
+    [a, v, (v / width).tanh(), 1.0]
 }

@@ -7,6 +7,7 @@ use super::series::State;
 use crate::base::Base;
 use crate::model::{
     BODY_PARAMETERS, COULOMB, JOINT_COLUMNS, Model, SIGN_WIDTH, Unknown, joint_columns,
+    joint_columns_within,
 };
 
 /// Weight of the logarithms of the columns' sizes in the objective. Scaled columns do not depend on sizes: a small motion
@@ -141,7 +142,7 @@ impl<'a> Information<'a> {
         let mut rows = &sample.rows * &self.of_bodies;
         let state = &sample.state;
         for &(i, column, j) in &self.of_joints {
-            rows[(j, i)] = bgdyn_runtime::joint_columns(state.v[j], state.a[j], widths[j])[column];
+            rows[(j, i)] = joint_columns_within(state.v[j], state.a[j], widths[j])[column];
         }
         rows
     }

@@ -2,9 +2,6 @@
 
 use super::series::{FourierSeries, PeriodicMotion, State};
 
-/// A motion that is scaled to a limit stays below it by this share: no rounding of its coefficients exceeds it.
-const BELOW: f64 = 1e-12;
-
 /// Limits of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointLimits {
@@ -41,14 +38,14 @@ impl JointLimits {
         ]
     }
 
-    /// Returns the factor of the motion about the centre with which it touches the first limit, less a share of 1e-12.
+    /// Returns the factor of the motion about the centre with which it touches the first limit.
     pub fn room(&self, series: &FourierSeries, frequency: f64) -> f64 {
         let [q, v, a] = series.extremes(frequency);
         let up = (self.position[1] - series.centre) / (q[1] - series.centre);
         let down = (series.centre - self.position[0]) / (series.centre - q[0]);
         let fast = self.speed / v[1].max(-v[0]);
         let steep = self.acceleration / a[1].max(-a[0]);
-        up.min(down).min(fast).min(steep) * (1.0 - BELOW)
+        up.min(down).min(fast).min(steep)
     }
 }
 

@@ -13,6 +13,9 @@ use crate::fault::{LogFault, short};
 const CENTRES: usize = 40;
 /// Halvings in the search for the largest motion that planes and efforts permit.
 const HALVINGS: usize = 12;
+/// The motion that is found stays below the limits that it touches by this share: no rounding of its coefficients exceeds
+/// them.
+const BELOW: f64 = 1e-12;
 /// Random motions begin the ascent with this share of their size: inside the limits.
 const INSIDE: f64 = 0.97;
 /// Weights of the barriers, one after the other.
@@ -147,7 +150,7 @@ fn improved(
         ascents.push(ascent.values);
     }
     let valued = |motion: PeriodicMotion| {
-        let motion = within(objective, motion, SAMPLES)?;
+        let motion = within(objective, motion, SAMPLES)?.scaled(1.0 - BELOW);
         Some((value_of(objective, &motion)?, motion))
     };
     let (ascended, start) = (valued(objective.shape.motion(&x)), valued(start.clone()));
