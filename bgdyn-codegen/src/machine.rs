@@ -3,7 +3,8 @@
 use bgdyn_runtime::Dd;
 
 use crate::declaration::{
-    Declaration, EffectKinds, NameScope, RejectedEffects, check_unique_names, parse_declaration,
+    Declaration, EachOf, EffectKinds, NameScope, RejectedEffects, check_unique_names,
+    parse_declaration,
 };
 use crate::fault::{Faults, wording};
 use crate::format::Spec;
@@ -106,8 +107,12 @@ fn effects(
     }
     let all = mechanism.one_degree_names();
     let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    let each_of = EachOf {
+        joints: &all,
+        contacts: mechanism.contact_pairs(),
+    };
     let each = found.iter().cloned();
-    let each: Vec<Declaration> = each.flat_map(|d| d.of_each_joint(&all, faults)).collect();
+    let each: Vec<Declaration> = each.flat_map(|d| d.of_each(&each_of, faults)).collect();
     let mut context = NameScope::of(mechanism, Vec::new()).with(each.iter());
     context.refused = refused;
     check_unique_names(&each, mechanism, faults);

@@ -43,6 +43,12 @@ pub enum Dimension {
     AngularDamping,
     /// Effort per square of a speed, N·s²/m².
     QuadraticDamping,
+    /// Force per power 3/2 of a length, N/m^1.5.
+    ContactStiffness,
+    /// Inverse of a speed, s/m.
+    InverseSpeed,
+    /// Inverse of a length, 1/m.
+    InverseLength,
     /// Voltage, V.
     Voltage,
     /// Current, A.
@@ -119,7 +125,7 @@ const fn per_turn(text: &'static str, exponent: i32) -> Unit {
 }
 
 /// All units; a dimension's SI unit is first.
-static UNITS: [Unit; 62] = [
+static UNITS: [Unit; 67] = [
     unit("m", Dimension::Length, 0),
     unit("cm", Dimension::Length, -2),
     unit("mm", Dimension::Length, -3),
@@ -156,6 +162,11 @@ static UNITS: [Unit; 62] = [
     unit("N*s/m", Dimension::Damping, 0),
     unit("N*m*s/rad", Dimension::AngularDamping, 0),
     unit("N*s^2/m^2", Dimension::QuadraticDamping, 0),
+    unit("N/m^1.5", Dimension::ContactStiffness, 0),
+    unit("kN/m^1.5", Dimension::ContactStiffness, 3),
+    unit("s/m", Dimension::InverseSpeed, 0),
+    unit("1/m", Dimension::InverseLength, 0),
+    unit("1/mm", Dimension::InverseLength, 3),
     unit("V", Dimension::Voltage, 0),
     unit("mV", Dimension::Voltage, -3),
     unit("A", Dimension::Current, 0),
@@ -241,6 +252,9 @@ impl fmt::Display for Dimension {
             Dimension::Damping => "a damping",
             Dimension::AngularDamping => "an angular damping",
             Dimension::QuadraticDamping => "a quadratic damping",
+            Dimension::ContactStiffness => "a stiffness of a contact",
+            Dimension::InverseSpeed => "an inverse speed",
+            Dimension::InverseLength => "an inverse length",
             Dimension::Voltage => "a voltage",
             Dimension::Current => "a current",
             Dimension::Resistance => "a resistance",

@@ -38,7 +38,7 @@ impl Chart {
         unfolding: &mut Unfolding<'_>,
     ) {
         let chart = self;
-        let (mut lines, mut sites, mut loops) = (0, 0, 0);
+        let (mut lines, mut sites, mut loops, mut contacts) = (0, 0, 0, 0);
         for port in network.ports.iter().filter(|p| !p.coordinates.is_empty()) {
             let own = unfolding.ports_of(port.junction);
             let (name, symbol, partial, all) = match &port.site {
@@ -64,6 +64,12 @@ impl Chart {
                     let n = subscript(loops);
                     let name = format!("loop {name}, rad/s and m/s");
                     (name, format!("ċ{n}"), format!("∂c{n}/∂q"), &mut chart.loops)
+                }
+                PortSite::Contact(name) => {
+                    contacts += 1;
+                    let n = subscript(contacts);
+                    let name = format!("contact {name}, m/s");
+                    (name, format!("γ{n}"), format!("J{n} of γ{n}"), &mut chart.sites)
                 }
             };
             let names = chart.velocities.iter().map(|v| v.name.as_str());

@@ -1,6 +1,6 @@
 //! Friction and rotors that a spec declares.
 
-use bgdyn_codegen::declaration::Declaration;
+use bgdyn_codegen::declaration::{Declaration, EachOf};
 use bgdyn_codegen::fault::Faults;
 use bgdyn_codegen::format::ParsedValue;
 use bgdyn_codegen::machine::Machine;
@@ -71,11 +71,15 @@ pub(crate) fn effect_numbers(effects: &[Declaration]) -> Vec<EffectNumber> {
 pub(crate) fn of_each_joint(machine: &Machine) -> Vec<Declaration> {
     let all = machine.mechanism.one_degree_names();
     let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    let each = EachOf {
+        joints: &all,
+        contacts: machine.mechanism.contact_pairs(),
+    };
     // The check of the machine has reported what is wrong with them.
     let mut reported = Faults::default();
     let effects = machine.effects.iter().cloned();
     effects
-        .flat_map(|effect| effect.of_each_joint(&all, &mut reported))
+        .flat_map(|effect| effect.of_each(&each, &mut reported))
         .collect()
 }
 

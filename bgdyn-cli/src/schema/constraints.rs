@@ -1,8 +1,8 @@
-//! Schemas of loops, constraints and planes.
+//! Schemas of loops, constraints, planes and contacts.
 
 use bgdyn_codegen::format::{Dimension, Key};
 use bgdyn_codegen::mechanism::closure::CLOSING_TYPES;
-use bgdyn_codegen::mechanism::{PLANE_KEYS, constraint_types};
+use bgdyn_codegen::mechanism::{CONTACT_KEYS, PLANE_KEYS, constraint_types};
 use serde_json::{Value, json};
 
 use super::effects::reads;
@@ -24,11 +24,22 @@ pub(super) fn constraints() -> Value {
 
 /// Returns an entry of `planes`.
 pub(super) fn plane() -> Value {
-    let keys = PLANE_KEYS.iter();
+    entry(&PLANE_KEYS)
+}
+
+/// Returns an entry of `contacts`.
+pub(super) fn contact() -> Value {
+    entry(&CONTACT_KEYS)
+}
+
+/// Returns a mapping with these keys.
+fn entry(all: &[Key]) -> Value {
+    let keys = all.iter();
     let keys: Vec<_> = keys
         .map(|key| (key.name, described(key.about, reads(key.reads))))
         .collect();
-    object(&keys, &[])
+    let needed = all.iter().filter(|key| key.needed).map(|key| key.name);
+    object(&keys, &needed.collect::<Vec<_>>())
 }
 
 /// Returns an entry of `loops`.

@@ -33,11 +33,12 @@ fn keys(effect: &dyn Effect) -> Value {
     let keys = keys.map(|key| (key.name, described(key.about, reads(key.reads))));
     let needed = declared.iter().filter(|key| key.needed);
     let needed: Vec<&str> = needed.map(|key| key.name).collect();
-    // `joints` may replace `joint`.
-    let others: Vec<&str> = needed.iter().copied().filter(|n| *n != "joint").collect();
+    // `joints` may replace `joint`, and `contacts` `contact`.
+    let replaced = |key: &str| matches!(key, "joint" | "contact");
+    let others: Vec<&str> = needed.iter().copied().filter(|n| !replaced(n)).collect();
     let mut found = object(&keys.chain([word]).collect::<Vec<_>>(), &others);
-    if others.len() < needed.len() {
-        found["oneOf"] = json!([{ "required": ["joint"] }, { "required": ["joints"] }]);
+    if let Some(one) = needed.iter().find(|n| replaced(n)) {
+        found["oneOf"] = json!([{ "required": [one] }, { "required": [format!("{one}s")] }]);
     }
     found
 }
@@ -50,9 +51,10 @@ pub(super) fn reads(reads: Reads) -> Value {
         | Reads::Joint
         | Reads::Site
         | Reads::Plane
+        | Reads::Contact
         | Reads::Node
         | Reads::Input => identifier(),
-        Reads::Joints => {
+        Reads::Joints | Reads::Contacts => {
             json!({ "anyOf": [{ "const": "all" }, { "type": "array", "items": identifier() }] })
         }
         Reads::Sites => {

@@ -4,7 +4,7 @@ use bgdyn_codegen::format::{Dimension, LENGTHS, LIMIT_PARTS};
 use bgdyn_codegen::mechanism::joint::JOINT_TYPES;
 use serde_json::{Value, json};
 
-use super::constraints::{closing, constraints, place, plane};
+use super::constraints::{closing, constraints, contact, place, plane};
 use super::effects::effects;
 use super::parts::{
     axis, described, file, identifier, object, origin, quantity, text, triple, value,
@@ -62,9 +62,18 @@ pub fn mechanism() -> Value {
                 "planes",
                 json!({
                     "type": "object",
-                    "description": "planes that wheels and balls touch, by name; without one the world's x–y plane",
+                    "description": "planes that wheels, balls and contacts touch, by name; without one the world's x–y plane",
                     "propertyNames": identifier(),
                     "additionalProperties": { "$ref": "#/$defs/plane" },
+                }),
+            ),
+            (
+                "contacts",
+                json!({
+                    "type": "object",
+                    "description": "spheres, capsules and boxes that may touch a plane or a sphere, by name",
+                    "propertyNames": identifier(),
+                    "additionalProperties": { "$ref": "#/$defs/contact" },
                 }),
             ),
             (
@@ -116,6 +125,7 @@ pub fn mechanism() -> Value {
             "effect": effects(),
             "constraint": constraints(),
             "plane": plane(),
+            "contact": contact(),
             "loop": closing(),
             "place": place(),
         }),

@@ -38,6 +38,8 @@ pub struct BondNetwork {
     followers: Vec<(String, Vec<(String, String)>)>,
     /// The coordinates that move each site.
     movers: BTreeMap<String, BTreeSet<CoordinateId>>,
+    /// The links of each contact, without the world.
+    contacts: BTreeMap<String, Vec<String>>,
     pressures: BTreeMap<String, NodePressure>,
     /// Names of the coordinates with a drive.
     driven: BTreeSet<String>,
@@ -55,6 +57,7 @@ impl BondNetwork {
             velocities: Vec::new(),
             followers: Vec::new(),
             movers: BTreeMap::new(),
+            contacts: BTreeMap::new(),
             pressures: BTreeMap::new(),
             driven: BTreeSet::new(),
             at: None,
@@ -84,6 +87,12 @@ impl BondNetwork {
     /// Names a joint that follows others, and those with the texts of the ratios; an effect on it adds its junction.
     pub fn follow(&mut self, joint: &str, leaders: Vec<(String, String)>) {
         self.followers.push((joint.to_owned(), leaders));
+    }
+
+    /// Names a contact and its links, without the world; an effect at it adds its junction.
+    pub fn touch(&mut self, contact: &str, links: &[&str]) {
+        let links = links.iter().map(|link| (*link).to_owned());
+        self.contacts.insert(contact.to_owned(), links.collect());
     }
 
     /// Adds the flow source of a prescribed joint to the junction of its velocity.
@@ -266,6 +275,12 @@ impl BondNetwork {
             PortSite::Line([a, b]) => of(a).symmetric_difference(&of(b)).copied().collect(),
             PortSite::Site(name) => of(name),
             PortSite::Loop(_) => BTreeSet::new(),
+            PortSite::Contact(name) => {
+                let links = self.contacts.get(name).into_iter().flatten();
+                links.fold(BTreeSet::new(), |moved, link| {
+                    moved.symmetric_difference(&of(link)).copied().collect()
+                })
+            }
         };
         self.add_port(site, coordinates)
     }

@@ -156,6 +156,8 @@ pub enum PortSite {
     Site(String),
     /// A loop: its flow is the velocity of place b relative to place a, rad/s and m/s.
     Loop(String),
+    /// A contact: its flow is the velocity of the sphere relative to its partner at the contact point, m/s.
+    Contact(String),
 }
 
 /// The flow at a site, with the transformers from the velocities that move it.

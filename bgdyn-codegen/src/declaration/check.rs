@@ -189,8 +189,10 @@ fn known<'a>(
             own.map(String::as_str).chain(followers).collect()
         }
         Reads::Site | Reads::Sites => context.sites.names().iter().map(String::as_str).collect(),
+        Reads::Contact => context.contacts.iter().map(String::as_str).collect(),
         Reads::Node => context.nodes.iter().map(String::as_str).collect(),
         Reads::Joints
+        | Reads::Contacts
         | Reads::Input
         | Reads::Number(_)
         | Reads::Vector(_)
@@ -235,6 +237,7 @@ fn unknown(
     let what = match key.reads {
         Reads::Coordinate | Reads::Joint => "moving joint",
         Reads::Site | Reads::Sites => "link or frame",
+        Reads::Contact => "contact",
         Reads::Node => "hydraulic node",
         _ => "choice",
     };

@@ -90,6 +90,7 @@ impl Element {
                 | Reads::Coordinate
                 | Reads::Joint
                 | Reads::Site
+                | Reads::Contact
                 | Reads::Node
                 | Reads::Input
         );
@@ -162,6 +163,11 @@ impl Element {
         self.effect.joint_key().and_then(|key| self.name(key))
     }
 
+    /// Returns the contact that it acts at; `None` if it acts elsewhere.
+    pub fn contact(&self) -> Option<&str> {
+        self.effect.contact_key().and_then(|key| self.name(key))
+    }
+
     /// Returns the two sites along whose line it acts; `None` if it acts elsewhere.
     pub fn ends(&self) -> Option<&[String; 2]> {
         let mut keys = self.effect.keys().iter();
@@ -210,6 +216,11 @@ impl dyn EffectKind + '_ {
     pub fn joint_key(&self) -> Option<&'static Key> {
         let mut keys = self.keys().iter();
         keys.find(|key| matches!(key.reads, Reads::Coordinate | Reads::Joint))
+    }
+
+    /// Returns its key for the contact that it acts at; `None` if it acts elsewhere.
+    pub fn contact_key(&self) -> Option<&'static Key> {
+        self.keys().iter().find(|key| key.reads == Reads::Contact)
     }
 }
 

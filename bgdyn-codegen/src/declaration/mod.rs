@@ -4,9 +4,9 @@
 
 mod check;
 mod declared;
+mod each;
 mod element;
 mod given;
-mod joints;
 mod kinds;
 mod lookup;
 mod once;
@@ -16,8 +16,8 @@ mod scope;
 mod series;
 
 pub use declared::Declaration;
+pub use each::{EachOf, keys_declared};
 pub use element::{EffectKind, Element, ElementValue, Quantity, SceneContext, ValueCheck};
-pub use joints::keys_declared;
 pub use kinds::EffectKinds;
 pub(crate) use lookup::undeclared;
 pub(crate) use once::once_per_joint;

@@ -1,6 +1,6 @@
 //! Parses the effects that a mechanism's file declares, and those that a scene includes.
 
-use super::joints::keys_declared;
+use super::each::keys_declared;
 use super::{Declaration, EffectKind, EffectKinds};
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Fields, Key, Located, Raw, Reads};

@@ -29,6 +29,8 @@ pub struct NameScope {
     pub prescribed: Vec<String>,
     /// Links and frames.
     pub(crate) sites: SiteOrigins,
+    /// Contacts.
+    pub contacts: Vec<String>,
     /// Hydraulic nodes.
     pub nodes: Vec<String>,
     /// The names that refused effects may have defined.
@@ -89,6 +91,9 @@ impl NameScope {
             locked,
             prescribed: mechanism.prescribed_names(),
             sites: SiteOrigins::new(mechanism),
+            contacts: (mechanism.contact_pairs().iter())
+                .map(|pair| pair.name.clone())
+                .collect(),
             nodes: Vec::new(),
             refused: RejectedEffects::default(),
         }

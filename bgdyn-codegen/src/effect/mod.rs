@@ -9,6 +9,7 @@ mod law;
 mod nodes;
 mod slip;
 
+mod contact;
 mod coulomb;
 mod coulomb_smooth;
 mod damper;
@@ -34,7 +35,7 @@ use crate::declaration::{EffectKind, EffectKinds, Element};
 pub use law::Effect;
 
 /// All effects.
-pub static EFFECTS: [&dyn Effect; 28] = [
+pub static EFFECTS: [&dyn Effect; 29] = [
     &gravity::Gravity,
     &inertia::LinkInertia,
     &velocity_products::VelocityProducts,
@@ -47,6 +48,7 @@ pub static EFFECTS: [&dyn Effect; 28] = [
     &orientation_spring::OrientationSpring,
     &damper::Damper,
     &stop::Stop,
+    &contact::CompliantContact,
     &series_elastic::SeriesElastic,
     &gear::GearEffect,
     &rotor::RotorEffect,

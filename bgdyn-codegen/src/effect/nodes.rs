@@ -33,6 +33,13 @@ pub(super) fn site(element: &Element, network: &mut BondNetwork) -> GraphNodeId 
     network.port(PortSite::Site(name))
 }
 
+/// Returns the 1-junction of the relative velocity at the element's contact.
+pub(super) fn contact(element: &Element, network: &mut BondNetwork) -> GraphNodeId {
+    let name = element.contact();
+    let name = name.unwrap_or_else(|| undeclared(element, "port", "contact"));
+    network.port(PortSite::Contact(name.to_owned()))
+}
+
 /// Adds a resistor or a compliance at the element's port.
 pub(super) fn add_at_port(
     element: &Element,

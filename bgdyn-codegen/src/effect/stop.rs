@@ -190,7 +190,7 @@ fn one_side<'g>(
 }
 
 /// Returns μ, s/m or s/rad: the damping for the restitution e, 0 < e ≤ 1, of an impact at `speed`.
-fn damping(restitution: Dd, speed: Dd) -> Dd {
+pub(super) fn damping(restitution: Dd, speed: Dd) -> Dd {
     let two = Dd::from_f64(2.0);
     let ratio = (Dd::ONE - restitution) / (Dd::ONE + restitution);
     two * inverse_langevin(ratio) / ((Dd::ONE + restitution) * speed)

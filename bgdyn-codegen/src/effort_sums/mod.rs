@@ -1,6 +1,7 @@
 //! The sums on the junctions of one scene: the arguments of the effects' laws, and the terms that laws add.
 
 mod attitude;
+mod contact_motion;
 mod gear;
 mod gears;
 mod loops;
@@ -25,6 +26,7 @@ use crate::scene::{Level, Scene};
 
 pub use attitude::Attitude;
 pub(crate) use attitude::angular_velocity;
+pub use contact_motion::ContactMotion;
 pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
 pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};
@@ -66,6 +68,9 @@ pub struct EffortSums<'g, 'a> {
     conditions: Vec<Condition<'g>>,
     shared: BTreeMap<(String, &'static str), Expr<'g>>,
     poses: BTreeMap<SiteId, (Mat3<Expr<'g>>, Vec3<Expr<'g>>)>,
+    jacobians: BTreeMap<SiteId, Vec<[Expr<'g>; 6]>>,
+    /// Moment and force of contacts at the origins of links, world axes.
+    wrenches: BTreeMap<SiteId, [Expr<'g>; 6]>,
 }
 
 impl<'g, 'a> EffortSums<'g, 'a> {
@@ -113,6 +118,8 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             conditions: Vec::new(),
             shared: BTreeMap::new(),
             poses: BTreeMap::new(),
+            jacobians: BTreeMap::new(),
+            wrenches: BTreeMap::new(),
         };
         sums.push_drives_of_dependents();
         sums

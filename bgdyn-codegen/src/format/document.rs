@@ -30,8 +30,10 @@ pub struct Spec {
     pub frames: Field<Vec<FrameSpec>>,
     /// The constraints, by name, not parsed.
     pub constraints: Field<Vec<Raw>>,
-    /// The planes that wheels touch, by name, not parsed.
+    /// The planes that wheels and other contacts touch, by name, not parsed.
     pub planes: Field<Vec<Raw>>,
+    /// The pairs that may touch, by name, not parsed.
+    pub contacts: Field<Vec<Raw>>,
     /// The loops; entries that are no mapping are omitted.
     pub loops: Field<Vec<LoopSpec>>,
     /// Joints that follow no others, although constraints or loops contain them.

@@ -35,6 +35,7 @@ impl Reader {
             "frames",
             "constraints",
             "planes",
+            "contacts",
             "loops",
             "independent",
             "actuated",
@@ -74,6 +75,7 @@ impl Reader {
                 let what = expected::PLANES;
                 r.table(at, what)
             }),
+            contacts: self.field(&map, "contacts", |r, at| r.table(at, expected::CONTACTS)),
             loops: self.field(&map, "loops", |r, at| {
                 let what = expected::LOOPS;
                 let all = r.list(at, what)?;

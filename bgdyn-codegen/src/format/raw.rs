@@ -50,6 +50,10 @@ pub enum Reads {
     Axis,
     /// The name of a plane.
     Plane,
+    /// The name of a contact.
+    Contact,
+    /// `all`, or a list of names of contacts.
+    Contacts,
     /// Some of these words.
     Words(&'static [&'static str]),
     /// Names of joints, each with a number of one of these dimensions.

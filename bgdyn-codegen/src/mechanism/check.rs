@@ -2,6 +2,7 @@
 
 mod base;
 mod constraint;
+mod contact_pairs;
 mod direction;
 mod inertia;
 mod joint;
@@ -23,6 +24,7 @@ use crate::math::Vec3;
 use base::{at_rest, base_is_given, base_link};
 use constraint::Row;
 pub use constraint::constraint_types;
+pub use contact_pairs::CONTACT_KEYS;
 use direction::Directions;
 pub(crate) use inertia::check_tensor;
 use joint::CheckedJoints;
@@ -125,14 +127,21 @@ fn checked(
             snapped: None,
             parallel,
             closure: None,
+            contact_pairs: Vec::new(),
         };
         mechanism.number();
         if let Some(locked) = locked {
             mechanism = locked.lock(&mechanism);
         }
         let start = locked.map(|locked| locked.start(&mechanism));
-        let entries = (spec, &constraints.contacts[..], start);
-        loops::close(entries, &mut mechanism, &directions, faults)?;
+        let tree = Tree::new(mechanism.links(), mechanism.frames());
+        let context = (spec, tree, &directions);
+        let planes = loops::planes(spec, (tree, &directions), faults);
+        let pairs = contact_pairs::contact_pairs(context, &planes, faults);
+        let entries = (&constraints.contacts[..], &planes, start);
+        loops::close((spec, entries), &mut mechanism, &directions, faults)?;
+        mechanism.contact_pairs = pairs?;
+        contact_pairs::refuse_constant(spec, &mechanism, faults);
         mechanism.snapped = directions.into_snapped();
         Some(mechanism)
     };

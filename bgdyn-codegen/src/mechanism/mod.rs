@@ -6,6 +6,7 @@
 mod base_motion;
 mod check;
 pub mod closure;
+mod contact_pair;
 mod degrees;
 mod dependents;
 mod id;
@@ -28,9 +29,10 @@ use crate::fault::Location;
 use crate::math::{Mat3, Vec3};
 pub use base_motion::{BASE_PARAMETERS, BaseMotion, base_parameter_names};
 pub(crate) use check::check;
-pub use check::{PLANE_KEYS, constraint_types};
+pub use check::{CONTACT_KEYS, PLANE_KEYS, constraint_types};
 pub(crate) use check::{check_locked, check_tensor};
 use closure::Closure;
+pub use contact_pair::{ContactPair, ContactPartner, ContactSphere};
 pub use degrees::{Coupling, Degrees, Leader};
 pub use dependents::DependentVelocity;
 pub use id::{CoordinateId, LinkId, ParameterId, PositionId};
@@ -201,6 +203,7 @@ pub struct Mechanism {
     snapped: Option<Snapped>,
     parallel: Vec<ParallelLoop>,
     closure: Option<Closure>,
+    contact_pairs: Vec<ContactPair>,
 }
 
 impl Mechanism {

@@ -22,8 +22,7 @@ pub(crate) struct SiteOrigins {
 impl SiteOrigins {
     /// Returns those of a mechanism: links first, then frames.
     pub(crate) fn new(mechanism: &Mechanism) -> Self {
-        let free = mechanism.released();
-        let poses: [Vec<Pose>; POSITIONS] = std::array::from_fn(|k| link_poses(&free, k));
+        let poses = Self::sampled_poses(mechanism);
         let links = mechanism.links().iter().enumerate();
         let links = links.map(|(i, link)| {
             let origins = std::array::from_fn(|k| poses[k][i].translation);
@@ -36,6 +35,12 @@ impl SiteOrigins {
         });
         let (names, origins) = links.chain(frames).unzip();
         SiteOrigins { names, origins }
+    }
+
+    /// Returns the poses of the links in the world at each sampled position.
+    pub(crate) fn sampled_poses(mechanism: &Mechanism) -> [Vec<Pose>; POSITIONS] {
+        let free = mechanism.released();
+        std::array::from_fn(|k| link_poses(&free, k))
     }
 
     /// Returns the names.

@@ -29,7 +29,7 @@ impl SceneEquations {
         sites.any(|port| {
             let mut bonds = network.bonds_at(port.junction);
             let is_own = |node: usize| network.nodes[node].element == Some(element);
-            matches!(port.site, PortSite::Site(_))
+            matches!(port.site, PortSite::Site(_) | PortSite::Contact(_))
                 && bonds.any(|(_, bond)| is_own(bond.other(port.junction).0))
         })
     }

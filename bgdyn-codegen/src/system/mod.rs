@@ -311,6 +311,9 @@ fn network(scene: &Scene, graph: &BondGraph) -> BondNetwork {
     if let Some(closed) = &graph.closed {
         network.close(&closed.closure);
     }
+    for pair in scene.mechanism.contact_pairs() {
+        network.touch(&pair.name, &scene.mechanism.contact_links(&pair.name));
+    }
     for (at, element) in scene.elements.iter().enumerate() {
         network.begin(at);
         effect::of(element).elements(element, &scene.elements, &mut network);

@@ -56,6 +56,7 @@ pub(super) fn summed_under<'g, 'a>(
         b.section(|| format!("{}: {}", element.name, element.effect.summary()));
         effect::of(element).law(element, &mut sums);
     }
+    sums.push_wrenches();
     for (i, drive) in scene.drives.iter().enumerate() {
         if let InputSource::IntegralRate(of) = drive {
             let state = integral_name(&scene.layout.inputs[*of].name);

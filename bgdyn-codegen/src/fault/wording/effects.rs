@@ -172,20 +172,36 @@ pub(crate) fn unknown_reference(
     Fault::new(location, "unknown-name", message).with_help(format!("`{key}`: {about}"))
 }
 
-pub(crate) fn joint_and_joints(location: &Location, effect: &str) -> Fault {
-    let message = format!("`{effect}` has both `joint` and `joints`");
-    Fault::new(location, "effect-joints", message).with_help("keep one of them")
+/// `keys` are those of one and of several: `joint`, `joints`.
+pub(crate) fn one_and_several(location: &Location, effect: &str, keys: [&'static str; 2]) -> Fault {
+    let [one, several] = keys;
+    let message = format!("`{effect}` has both `{one}` and `{several}`");
+    Fault::new(location, rule_of(several), message).with_help("keep one of them")
 }
 
-pub(crate) fn joint_listed_twice(location: &Location, joint: &str) -> Fault {
-    let message = format!("the joint `{joint}` is in the list twice");
-    Fault::new(location, "effect-joints", message).with_help("leave one of them out")
+pub(crate) fn listed_twice(location: &Location, key: &'static str, name: &str) -> Fault {
+    let one = key.trim_end_matches('s');
+    let message = format!("the {one} `{name}` is in the list twice");
+    Fault::new(location, rule_of(key), message).with_help("leave one of them out")
 }
 
-pub(crate) fn joints_of_wrong_kind(location: &Location) -> Fault {
-    let message = "`joints` is neither `all` nor a list of joints";
-    Fault::new(location, "effect-joints", message)
-        .with_help("write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`")
+pub(crate) fn list_of_wrong_kind(location: &Location, key: &'static str) -> Fault {
+    let message = format!("`{key}` is neither `all` nor a list of {key}");
+    let help = match key {
+        "contacts" => {
+            "write `contacts: all`, `contacts: [left_foot, right_foot]` or `contact: left_foot`"
+        }
+        _ => "write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`",
+    };
+    Fault::new(location, rule_of(key), message).with_help(help)
+}
+
+/// Returns the rule on a key of several joints or contacts.
+fn rule_of(key: &str) -> &'static str {
+    match key {
+        "contacts" => "effect-contacts",
+        _ => "effect-joints",
+    }
 }
 
 // Names that effects define

@@ -16,6 +16,10 @@ pub(crate) const CONSTRAINTS: Wanted<'static> =
     ("constraints by name", "`name: { type: gear, … }`");
 pub(crate) const PLANES: Wanted<'static> =
     ("planes by name", "`ground: { normal: z, offset: 0 m }`");
+pub(crate) const CONTACTS: Wanted<'static> = (
+    "contacts by name",
+    "`foot: { link: shank, at: [0, 0, -0.2], radius: 18 mm, on: ground }`",
+);
 pub(crate) const LOOPS: Wanted<'static> = (
     "a list of loops",
     "each loop after a dash: `- { name: …, type: hinge, … }`",
@@ -115,6 +119,10 @@ pub(crate) const ORIENTATION: Wanted<'static> = ("an orientation", "`{ rpy: [0, 
 pub(crate) const INTEGRATION: Wanted<'static> = (
     "how the scene is run",
     "`{ method: rk4, step: 1 ms, end: 5 s }`",
+);
+pub(crate) const CONTACT: Wanted<'static> = (
+    "a contact's keys",
+    "`{ link: shank, radius: 18 mm, on: ground }`",
 );
 pub(crate) const PLANE: Wanted<'static> = ("a plane's keys", "`{ normal: z, offset: 0 m }`");
 

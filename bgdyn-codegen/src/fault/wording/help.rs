@@ -41,6 +41,12 @@ pub enum Help {
     RestitutionIsPositive,
     /// An impact would give back more than it took.
     RestitutionAboveOne,
+    /// A scene without this contact leaves the effect out.
+    ContactIsOptional,
+    /// Contact without friction has none of these keys.
+    ContactWithoutFriction,
+    /// An impact has a speed.
+    SpeedOfImpact,
     /// The joint moves between its stops.
     JointIsBetweenStops,
     /// Without a spring nothing connects the drive with its joint.
@@ -96,6 +102,11 @@ impl Help {
                 "no damping takes all the speed from an impact: write a small one, 0.01"
             }
             Help::RestitutionAboveOne => "an impact would give back more than it took",
+            Help::ContactIsOptional => "a scene without this contact leaves the effect out",
+            Help::ContactWithoutFriction => {
+                "a contact without friction has none of `kinetic`, `width` and `bristles`"
+            }
+            Help::SpeedOfImpact => "write the speed at which the restitution was measured",
             Help::JointIsBetweenStops => "the joint moves between its stops",
             Help::SpringIsNeeded => "without a spring nothing connects the drive with its joint",
             Help::RotorIsNeeded => {

@@ -30,16 +30,17 @@ impl Reader {
             | Reads::Joint
             | Reads::Site
             | Reads::Plane
+            | Reads::Contact
             | Reads::Node
             | Reads::Input => self.text(at).map(ParsedValue::Text),
             Reads::Vector(fit) => self
                 .vector(at, fit)
                 .map(|v| ParsedValue::Vector(Box::new(v))),
             Reads::Axis => self.axis(at).map(|v| ParsedValue::Vector(Box::new(v))),
-            Reads::Joints if !matches!(at.tree.data, Data::List(_)) => {
+            Reads::Joints | Reads::Contacts if !matches!(at.tree.data, Data::List(_)) => {
                 self.text(at).map(ParsedValue::Text)
             }
-            Reads::Words(_) | Reads::Joints => {
+            Reads::Words(_) | Reads::Joints | Reads::Contacts => {
                 self.names_list(at, expected::WORDS).map(ParsedValue::Words)
             }
             Reads::Group(names, fit) => self.group(at, names, fit).map(ParsedValue::Group),

@@ -2,8 +2,8 @@
 
 use super::super::causality::chains;
 use crate::declaration::{
-    Chain, Declaration, EffectKinds, Element, NameScope, RejectedEffects, SceneContext, TYPE,
-    check_unique_names, once_per_joint, resolve_call,
+    Chain, Declaration, EachOf, EffectKinds, Element, NameScope, RejectedEffects, SceneContext,
+    TYPE, check_unique_names, once_per_joint, resolve_call,
 };
 use crate::fault::{Faults, wording};
 use crate::format::{Field, Raw, SceneSpec};
@@ -139,7 +139,7 @@ pub(super) fn alone(spec: &SceneSpec, kinds: &EffectKinds, faults: &mut Faults) 
 }
 
 /// Returns the effects of a scene, each once, with their values in this scene. An effect on several joints
-/// is expanded to one per joint; the word "all" means the joints in `single`.
+/// or contacts is expanded to one for each; the word "all" means the joints in `single`.
 fn wanted(
     spec: &SceneSpec,
     (whole, kinds, single): (&Machine, &EffectKinds, &[&str]),
@@ -147,10 +147,14 @@ fn wanted(
     faults: &mut Faults,
 ) -> Vec<Declaration> {
     let mut wanted: Vec<Declaration> = Vec::new();
+    let each_of = EachOf {
+        joints: single,
+        contacts: whole.mechanism.contact_pairs(),
+    };
     for raw in given(&spec.effects) {
         let before = faults.count();
         let called = resolve_call(raw, &whole.effects, kinds, faults).into_iter();
-        let each = called.flat_map(|declared| declared.of_each_joint(single, faults));
+        let each = called.flat_map(|declared| declared.of_each(&each_of, faults));
         let each: Vec<Declaration> = each.collect();
         if each.is_empty() && faults.count() > before {
             refused.call(raw, &whole.effects, kinds);

@@ -11,10 +11,12 @@ use crate::mechanism::{LinkId, Mechanism};
 pub(super) fn places(scene: &Scene, faults: &mut Faults) -> bool {
     let before = faults.count();
     for element in &scene.elements {
-        let found = sites(element).into_iter().find_map(|site| {
-            let joint = moved_by(&scene.mechanism, site)?;
-            Some((site, joint))
-        });
+        let found = sites(element, &scene.mechanism)
+            .into_iter()
+            .find_map(|site| {
+                let joint = moved_by(&scene.mechanism, site)?;
+                Some((site, joint))
+            });
         if let Some((site, joint)) = found {
             let effect = (element.name.as_str(), element.effect.keyword());
             let fault = wording::effect_beyond_prescribed(&element.location, effect, site, joint);
@@ -25,10 +27,14 @@ pub(super) fn places(scene: &Scene, faults: &mut Faults) -> bool {
 }
 
 /// Returns the places at which the efforts of an effect act. A payload becomes part of a link, a rotor of a joint.
-fn sites(element: &Element) -> Vec<&str> {
+fn sites<'a>(element: &'a Element, mechanism: &'a Mechanism) -> Vec<&'a str> {
     match element.effect.keyword() {
         "payload" | "rotor" => vec![],
-        _ => element.sites(),
+        _ => {
+            let contact = element.contact().map(|name| mechanism.contact_links(name));
+            let links = contact.into_iter().flatten();
+            element.sites().into_iter().chain(links).collect()
+        }
     }
 }
 

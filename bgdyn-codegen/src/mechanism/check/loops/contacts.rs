@@ -5,12 +5,10 @@ use bgdyn_runtime::Dd;
 use super::placed::Context;
 use super::planes;
 use super::read::ReadLoop;
-use super::tree::{Tree, path, step};
+use super::tree::{Tree, find_site, path, step};
 use crate::fault::{Faults, wording};
-use crate::format::Located;
 use crate::math::Vec3;
 use crate::mechanism::check::constraint::{ContactEntry, ContactKind, RollingSize, Slip};
-use crate::mechanism::check::direction::Directions;
 use crate::mechanism::closure::{
     Closure, ContactRow, ContactShape, DISC, DISC_ROWS, EDGE_ROWS, ELLIPSOID, KNIFE_EDGE,
     KinematicLoop, LoopChain, PlaneContact, SPHERE, SPHERE_ROWS,
@@ -31,7 +29,7 @@ pub(super) fn read(
     faults: &mut Faults,
 ) -> Option<ReadLoop> {
     let (_, tree, directions) = context;
-    let (link, pose) = site(&entry.at, tree, faults)?;
+    let (link, pose) = find_site(&entry.at, tree, faults)?;
     let on = match &entry.kind {
         ContactKind::Edge { .. } => None,
         ContactKind::Rolling { on, .. } => on.as_ref(),
@@ -117,28 +115,6 @@ fn rows(slip: Slip) -> Vec<(&'static str, ContactRow)> {
         _ => true,
     };
     DISC_ROWS.into_iter().filter(kept).collect()
-}
-
-/// Returns link and pose of a link or a frame.
-fn site(
-    name: &Located<String>,
-    tree: Tree<'_>,
-    faults: &mut Faults,
-) -> Option<(Option<LinkId>, Pose)> {
-    let mut frames = tree.frames().iter();
-    if let Some(frame) = frames.find(|frame| frame.name == name.value) {
-        return Some((frame.link, frame.origin));
-    }
-    let mut links = tree.links().iter();
-    let found = links.position(|link| !link.hidden && link.name == name.value);
-    if found.is_none() {
-        let links = tree.links().iter().filter(|link| !link.hidden);
-        let links = links.map(|link| link.name.as_str());
-        let frames = tree.frames().iter().map(|frame| frame.name.as_str());
-        let known: Vec<&str> = links.chain(frames).collect();
-        faults.push(wording::unknown_site(&name.location, &name.value, &known));
-    }
-    Some((Some(LinkId(found?)), Directions::identity()))
 }
 
 /// Moves the place of a wheel to the link that carries its axle, as long as joints are rotations about it: then their

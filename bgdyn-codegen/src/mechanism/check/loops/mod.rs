@@ -40,9 +40,10 @@ mod structure;
 mod tree;
 
 pub(super) use parallel::parallel_loops;
+pub(super) use placed::Context;
 pub use planes::PLANE_KEYS;
-
-pub(super) use tree::Tree;
+pub(super) use planes::{Planes, plane, planes};
+pub(super) use tree::{Tree, find_site, path};
 
 use super::constraint::ContactEntry;
 use super::direction::Directions;
@@ -52,9 +53,12 @@ use crate::mechanism::closure::{ChainStep, Closure, KinematicLoop};
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, PositionId};
 
 /// Closes the loops of a numbered open tree. `None` if a rule is broken. The search for a closed position begins at
-/// `start`, or where all joints are at zero.
+/// `start`, or where all joints are at zero. `planes` are those of the file.
 pub(super) fn close(
-    (spec, entries, start): (&Spec, &[ContactEntry], Option<Vec<bgdyn_runtime::Dd>>),
+    (spec, (entries, planes, start)): (
+        &Spec,
+        (&[ContactEntry], &Planes<'_>, Option<Vec<bgdyn_runtime::Dd>>),
+    ),
     mechanism: &mut Mechanism,
     directions: &Directions,
     faults: &mut Faults,
@@ -63,13 +67,12 @@ pub(super) fn close(
     let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
     let specs = specs.iter().filter(|one| !one.is_parallel());
     let context = (spec, Tree::of(mechanism), directions);
-    let planes = planes::planes(context, faults);
     let loops = specs.map(|one| read::read(one, context, faults));
     let mut read: Vec<Option<read::ReadLoop>> = loops.collect();
     read.extend(
         entries
             .iter()
-            .map(|one| contacts::read(one, (context, &planes), faults)),
+            .map(|one| contacts::read(one, (context, planes), faults)),
     );
     let read: Vec<read::ReadLoop> = read.into_iter().collect::<Option<_>>()?;
     if faults.count() > before {

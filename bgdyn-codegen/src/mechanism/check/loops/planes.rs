@@ -1,12 +1,12 @@
-//! Reads the planes that wheels touch.
+//! Reads the planes that wheels and other contacts touch.
 
 use bgdyn_runtime::Dd;
 
-use super::placed::{Context, turn_to_axis};
-use super::tree::find_link;
+use super::placed::turn_to_axis;
+use super::tree::{Tree, find_link};
 use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
-use crate::format::{Dimension, Key, Located, ParsedValue, Raw, Reads, check_unit};
+use crate::format::{Dimension, Key, Located, ParsedValue, Raw, Reads, Spec, check_unit};
 use crate::math::Vec3;
 use crate::mechanism::check::direction::Directions;
 use crate::mechanism::{LinkId, Pose};
@@ -34,20 +34,24 @@ const LINK: Key = Key {
 };
 
 /// A plane: its link, and a place on it with z along its normal.
-pub(super) type Plane = (Option<LinkId>, Pose);
+pub(in crate::mechanism::check) type Plane = (Option<LinkId>, Pose);
 
 /// The planes of the file by name; `None` for one that breaks a rule.
-pub(super) type Planes<'a> = Vec<(&'a str, Option<Plane>)>;
+pub(in crate::mechanism::check) type Planes<'a> = Vec<(&'a str, Option<Plane>)>;
 
 /// Reads the planes of the file, also those that nothing touches.
-pub(super) fn planes<'a>(context: Context<'a>, faults: &mut Faults) -> Planes<'a> {
-    let raws = context.0.planes.value().map_or(&[][..], Vec::as_slice);
-    let named = |raw: &'a Raw| (raw.name.value.as_str(), read(raw, context, faults));
+pub(in crate::mechanism::check) fn planes<'a>(
+    spec: &'a Spec,
+    of: (Tree<'_>, &Directions),
+    faults: &mut Faults,
+) -> Planes<'a> {
+    let raws = spec.planes.value().map_or(&[][..], Vec::as_slice);
+    let named = |raw: &'a Raw| (raw.name.value.as_str(), read(raw, of, faults));
     raws.iter().map(named).collect()
 }
 
 /// Returns the plane of this name; the world's x–y plane for none.
-pub(super) fn plane(
+pub(in crate::mechanism::check) fn plane(
     name: Option<&Located<String>>,
     planes: &Planes<'_>,
     faults: &mut Faults,
@@ -65,14 +69,18 @@ pub(super) fn plane(
     }
 }
 
-fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
+fn read(
+    raw: &Raw,
+    (tree, directions): (Tree<'_>, &Directions),
+    faults: &mut Faults,
+) -> Option<Plane> {
     let what = expected::PLANE;
     let fields = raw.fields(what, &PLANE_KEYS, faults)?;
     let link = match fields.get(&LINK) {
         Some(Located {
             value: ParsedValue::Text(name),
             location,
-        }) => find_link(name, location, context.1, faults),
+        }) => find_link(name, location, tree, faults),
         _ => Some(None),
     };
     let up = Vec3([Dd::ZERO, Dd::ZERO, Dd::ONE]);
@@ -85,7 +93,7 @@ fn read(raw: &Raw, context: Context<'_>, faults: &mut Faults) -> Option<Plane> {
                 value: (**vector).clone(),
                 location: location.clone(),
             };
-            context.2.axis(&axis, faults)
+            directions.axis(&axis, faults)
         }
         _ => Some(up),
     };

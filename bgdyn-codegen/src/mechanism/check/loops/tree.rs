@@ -3,8 +3,9 @@
 use bgdyn_runtime::Dd;
 
 use crate::fault::{Faults, Location, wording};
+use crate::format::Located;
 use crate::mechanism::closure::ChainStep;
-use crate::mechanism::{Frame, Link, LinkId, Mechanism};
+use crate::mechanism::{Frame, Link, LinkId, Mechanism, Pose};
 use crate::name::WORLD;
 
 /// Links and frames.
@@ -25,7 +26,7 @@ impl<'a> Tree<'a> {
         Self::new(mechanism.links(), mechanism.frames())
     }
 
-    pub(super) fn links(self) -> &'a [Link] {
+    pub(in crate::mechanism::check) fn links(self) -> &'a [Link] {
         self.links
     }
 
@@ -63,8 +64,34 @@ pub(super) fn find_link(
     Some(Some(LinkId(found?)))
 }
 
+/// Returns link and pose of a link or a frame.
+pub(in crate::mechanism::check) fn find_site(
+    name: &Located<String>,
+    tree: Tree<'_>,
+    faults: &mut Faults,
+) -> Option<(Option<LinkId>, Pose)> {
+    let mut frames = tree.frames().iter();
+    if let Some(frame) = frames.find(|frame| frame.name == name.value) {
+        return Some((frame.link, frame.origin));
+    }
+    let mut links = tree.links().iter();
+    let found = links.position(|link| !link.hidden && link.name == name.value);
+    if found.is_none() {
+        let links = tree.links().iter().filter(|link| !link.hidden);
+        let links = links.map(|link| link.name.as_str());
+        let frames = tree.frames().iter().map(|frame| frame.name.as_str());
+        let known: Vec<&str> = links.chain(frames).collect();
+        faults.push(wording::unknown_site(&name.location, &name.value, &known));
+    }
+    Some((Some(LinkId(found?)), Pose::IDENTITY))
+}
+
 /// Returns the links whose joints lead from place a to place b, and whether each is passed outward.
-pub(super) fn path(tree: Tree<'_>, a: Option<LinkId>, b: Option<LinkId>) -> Vec<(LinkId, bool)> {
+pub(in crate::mechanism::check) fn path(
+    tree: Tree<'_>,
+    a: Option<LinkId>,
+    b: Option<LinkId>,
+) -> Vec<(LinkId, bool)> {
     let to_base = |mut link: Option<LinkId>| {
         let mut all = Vec::new();
         while let Some(l) = link {

@@ -1,0 +1,109 @@
+//! The normal force of Hunt and Crossley 1975 with the exponent of Hertz: λ = k δ^{3/2} (1 + μ δ̇) ≥ 0 at the depth δ.
+//!
+//! It stores (2/5) k δ^{5/2}; the resistor takes (λ − k δ^{3/2}) δ̇ ≥ 0, also where λ is cut off at 0 because the surfaces
+//! part faster than they spring back. μ is (3/2) d, or follows from a restitution at an impact speed, as for stops: the
+//! equation between them does not depend on the exponent.
+
+use bgdyn_runtime::Dd;
+
+use super::super::stop;
+use crate::declaration::{Element, ValueCheck};
+use crate::effort_sums::EffortSums;
+use crate::expr::Expr;
+use crate::fault::{Help, wording};
+use crate::format::{Dimension, Key, Reads};
+
+pub(super) const STIFFNESS: Key = Key {
+    name: "stiffness",
+    reads: Reads::Number(&[Dimension::ContactStiffness]),
+    needed: true,
+    about: "k, the normal force at a depth δ is k δ^(3/2)",
+};
+pub(super) const DAMPING: Key = Key {
+    name: "damping",
+    reads: Reads::Number(&[Dimension::InverseSpeed]),
+    needed: false,
+    about: "d: the force has the factor 1 + (3/2) d δ̇; or `restitution` and `impact_speed`",
+};
+pub(super) const RESTITUTION: Key = Key {
+    name: "restitution",
+    reads: Reads::Number(&[Dimension::One]),
+    needed: false,
+    about: "e, speed after an impact to the speed before it, instead of `damping`",
+};
+pub(super) const IMPACT_SPEED: Key = Key {
+    name: "impact_speed",
+    reads: Reads::Number(&[Dimension::Speed]),
+    needed: false,
+    about: "the speed of the impact that has this restitution",
+};
+
+/// The least depth of which a root is taken, m: smaller than any depth, so that the root has a derivative.
+const LEAST: f64 = 1e-30;
+
+/// The normal force.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct NormalForce<'g> {
+    /// λ, N.
+    pub(super) force: Expr<'g>,
+    /// k δ^{3/2}, N.
+    pub(super) elastic: Expr<'g>,
+    /// ∂/∂δ of it, N/m.
+    pub(super) slope: Expr<'g>,
+    /// k δ^{3/2} (1 + μ δ̇), N: negative where the surfaces part faster than they spring back.
+    pub(super) follows: Expr<'g>,
+    /// Stored energy, J.
+    pub(super) stored: Expr<'g>,
+    /// Dissipated power, W.
+    pub(super) dissipated: Expr<'g>,
+}
+
+/// Checks the numbers of the law.
+pub(super) fn check(check: &mut ValueCheck<'_>) {
+    check.fixed(&[RESTITUTION, IMPACT_SPEED]);
+    check.positive(&[STIFFNESS], Help::ContactIsOptional);
+    check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
+    check.positive(&[RESTITUTION], Help::RestitutionIsPositive);
+    check.at_most_one(&RESTITUTION, Help::RestitutionAboveOne);
+    check.positive(&[IMPACT_SPEED], Help::SpeedOfImpact);
+    let [damping, restitution, speed] =
+        [DAMPING, RESTITUTION, IMPACT_SPEED].map(|key| check.number(&key).is_some());
+    if damping && (restitution || speed) || restitution != speed {
+        check.report(wording::damping_or_restitution(
+            &check.element.location,
+            &check.element.name,
+        ));
+    }
+}
+
+/// Returns the normal force at a gap, m, that changes at a rate, m/s.
+pub(super) fn force<'g>(
+    element: &Element,
+    sums: &EffortSums<'g, '_>,
+    (gap, rate): (Expr<'g>, Expr<'g>),
+) -> NormalForce<'g> {
+    let zero = sums.b.zero();
+    let depth = (-gap).max(zero);
+    let root = (-gap).max(sums.b.number(LEAST)).sqrt();
+    let slope = sums.number(element, &STIFFNESS) * root;
+    let (elastic, slope) = (slope * depth, slope * Dd::from_f64(1.5));
+    let factor = sums.b.number(1.0) - damping(element, sums) * rate;
+    let force = elastic * factor.max(zero);
+    NormalForce {
+        force,
+        elastic,
+        slope,
+        follows: elastic * factor,
+        stored: elastic * depth * (Dd::from_f64(2.0) / Dd::from_f64(5.0)),
+        dissipated: (elastic - force) * rate,
+    }
+}
+
+/// Returns μ, s/m.
+fn damping<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
+    let value = |key| element.quantity(key).map(|q| q.value);
+    match (value(&RESTITUTION), value(&IMPACT_SPEED)) {
+        (Some(restitution), Some(speed)) => sums.b.constant(stop::damping(restitution, speed)),
+        _ => sums.number(element, &DAMPING) * Dd::from_f64(1.5),
+    }
+}
