@@ -69,7 +69,12 @@ impl Chart {
                     contacts += 1;
                     let n = subscript(contacts);
                     let name = format!("contact {name}, m/s");
-                    (name, format!("γ{n}"), format!("J{n} of γ{n}"), &mut chart.sites)
+                    (
+                        name,
+                        format!("γ{n}"),
+                        format!("J{n} of γ{n}"),
+                        &mut chart.sites,
+                    )
                 }
             };
             let names = chart.velocities.iter().map(|v| v.name.as_str());

@@ -265,7 +265,7 @@ const HEAD: &str = "# Effects
 
 What a [scene](scenes.md) can call for. Each effect is an element of the bond graph: a store (`I`, `C`), a resistor (`R`), a gyrator or transformer (`GY`, `TF`, `MTF`), a source (`Se`, `Sf`). The figures show it on its junction, and what it does to one mechanism: an arm that turns under gravity and carries a sled on a slide, for two seconds, from 0.5 rad and 0.05 m at 0.6 m/s. Inputs that a caller would give are 4 in their unit, a valve is open by a fifth; the hydraulic elements act together, as one circuit with a cylinder on the slide. The cost is what the scene's `derivative` takes more than without the effect.
 
-Equations, sources and refused values in detail: [friction](effects/friction.md), [springs, dampers, stops](effects/springs.md), [drives](effects/drives.md)MORE.
+Equations, sources and refused values in detail: [friction](effects/friction.md), [springs, dampers, stops](effects/springs.md), [contact](effects/contact.md), [drives](effects/drives.md)MORE.
 
 What none of them costs where a scene does not call for it is tested byte for byte (`cargo test -p bgdyn-codegen --test scenes zero`). For your own scene: `bgdyn ops SCENE --per-effect`.
 
