@@ -138,8 +138,13 @@ fn checked(
         let context = (spec, tree, &directions);
         let planes = loops::planes(spec, (tree, &directions), faults);
         let pairs = contact_pairs::contact_pairs(context, &planes, faults);
-        let entries = (&constraints.contacts[..], &planes, start);
-        loops::close((spec, entries), &mut mechanism, &directions, faults)?;
+        let entries = loops::ClosedEntries {
+            spec,
+            contacts: &constraints.contacts,
+            planes: &planes,
+            start,
+        };
+        loops::close(entries, &mut mechanism, &directions, faults)?;
         mechanism.contact_pairs = pairs?;
         contact_pairs::refuse_constant(spec, &mechanism, faults);
         mechanism.snapped = directions.into_snapped();

@@ -6,7 +6,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::{LinkId, Mechanism, Pose};
+use super::{LinkId, Pose};
 use crate::math::Vec3;
 
 /// A sphere on a link; a point if its radius is 0.
@@ -55,24 +55,4 @@ pub struct ContactPair {
     pub sphere: ContactSphere,
     /// What it may touch.
     pub partner: ContactPartner,
-}
-
-impl Mechanism {
-    /// Returns the pairs that may touch, in the file's order.
-    pub fn contact_pairs(&self) -> &[ContactPair] {
-        &self.contact_pairs
-    }
-
-    /// Returns the pair with this name.
-    pub fn contact_pair(&self, name: &str) -> Option<&ContactPair> {
-        self.contact_pairs.iter().find(|pair| pair.name == name)
-    }
-
-    /// Returns the names of the links of the pair with this name, without the world.
-    pub fn contact_links(&self, name: &str) -> Vec<&str> {
-        let pair = self.contact_pair(name).into_iter();
-        let links = pair.flat_map(|pair| [pair.sphere.link, pair.partner.link()]);
-        let named = |LinkId(i): LinkId| self.links[i].name.as_str();
-        links.flatten().map(named).collect()
-    }
 }

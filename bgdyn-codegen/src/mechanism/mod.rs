@@ -7,6 +7,7 @@ mod base_motion;
 mod check;
 pub mod closure;
 mod contact_pair;
+mod contacts;
 mod degrees;
 mod dependents;
 mod id;

@@ -117,7 +117,7 @@ fn read(
             key,
         ));
     }
-    let mut reader = Reader {
+    let mut reader = ContactReader {
         fields: &fields,
         context,
         faults,
@@ -167,13 +167,13 @@ fn read(
 }
 
 /// Reads the keys of one entry.
-struct Reader<'a> {
+struct ContactReader<'a> {
     fields: &'a Fields,
     context: Context<'a>,
     faults: &'a mut Faults,
 }
 
-impl Reader<'_> {
+impl ContactReader<'_> {
     /// Returns link and pose of the link or frame that a key names.
     fn site(&mut self, key: &Key) -> Option<(Option<LinkId>, Pose)> {
         let entry = self.fields.get(key)?;

@@ -52,17 +52,31 @@ use crate::format::Spec;
 use crate::mechanism::closure::{ChainStep, Closure, KinematicLoop};
 use crate::mechanism::{CoordinateId, LinkId, Mechanism, Motion, PositionId};
 
-/// Closes the loops of a numbered open tree. `None` if a rule is broken. The search for a closed position begins at
-/// `start`, or where all joints are at zero. `planes` are those of the file.
+/// What the file says of loops, wheels and knife edges.
+pub(super) struct ClosedEntries<'a> {
+    /// The file.
+    pub(super) spec: &'a Spec,
+    /// Its wheels and knife edges.
+    pub(super) contacts: &'a [ContactEntry],
+    /// Its planes.
+    pub(super) planes: &'a Planes<'a>,
+    /// Where the search for a closed position begins; `None` where all joints are at zero.
+    pub(super) start: Option<Vec<bgdyn_runtime::Dd>>,
+}
+
+/// Closes the loops of a numbered open tree. `None` if a rule is broken.
 pub(super) fn close(
-    (spec, (entries, planes, start)): (
-        &Spec,
-        (&[ContactEntry], &Planes<'_>, Option<Vec<bgdyn_runtime::Dd>>),
-    ),
+    entries: ClosedEntries<'_>,
     mechanism: &mut Mechanism,
     directions: &Directions,
     faults: &mut Faults,
 ) -> Option<()> {
+    let ClosedEntries {
+        spec,
+        contacts: entries,
+        planes,
+        start,
+    } = entries;
     let before = faults.count();
     let specs = spec.loops.value().map_or(&[][..], Vec::as_slice);
     let specs = specs.iter().filter(|one| !one.is_parallel());

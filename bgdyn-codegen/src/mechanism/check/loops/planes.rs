@@ -34,24 +34,20 @@ const LINK: Key = Key {
 };
 
 /// A plane: its link, and a place on it with z along its normal.
-pub(in crate::mechanism::check) type Plane = (Option<LinkId>, Pose);
+pub type Plane = (Option<LinkId>, Pose);
 
 /// The planes of the file by name; `None` for one that breaks a rule.
-pub(in crate::mechanism::check) type Planes<'a> = Vec<(&'a str, Option<Plane>)>;
+pub type Planes<'a> = Vec<(&'a str, Option<Plane>)>;
 
 /// Reads the planes of the file, also those that nothing touches.
-pub(in crate::mechanism::check) fn planes<'a>(
-    spec: &'a Spec,
-    of: (Tree<'_>, &Directions),
-    faults: &mut Faults,
-) -> Planes<'a> {
+pub fn planes<'a>(spec: &'a Spec, of: (Tree<'_>, &Directions), faults: &mut Faults) -> Planes<'a> {
     let raws = spec.planes.value().map_or(&[][..], Vec::as_slice);
     let named = |raw: &'a Raw| (raw.name.value.as_str(), read(raw, of, faults));
     raws.iter().map(named).collect()
 }
 
 /// Returns the plane of this name; the world's x–y plane for none.
-pub(in crate::mechanism::check) fn plane(
+pub fn plane(
     name: Option<&Located<String>>,
     planes: &Planes<'_>,
     faults: &mut Faults,

@@ -26,7 +26,7 @@ impl<'a> Tree<'a> {
         Self::new(mechanism.links(), mechanism.frames())
     }
 
-    pub(in crate::mechanism::check) fn links(self) -> &'a [Link] {
+    pub fn links(self) -> &'a [Link] {
         self.links
     }
 
@@ -65,7 +65,7 @@ pub(super) fn find_link(
 }
 
 /// Returns link and pose of a link or a frame.
-pub(in crate::mechanism::check) fn find_site(
+pub fn find_site(
     name: &Located<String>,
     tree: Tree<'_>,
     faults: &mut Faults,
@@ -87,11 +87,7 @@ pub(in crate::mechanism::check) fn find_site(
 }
 
 /// Returns the links whose joints lead from place a to place b, and whether each is passed outward.
-pub(in crate::mechanism::check) fn path(
-    tree: Tree<'_>,
-    a: Option<LinkId>,
-    b: Option<LinkId>,
-) -> Vec<(LinkId, bool)> {
+pub fn path(tree: Tree<'_>, a: Option<LinkId>, b: Option<LinkId>) -> Vec<(LinkId, bool)> {
     let to_base = |mut link: Option<LinkId>| {
         let mut all = Vec::new();
         while let Some(l) = link {
