@@ -27,6 +27,8 @@ pub struct ContactMotion<'g> {
     pub rate: Expr<'g>,
     /// γ_t, the velocity of the sphere along the plane of contact, m/s.
     pub slip: Vec3<Expr<'g>>,
+    /// c, the contact point.
+    pub point: Vec3<Expr<'g>>,
     /// The two bodies, each with its lever c − o; `None` for the world.
     bodies: [Option<(SiteId, Vec3<Expr<'g>>)>; 2],
 }
@@ -72,12 +74,14 @@ impl<'g> EffortSums<'g, '_> {
             along,
             rate,
             slip: velocity - normal.scale(rate),
+            point,
             bodies,
         }
     }
 
     /// Adds the efforts of a force on the sphere, N, world axes, and of the opposite one on its partner.
     pub fn push_contact(&mut self, motion: &ContactMotion<'g>, force: Vec3<Expr<'g>>) {
+        self.contact_forces.push((motion.point, force));
         for (body, force) in motion.bodies.into_iter().zip([force, -force]) {
             let Some((site, lever)) = body else { continue };
             let moment = lever.cross(force);
@@ -87,6 +91,11 @@ impl<'g> EffortSums<'g, '_> {
                 *sum = *sum + part;
             }
         }
+    }
+
+    /// Returns contact points and forces on spheres, in the order of the elements.
+    pub(crate) fn contact_forces(&self) -> &[(Vec3<Expr<'g>>, Vec3<Expr<'g>>)] {
+        &self.contact_forces
     }
 
     /// Adds the efforts of the wrenches of contacts: τ_j += J_jᵀ w.

@@ -69,6 +69,8 @@ pub struct EffortSums<'g, 'a> {
     shared: BTreeMap<(String, &'static str), Expr<'g>>,
     poses: BTreeMap<SiteId, (Mat3<Expr<'g>>, Vec3<Expr<'g>>)>,
     jacobians: BTreeMap<SiteId, Vec<[Expr<'g>; 6]>>,
+    /// Contact points and forces on spheres.
+    contact_forces: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)>,
     /// Moment and force of contacts at the origins of links, world axes.
     wrenches: BTreeMap<SiteId, [Expr<'g>; 6]>,
 }
@@ -119,6 +121,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             shared: BTreeMap::new(),
             poses: BTreeMap::new(),
             jacobians: BTreeMap::new(),
+            contact_forces: Vec::new(),
             wrenches: BTreeMap::new(),
         };
         sums.push_drives_of_dependents();

@@ -6,6 +6,7 @@
 
 mod balance;
 mod canonical;
+mod contact_forces;
 mod controller_model;
 mod coordinate_rows;
 mod dynamics;

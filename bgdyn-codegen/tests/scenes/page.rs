@@ -166,6 +166,7 @@ fn graph(area: &Area<'_>, effect: &dyn Effect) -> Drawn {
     let junction = match effect.family() {
         "hydraulics" => "0  p",
         "gravity" | "inertia" => "1  ṙ, ω",
+        "contact" => "1  γ",
         _ => "1  q̇",
     };
     let symbol = text(18, INK);
@@ -198,6 +199,8 @@ fn reads(key: &Key) -> String {
         Reads::Coordinate => "a coordinate".into(),
         Reads::Joint => "a joint".into(),
         Reads::Joints => "`all` or a list of coordinates".into(),
+        Reads::Contact => "a contact".into(),
+        Reads::Contacts => "`all` or a list of contacts".into(),
         Reads::Site => "a link or frame".into(),
         Reads::Sites => "two links or frames".into(),
         Reads::Node => "a node".into(),

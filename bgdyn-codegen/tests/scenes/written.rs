@@ -9,7 +9,7 @@ pub fn mechanism(gravity: &str, inertia: &str, effects: &str) -> String {
          \x20 - name: sled\n    parent: arm\n\
          \x20   joint: {{ name: slide, type: prismatic, axis: x, origin: {{ xyz: [0.5, 0, 0] }}, limits: {{ lower: -0.2, upper: 0.2 }} }}\n\
          \x20   mass: 1\n    com: [0, 0.2, 0]\n\
-         frames:\n  - {{ name: tip, link: sled, origin: {{ xyz: [0.1, 0, 0] }} }}\n  - {{ name: anchor, link: world, origin: {{ xyz: [0, 0, 1] }} }}\ncontacts:\n  tip_floor: {{ link: sled, at: [0.1, 0, 0], radius: 20 mm, on: floor }}\nplanes:\n  floor: {{ offset: -0.2 m }}\n{effects}"
+         frames:\n  - {{ name: tip, link: sled, origin: {{ xyz: [0.1, 0, 0] }} }}\n  - {{ name: anchor, link: world, origin: {{ xyz: [0, 0, 1] }} }}\ncontacts:\n  tip_floor: {{ link: sled, at: [0.1, 0, 0], radius: 20 mm, on: floor }}\nplanes:\n  floor: {{ offset: -0.4 m }}\n{effects}"
     )
 }
 

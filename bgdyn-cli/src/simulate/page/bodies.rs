@@ -89,7 +89,8 @@ impl Bodies {
         }
     }
 
-    fn carrier(&self, link: Option<LinkId>) -> (usize, Placed) {
+    /// Returns the body of a link, and the pose of the link on it.
+    pub(super) fn carrier(&self, link: Option<LinkId>) -> (usize, Placed) {
         link.map_or((0, Placed::HERE), |l| self.on[l.0])
     }
 

@@ -11,6 +11,9 @@ pub(super) struct Body {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) joint: Option<BodyJoint>,
     pub(super) points: Vec<BodyPoint>,
+    /// Lines of its surface where it may touch.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) edges: Vec<[[f64; 3]; 2]>,
     /// Origins at all rows, three integers each; empty for the world.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) place: Option<Vec<i64>>,
@@ -134,6 +137,7 @@ impl Body {
             name: name.to_owned(),
             joint: None,
             points: Vec::new(),
+            edges: Vec::new(),
             place: None,
             turn: None,
             link,

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod body;
+mod contacts;
 mod curve;
 mod poses;
 mod stops;
@@ -11,6 +12,7 @@ use serde::Serialize;
 
 use self::bodies::Bodies;
 use self::body::{Body, End};
+use self::contacts::{Contacts, contacts};
 use self::curve::{Curve, LEVELS};
 use self::poses::{TURN, poses, turns};
 use super::difference::range;
@@ -57,6 +59,8 @@ struct Data<'a> {
     t: Vec<f64>,
     bodies: Vec<Body>,
     between: Vec<Between>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contacts: Option<Contacts>,
     outputs: Vec<Curve>,
     states: Vec<Curve>,
     modes: Vec<ModeCurve>,
@@ -112,7 +116,8 @@ fn data<'a>(
     words: &'a Words,
 ) -> Data<'a> {
     let rows = rows_to_show(system, run);
-    let (bodies, grain) = replayed(system, &rows);
+    let (mut bodies, grain) = replayed(system, &rows);
+    let contacts = contacts(system, &mut bodies, grain, &rows);
     let between = between(system, &bodies, grain, rows.len());
     let outputs = columns.iter().enumerate();
     let outputs = outputs.map(|(i, c)| Curve::new(c, rows.iter().map(|row| row.values[i])));
@@ -138,6 +143,7 @@ fn data<'a>(
         events: run.events.iter().map(mark).collect(),
         energy: energy(run),
         between,
+        contacts,
         bodies: bodies.all,
     }
 }

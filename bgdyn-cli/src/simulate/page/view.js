@@ -32,6 +32,7 @@ const size = (() => {
     for (const body of bodies) {
       const pose = poseAt(body, T[i]);
       for (const point of body.points) stretch(inWorld(pose, point.at));
+      for (const edge of body.edges || []) stretch(inWorld(pose, edge[0]));
       if (body !== bodies[0]) stretch(pose.o);
       for (const stop of (body.joint && body.joint.stops) || []) stretch(inWorld(poseAt(bodies[body.joint.on], T[i]), stop.at));
     }
@@ -51,7 +52,7 @@ const size = (() => {
 })();
 
 const COLOURS = ["#8d99a6", "#5b9bd5", "#e0a458", "#6fb98f", "#c58fc0", "#d9776c", "#7f9fd0", "#b7b168"];
-const JOINT = "#4b5560", RAIL = "#9aa4af", RAM = "#b0453f", ROD = "#c9ced4", STOP = "#d0483e", LOAD = "#c9a227";
+const JOINT = "#4b5560", RAIL = "#9aa4af", RAM = "#b0453f", ROD = "#c9ced4", STOP = "#d0483e", LOAD = "#c9a227", FORCE = "#d0483e";
 const colourOf = (i) => (i === 0 ? COLOURS[0] : COLOURS[1 + ((i - 1) % (COLOURS.length - 1))]);
 const heaviest = Math.max(1e-300, ...bodies.flatMap((b) => b.points.map((p) => p.mass || 0)));
 
@@ -132,7 +133,7 @@ const drawView = (t) => {
     draw.stroke();
     draw.globalAlpha = 1;
   };
-  drawGrid(line);
+  drawGrids(line, poses);
   if (byId("trail").checked) {
     trails.forEach((trail) => line(trail.points, css("--accent"), 1.2, 0.3));
   }
@@ -146,7 +147,9 @@ const drawView = (t) => {
     trails.forEach((trail) => line([...trail.points.slice(0, i + 1), inWorld(poses[trail.body], trail.at)], css("--accent"), 2.2));
   }
   bodies.forEach((body, i) => body.points.forEach((p) => p.mass && line([p.from, p.at].map((x) => inWorld(poses[i], x)), colourOf(i), 2)));
+  bodies.forEach((body, i) => (body.edges || []).forEach((edge) => line(edge.map((x) => inWorld(poses[i], x)), colourOf(i), 1.2)));
   drawMasses(draw, lens, poses, dark);
+  if (data.contacts) drawForces(line, t);
   const names = [];
   const axes = (pose, at, R, long, wide) => ["#d94a3d", "#3a9e4b", "#3a6fd9"].forEach((colour, k) => {
     const tip = add(at, turned(pose, R[k]), long);
@@ -167,7 +170,39 @@ const drawView = (t) => {
     names.push([add(from, add(to, from, -1), 0.5), link.name, true]);
   }
   if (byId("labels").checked) drawNames(draw, lens, names, ink, css("--panel"), width, height);
-  byId("scale").textContent = `grid: ${number(size.grid, 1)} m`;
+  const longest = data.contacts ? ` · arrows: contact forces, up to ${number(1000 * data.contacts.unit, 3)} N` : "";
+  byId("scale").textContent = `grid: ${number(size.grid, 1)} m${longest}`;
+};
+
+// A grid on each plane that something touches, around the drawing; without contacts one on the floor.
+const drawGrids = (line, poses) => {
+  if (!data.contacts || !data.contacts.planes.length) return drawGrid(line);
+  const g = size.grid, colour = css("--line"), n = Math.ceil(size.reach / g);
+  for (const plane of data.contacts.planes) {
+    const pose = poses[plane.body], at = inWorld(pose, plane.at), [x, y] = plane.axes.map((a) => turned(pose, a));
+    const middle = add(size.centre, at, -1), round = (axis) => Math.round(dot(middle, axis) / g);
+    const [i0, j0] = plane.body === 0 ? [round(x), round(y)] : [0, 0];
+    const point = (i, j) => add(add(at, x, (i0 + i) * g), y, (j0 + j) * g);
+    for (let i = -n; i <= n; i++) {
+      line([point(i, -n), point(i, n)], colour, i0 + i === 0 ? 1.6 : 0.8);
+      line([point(-n, i), point(n, i)], colour, j0 + i === 0 ? 1.6 : 0.8);
+    }
+  }
+};
+
+// Forces of contacts on what touches, as arrows; the longest of the run is half as long as the drawing.
+const drawForces = (line, t) => {
+  const [i, part] = place(T, t), j = Math.min(i + 1, T.length - 1);
+  const at = (list, row) => [0, 1, 2].map((k) => list[3 * row + k]);
+  const blend = (list) => add(at(list, i), add(at(list, j), at(list, i), -1), part);
+  for (const contact of data.contacts.forces) {
+    const force = blend(contact.force), newton = length(force);
+    if (newton < 2) continue;
+    const foot = blend(contact.at).map((x) => x * data.grain), way = unit(force), [side] = across(way);
+    const tip = add(foot, force, size.reach / 2000), head = Math.min(2.2 * size.r, length(add(tip, foot, -1)) / 2);
+    line([foot, tip], FORCE, 2.4);
+    for (const s of [-0.45, 0.45]) line([add(add(tip, way, -head), side, s * head), tip], FORCE, 2.4);
+  }
 };
 
 const drawGrid = (line) => {

@@ -32,7 +32,7 @@ impl EffectKind for CompliantContact {
     }
 
     fn summary(&self) -> &'static str {
-        "compliant contact: λ = k δ^(3/2) (1 + (3/2) d δ̇) ≥ 0 along the normal, friction up to μ λ along the plane"
+        "compliant contact: λ = E(δ) (1 + (3/2) d δ̇) ≥ 0, E = k δ^(3/2) or k δ, along the normal, friction up to μ λ along the plane"
     }
 
     fn symbol(&self) -> &'static str {
@@ -42,6 +42,7 @@ impl EffectKind for CompliantContact {
     fn keys(&self) -> &'static [Key] {
         &[
             normal::STIFFNESS,
+            normal::LINEAR_STIFFNESS,
             normal::DAMPING,
             normal::RESTITUTION,
             normal::IMPACT_SPEED,

@@ -1,6 +1,7 @@
-//! The normal force of Hunt and Crossley 1975 with the exponent of Hertz: λ = k δ^{3/2} (1 + μ δ̇) ≥ 0 at the depth δ.
+//! The normal force of Hunt and Crossley 1975: λ = E(δ) (1 + μ δ̇) ≥ 0 at the depth δ, with the elastic force of Hertz,
+//! E = k δ^{3/2}, or a linear one, E = k δ.
 //!
-//! It stores (2/5) k δ^{5/2}; the resistor takes (λ − k δ^{3/2}) δ̇ ≥ 0, also where λ is cut off at 0 because the surfaces
+//! It stores (2/5) k δ^{5/2}, or k δ²/2; the resistor takes (λ − E) δ̇ ≥ 0, also where λ is cut off at 0 because the surfaces
 //! part faster than they spring back. μ is (3/2) d, or follows from a restitution at an impact speed, as for stops: the
 //! equation between them does not depend on the exponent.
 
@@ -16,8 +17,14 @@ use crate::format::{Dimension, Key, Reads};
 pub(super) const STIFFNESS: Key = Key {
     name: "stiffness",
     reads: Reads::Number(&[Dimension::ContactStiffness]),
-    needed: true,
-    about: "k, the normal force at a depth δ is k δ^(3/2)",
+    needed: false,
+    about: "k, the elastic force at a depth δ is k δ^(3/2) (Hertz)",
+};
+pub(super) const LINEAR_STIFFNESS: Key = Key {
+    name: "linear_stiffness",
+    reads: Reads::Number(&[Dimension::Stiffness]),
+    needed: false,
+    about: "k, the elastic force is k δ; instead of `stiffness`",
 };
 pub(super) const DAMPING: Key = Key {
     name: "damping",
@@ -46,11 +53,11 @@ const LEAST: f64 = 1e-30;
 pub(super) struct NormalForce<'g> {
     /// λ, N.
     pub(super) force: Expr<'g>,
-    /// k δ^{3/2}, N.
+    /// E, N.
     pub(super) elastic: Expr<'g>,
-    /// ∂/∂δ of it, N/m.
+    /// ∂E/∂δ, N/m.
     pub(super) slope: Expr<'g>,
-    /// k δ^{3/2} (1 + μ δ̇), N: negative where the surfaces part faster than they spring back.
+    /// E (1 + μ δ̇), N: negative where the surfaces part faster than they spring back.
     pub(super) follows: Expr<'g>,
     /// Stored energy, J.
     pub(super) stored: Expr<'g>,
@@ -61,11 +68,16 @@ pub(super) struct NormalForce<'g> {
 /// Checks the numbers of the law.
 pub(super) fn check(check: &mut ValueCheck<'_>) {
     check.fixed(&[RESTITUTION, IMPACT_SPEED]);
-    check.positive(&[STIFFNESS], Help::ContactIsOptional);
+    check.positive(&[STIFFNESS, LINEAR_STIFFNESS], Help::ContactIsOptional);
     check.not_negative(&[DAMPING], Help::DampingDrivesMotion);
     check.positive(&[RESTITUTION], Help::RestitutionIsPositive);
     check.at_most_one(&RESTITUTION, Help::RestitutionAboveOne);
     check.positive(&[IMPACT_SPEED], Help::SpeedOfImpact);
+    let stiffnesses = [STIFFNESS, LINEAR_STIFFNESS].map(|key| check.number(&key).is_some());
+    if stiffnesses[0] == stiffnesses[1] {
+        let element = check.element;
+        check.report(wording::not_one_stiffness(&element.location, &element.name));
+    }
     let [damping, restitution, speed] =
         [DAMPING, RESTITUTION, IMPACT_SPEED].map(|key| check.number(&key).is_some());
     if damping && (restitution || speed) || restitution != speed {
@@ -84,9 +96,20 @@ pub(super) fn force<'g>(
 ) -> NormalForce<'g> {
     let zero = sums.b.zero();
     let depth = (-gap).max(zero);
-    let root = (-gap).max(sums.b.number(LEAST)).sqrt();
-    let slope = sums.number(element, &STIFFNESS) * root;
-    let (elastic, slope) = (slope * depth, slope * Dd::from_f64(1.5));
+    let (elastic, slope, stored) = match sums.optional(element, &LINEAR_STIFFNESS) {
+        Some(stiffness) => {
+            let elastic = stiffness * depth;
+            let slope = gap.if_less(zero, stiffness, zero);
+            (elastic, slope, elastic * depth * Dd::from_f64(0.5))
+        }
+        None => {
+            let root = (-gap).max(sums.b.number(LEAST)).sqrt();
+            let secant = sums.number(element, &STIFFNESS) * root;
+            let elastic = secant * depth;
+            let share = Dd::from_f64(2.0) / Dd::from_f64(5.0);
+            (elastic, secant * Dd::from_f64(1.5), elastic * depth * share)
+        }
+    };
     let factor = sums.b.number(1.0) - damping(element, sums) * rate;
     let force = elastic * factor.max(zero);
     NormalForce {
@@ -94,7 +117,7 @@ pub(super) fn force<'g>(
         elastic,
         slope,
         follows: elastic * factor,
-        stored: elastic * depth * (Dd::from_f64(2.0) / Dd::from_f64(5.0)),
+        stored,
         dissipated: (elastic - force) * rate,
     }
 }

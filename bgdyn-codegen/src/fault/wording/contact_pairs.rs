@@ -110,6 +110,16 @@ pub(crate) fn contact_of_given_base(location: &Location, name: &str) -> Fault {
 
 // The effect
 
+pub(crate) fn not_one_stiffness(location: &Location, effect: &str) -> Fault {
+    let message = format!(
+        "{} needs one of `stiffness` and `linear_stiffness`",
+        quote(effect)
+    );
+    Fault::new(location, "effect-missing", message).with_help(
+        "`stiffness: 2e6 N/m^1.5` is Hertz's force k δ^(3/2), `linear_stiffness: 1e5 N/m` a force k δ",
+    )
+}
+
 pub(crate) fn damping_or_restitution(location: &Location, effect: &str) -> Fault {
     let message = format!(
         "{} needs either `damping`, or `restitution` with `impact_speed`",
