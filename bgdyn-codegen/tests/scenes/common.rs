@@ -94,7 +94,8 @@ pub fn state(system: &SceneEquations, random: &mut Random, slipping: bool) -> In
         let offsets = many(random, start.len(), size);
         start.iter().zip(offsets).map(|(&s, o)| s + o).collect()
     };
-    let q = around(&system.initial.q, 0.3);
+    let mut q = around(&system.initial.q, 0.3);
+    layout.normalize(&mut q);
     let mut v = around(&system.initial.v, 1.0);
     // States with scales of their own: bristles, fluid volumes.
     let x: Vec<Dd> = system

@@ -185,5 +185,9 @@ fn with_slopes(at: &Inputs<Dd>, slope: impl Fn(usize) -> Dd) -> Inputs<Dual> {
 
 #[test]
 fn jacobians_and_canonical_forms_of_the_repositorys_scenes() {
-    specs().iter().for_each(|path| hold(&read(path)));
+    let scenes = specs();
+    let scenes = scenes.iter().map(|path| read(path));
+    // Where positions are not the integrals of velocities there is no canonical form.
+    let natural = scenes.filter(|system| system.scene.layout.coupled().is_empty());
+    natural.for_each(|system| hold(&system));
 }

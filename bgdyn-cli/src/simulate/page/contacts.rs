@@ -109,11 +109,7 @@ pub(super) fn contacts(
 }
 
 /// Returns contact points and forces at the rows.
-fn values(
-    system: &SceneEquations,
-    function: &dyn Callable,
-    rows: &[&Row],
-) -> Vec<Vec<f64>> {
+fn values(system: &SceneEquations, function: &dyn Callable, rows: &[&Row]) -> Vec<Vec<f64>> {
     let scene = &system.scene;
     let (nq, nv) = (scene.layout.nq(), scene.layout.nv());
     let parameters = scene.parameters.iter().map(|p| p.default.to_f64());

@@ -177,11 +177,13 @@ const drawView = (t) => {
 // A grid on each plane that something touches, around the drawing; without contacts one on the floor.
 const drawGrids = (line, poses) => {
   if (!data.contacts || !data.contacts.planes.length) return drawGrid(line);
-  const g = size.grid, colour = css("--line"), n = Math.ceil(size.reach / g);
+  const g = size.grid, colour = css("--line");
   for (const plane of data.contacts.planes) {
     const pose = poses[plane.body], at = inWorld(pose, plane.at), [x, y] = plane.axes.map((a) => turned(pose, a));
     const middle = add(size.centre, at, -1), round = (axis) => Math.round(dot(middle, axis) / g);
     const [i0, j0] = plane.body === 0 ? [round(x), round(y)] : [0, 0];
+    // A wall would hide what is before it.
+    const n = Math.abs(turned(pose, plane.axes[2])[2]) > 0.7 ? Math.ceil(size.reach / g) : 1;
     const point = (i, j) => add(add(at, x, (i0 + i) * g), y, (j0 + j) * g);
     for (let i = -n; i <= n; i++) {
       line([point(i, -n), point(i, n)], colour, i0 + i === 0 ? 1.6 : 0.8);
