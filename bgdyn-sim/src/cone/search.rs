@@ -76,8 +76,8 @@ impl<'a, T: Real, const K: usize> Search<'a, T, K> {
         let mut round = 0;
         while self.goes_on(residual) && self.outcome.sweeps < most_sweeps {
             if round == 0 {
-                // Enough for contacts that do not act on each other. Newton's method begins at the start itself: without
-                // impulses, all contacts that press stick, and those of the step before are nearer than one sweep.
+                // Enough for contacts that do not act on each other. For others Newton's method begins at the start
+                // itself: one sweep leads away from the impulses of the step before.
                 let mut swept = p;
                 self.sweep(&mut swept, 1, most_sweeps, 1.0);
                 self.keep(&swept);

@@ -3,8 +3,8 @@
 use crate::conditions::check;
 use crate::problems::Random;
 
-/// Problems for each number of contacts.
-const COUNT: usize = 500;
+/// Problems for each number of contacts; fewer without optimisation.
+const COUNT: usize = if cfg!(debug_assertions) { 100 } else { 500 };
 
 /// Checks random problems with K contacts, of full rank and of half of it. Returns how many are not solved, in `f64` and
 /// `f32`, and the largest velocity of a contact that sticks.

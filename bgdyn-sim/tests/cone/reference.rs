@@ -26,8 +26,8 @@ fn reference<const K: usize>(owned: &Owned<f64, K>) -> [[f64; 3]; K] {
     let norm = rows.map(|row| row.as_flattened().iter().map(|x| x.abs()).sum::<f64>());
     let step = 1.0 / norm.fold(0.0, f64::max);
     let (mut p, mut slip) = ([[0.0; 3]; K], [0.0; K]);
-    for _ in 0..100 {
-        for _ in 0..2000 {
+    for _ in 0..60 {
+        for _ in 0..500 {
             let after = owned.after(&p);
             p = std::array::from_fn(|c| {
                 let [x, y, z] = after[c];
