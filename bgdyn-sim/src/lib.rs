@@ -46,7 +46,8 @@
 //! assert!(state.q[0] > 0.0);
 //! ```
 //!
-//! [`ilqr`] finds efforts and feedback for a motion of least cost.
+//! [`ilqr`] finds efforts and feedback for a motion of least cost, [`cone`] the impulses of rigid contacts with Coulomb
+//! friction.
 //!
 //! SI units and radians, time in s, energy in J. Frames, signs and the order of spatial vectors are those
 //! of the models: see [`bgdyn_runtime`].
@@ -65,6 +66,7 @@ mod audit;
 #[cfg(feature = "std")]
 pub mod batch;
 mod coefficient;
+pub mod cone;
 mod control;
 mod dense;
 mod discrete;
