@@ -34,6 +34,7 @@ mod random;
 mod reference;
 mod refused;
 mod refused_bodies;
+mod refused_contacts;
 mod refused_fluids;
 mod refused_names;
 mod refused_phases;

@@ -99,8 +99,7 @@ pub(super) fn force<'g>(
     let (elastic, slope, stored) = match sums.optional(element, &LINEAR_STIFFNESS) {
         Some(stiffness) => {
             let elastic = stiffness * depth;
-            let slope = gap.if_less(zero, stiffness, zero);
-            (elastic, slope, elastic * depth * Dd::from_f64(0.5))
+            (elastic, stiffness, elastic * depth * Dd::from_f64(0.5))
         }
         None => {
             let root = (-gap).max(sums.b.number(LEAST)).sqrt();
@@ -110,6 +109,7 @@ pub(super) fn force<'g>(
             (elastic, secant * Dd::from_f64(1.5), elastic * depth * share)
         }
     };
+    let slope = gap.if_less(zero, slope, zero);
     let factor = sums.b.number(1.0) - damping(element, sums) * rate;
     let force = elastic * factor.max(zero);
     NormalForce {
