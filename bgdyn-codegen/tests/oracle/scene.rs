@@ -1,11 +1,14 @@
 //! A scene parsed by the oracle, and its motion: M(q) a = E − h.
 
+use std::collections::BTreeMap;
+
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
 
+use super::contact_law::{Reading, each};
 use super::hydraulics;
 use super::laws::{Effect, geared, law};
-use super::mechanism::{Kind, Mechanism, Wrench, carried, efforts, motions};
+use super::mechanism::{Kind, Mechanism, Motion, Wrench, carried, efforts, motions};
 use super::state::{At, Named, State, Sums};
 use super::vector::{M3, V3, ZERO, add, apply, cross, dd, dot, scale};
 use super::yaml::{direction, list, number, text, vector};
@@ -37,6 +40,8 @@ pub struct Answer {
     /// Rates of first-order states.
     pub rates: Named,
     pub energy: Dd,
+    /// What contacts do, by the effects' names.
+    pub contacts: BTreeMap<String, Reading>,
 }
 
 impl Scene {
@@ -81,7 +86,14 @@ impl Scene {
                         .masses
                         .push(carried(&keys, place));
                 }
-                self.effects.push(Effect { name, keys });
+                let effect = Effect { name, keys };
+                match effect.kind() {
+                    "compliant_contact" => {
+                        let each = each(effect, &self.mechanism.contacts);
+                        self.effects.extend(each);
+                    }
+                    _ => self.effects.push(effect),
+                }
             }
         }
     }
@@ -159,7 +171,7 @@ impl Scene {
         links.iter().zip(own).map(|(&l, r)| l + r).collect()
     }
 
-    fn at<'a>(&'a self, state: &'a State, motions: &'a [super::mechanism::Motion]) -> At<'a> {
+    fn at<'a>(&'a self, state: &'a State, motions: &'a [Motion]) -> At<'a> {
         At {
             mechanism: &self.mechanism,
             motions,
@@ -202,12 +214,16 @@ impl Scene {
         sums
     }
 
+    /// The poses of the bodies, at rest.
+    pub fn poses(&self, state: &State) -> Vec<Motion> {
+        motions(&self.mechanism, |i| {
+            [self.coordinate(state, i), Dd::ZERO, Dd::ZERO]
+        })
+    }
+
     /// Sets the volumes of a state from consecutive pressures.
     pub fn fill(&self, state: &mut State, pressure: impl FnMut() -> Dd) {
-        let rest = vec![Dd::ZERO; self.mechanism.bodies.len()];
-        let moved = motions(&self.mechanism, |i| {
-            [self.coordinate(state, i), rest[i], Dd::ZERO]
-        });
+        let moved = self.poses(state);
         let filled = hydraulics::filled(&self.effects, &self.at(state, &moved), pressure);
         state.x.extend(filled);
     }
@@ -260,14 +276,13 @@ impl Scene {
             accelerations,
             rates: sums.rates,
             energy,
+            contacts: sums.contacts,
         }
     }
 
     /// Returns −Σ m g·r, including payloads.
     fn potential(&self, state: &State) -> Dd {
-        let moved = motions(&self.mechanism, |i| {
-            [self.coordinate(state, i), Dd::ZERO, Dd::ZERO]
-        });
+        let moved = self.poses(state);
         let mut sum = Dd::ZERO;
         for (body, m) in self.mechanism.bodies.iter().zip(&moved) {
             for mass in &body.masses {
