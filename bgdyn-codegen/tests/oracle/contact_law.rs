@@ -205,9 +205,7 @@ pub fn outputs(e: &Effect, scene: &Scene) -> Vec<String> {
         return vec![];
     }
     let contact = scene.mechanism.contact(e.text("contact"));
-    let rubs = e.has("kinetic");
     let friction: &[&str] = match contact.partner {
-        _ if !rubs => &[],
         Partner::Plane { .. } => &["friction_x", "friction_y", "slip"],
         Partner::Sphere { .. } => &["friction", "slip"],
     };

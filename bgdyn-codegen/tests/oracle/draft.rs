@@ -2,12 +2,10 @@
 
 use std::fmt::Write;
 
-use super::contact_law::outputs;
 use super::random::Draft;
 use super::rng::Rng;
-use super::scene::Scene;
 use super::state::Named;
-use super::touches::touching;
+use super::touches::{asked, touching};
 use super::tree::{hooks, joint, mover, rounded, solid};
 
 /// A mechanism and a scene, as text.
@@ -95,15 +93,7 @@ pub fn written(rng: &mut Rng) -> Written {
     )
     .unwrap();
     let mechanism = draft.yaml() + &touch.keys;
-    let read = Scene::read(&scene, &mechanism);
-    let asked: Vec<String> = read
-        .effects
-        .iter()
-        .flat_map(|e| outputs(e, &read))
-        .collect();
-    if !asked.is_empty() {
-        writeln!(scene, "outputs: [{}]", asked.join(", ")).unwrap();
-    }
+    scene += &asked(&scene, &mechanism);
     Written {
         mechanism,
         scene,

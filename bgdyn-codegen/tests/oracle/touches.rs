@@ -6,6 +6,7 @@ use std::fmt::Write;
 use bgdyn_runtime::Dd;
 
 use super::contact::shifted;
+use super::contact_law::outputs;
 use super::mechanism::{Motion, Place, seen};
 use super::random::Draft;
 use super::rng::Rng;
@@ -25,7 +26,7 @@ pub struct Touches {
     pub near: Named,
 }
 
-/// What is known of an entry of `contacts`.
+/// A name in `contacts`, and its shape.
 struct Entry {
     name: String,
     kind: Shape,
@@ -66,6 +67,17 @@ pub fn touching(
     }
     let scene = Scene::read(&format!("{scene}effects: []\n"), &draft.yaml());
     touches(&mut own, draft, locked, &scene, moving)
+}
+
+/// The key `outputs`: all of all contacts; nothing without contacts.
+pub fn asked(scene: &str, mechanism: &str) -> String {
+    let read = Scene::read(scene, mechanism);
+    let of_each = read.effects.iter().flat_map(|e| outputs(e, &read));
+    let asked: Vec<String> = of_each.collect();
+    match asked.is_empty() {
+        true => String::new(),
+        false => format!("outputs: [{}]\n", asked.join(", ")),
+    }
 }
 
 /// Draws contacts of a mechanism; `scene` is read from what is written so far, `moving` are places on links
@@ -151,9 +163,13 @@ impl Placing<'_> {
 
     /// A link that another joint moves, or that does not move.
     fn partner(&mut self, by: &str) -> Option<String> {
-        let name = self.rng.pick(&self.draft.links).name.clone();
-        let moved = mover(self.draft, self.locked, name.clone());
-        (moved.as_deref() != Some(by)).then_some(name)
+        let names = self.draft.links.iter().map(|l| l.name.clone());
+        let apart = |name: &String| {
+            let moved = mover(self.draft, self.locked, name.clone());
+            moved.as_deref() != Some(by)
+        };
+        let others: Vec<String> = names.filter(apart).collect();
+        (!others.is_empty()).then(|| self.rng.pick(&others).clone())
     }
 
     /// A direction: exact, exact but for rounding noise, any.
@@ -177,11 +193,9 @@ impl Placing<'_> {
         (text, scale(n, Dd::ONE / norm(n)))
     }
 
-    /// A sphere, a point, a capsule or a box against a plane of the world or of a link.
-    fn on_plane(&mut self, i: usize, place: &str, by: &str) {
-        let at = self.vector(0.3);
-        let radius = *self.rng.pick(&[0.0, 0.04, 0.125]);
-        let (kind, shape) = match self.rng.below(4) {
+    /// The further keys of a capsule, a box or a sphere.
+    fn shape(&mut self, at: V3) -> (Shape, String) {
+        match self.rng.below(4) {
             0 => {
                 let end = add(at, self.vector(0.05));
                 (Shape::Capsule, format!(", to: {}", text(end)))
@@ -191,20 +205,17 @@ impl Placing<'_> {
                 (Shape::Box, format!(", size: {edges:?}"))
             }
             _ => (Shape::Ball, String::new()),
-        };
-        let gap = dd(self.gap() + radius);
-        let mut keys = format!("link: {place}, radius: {radius}{shape}");
-        if self.rng.chance(0.2) {
-            // The world's x–y plane: the sphere moves to it.
-            let (p, axes) = point(shifted(self.place(place), at), &self.poses[0]);
-            let down = apply(transposed(axes), [Dd::ZERO, Dd::ZERO, gap - p[2]]);
-            if kind != Shape::Ball || !self.changes(place, at, None, [Dd::ZERO, Dd::ZERO, Dd::ONE])
-            {
-                return;
-            }
-            write!(keys, ", at: {}", text(add(at, down))).unwrap();
-            return self.entry(i, kind, &keys);
         }
+    }
+
+    /// Something round or with corners against a plane of the world or of a link.
+    fn on_plane(&mut self, i: usize, place: &str, by: &str) {
+        let at = self.vector(0.3);
+        let radius = *self.rng.pick(&[0.0, 0.04, 0.125]);
+        if self.rng.chance(0.15) {
+            return self.on_ground(i, place, at, radius);
+        }
+        let (kind, shape) = self.shape(at);
         let link = match self.rng.chance(0.4) {
             true => None,
             false => self.partner(by),
@@ -213,15 +224,27 @@ impl Placing<'_> {
         if !self.changes(place, at, link.as_deref(), n) {
             return;
         }
-        let offset = (self.height(place, at, link.as_deref(), n, 0) - gap).to_f64();
+        let least = dd(self.gap() + radius);
+        let offset = (self.height(place, at, link.as_deref(), n, 0) - least).to_f64();
         let on = link.map_or(String::new(), |link| format!(", link: {link}"));
-        writeln!(
-            self.planes,
-            "  plane_{i}: {{ normal: {normal}, offset: {offset:?}{on} }}"
-        )
-        .unwrap();
-        write!(keys, ", at: {}, on: plane_{i}", text(at)).unwrap();
+        let plane = format!("  plane_{i}: {{ normal: {normal}, offset: {offset:?}{on} }}");
+        writeln!(self.planes, "{plane}").unwrap();
+        let at = text(at);
+        let keys = format!("link: {place}, at: {at}, radius: {radius}{shape}, on: plane_{i}");
         self.entry(i, kind, &keys);
+    }
+
+    /// A sphere or a point against the world's x–y plane: its centre is moved there.
+    fn on_ground(&mut self, i: usize, place: &str, at: V3, radius: f64) {
+        let up = [0.0, 0.0, 1.0].map(dd);
+        if !self.changes(place, at, None, up) {
+            return;
+        }
+        let (p, axes) = point(shifted(self.place(place), at), &self.poses[0]);
+        let by = dd(self.gap() + radius) - p[2];
+        let at = text(add(at, apply(transposed(axes), scale(up, by))));
+        let keys = format!("link: {place}, at: {at}, radius: {radius}");
+        self.entry(i, Shape::Ball, &keys);
     }
 
     /// The height of a point above the plane through a link's origin, in a state.
