@@ -55,15 +55,16 @@ fn event(reading: &Reading, part: &str) -> Dd {
 impl Pair {
     /// Returns whether a contact with bristles does not touch.
     pub fn bent_apart(&self, state: &State) -> bool {
-        let contacts = self.oracle.answer(state).contacts;
-        contacts.values().any(|r| r.bristles && r.gap >= Dd::ZERO)
+        let bent = self.oracle.effects.iter().any(|e| e.has("bristles"));
+        let contacts = || self.oracle.contacts(state);
+        bent && contacts().values().any(|r| r.bristles && r.gap >= Dd::ZERO)
     }
 
     pub fn touches(&self, state: &State, worst: &mut Worst) -> Result<(), String> {
         let Some(outputs) = &self.readings.outputs else {
             return Ok(());
         };
-        let contacts = self.oracle.answer(state).contacts;
+        let contacts = self.oracle.contacts(state);
         for reading in contacts.values() {
             worst.touching[usize::from(reading.gap >= Dd::ZERO)] += 1;
         }

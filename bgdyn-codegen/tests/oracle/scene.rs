@@ -40,8 +40,6 @@ pub struct Answer {
     /// Rates of first-order states.
     pub rates: Named,
     pub energy: Dd,
-    /// What contacts do, by the effects' names.
-    pub contacts: BTreeMap<String, Reading>,
 }
 
 impl Scene {
@@ -228,15 +226,24 @@ impl Scene {
         state.x.extend(filled);
     }
 
-    /// Accelerations, rates and energy.
-    pub fn answer(&self, state: &State) -> Answer {
-        let moving = self.moving();
-        let bodies = self.mechanism.bodies.len();
-        let mut rate = vec![Dd::ZERO; bodies];
-        for &i in &moving {
+    /// The rate of each body's joint.
+    fn rates(&self, state: &State) -> Vec<Dd> {
+        let mut rate = vec![Dd::ZERO; self.mechanism.bodies.len()];
+        for i in self.moving() {
             rate[i] = state.v[&self.mechanism.bodies[i].joint];
         }
-        let still = vec![Dd::ZERO; bodies];
+        rate
+    }
+
+    /// What contacts do, by the effects' names.
+    pub fn contacts(&self, state: &State) -> BTreeMap<String, Reading> {
+        self.sums(state, &self.rates(state)).contacts
+    }
+
+    /// Accelerations, rates and energy.
+    pub fn answer(&self, state: &State) -> Answer {
+        let (moving, rate) = (self.moving(), self.rates(state));
+        let still = vec![Dd::ZERO; rate.len()];
         let sums = self.sums(state, &rate);
         let bias_rate = if self.products { &rate } else { &still };
         let bias = self.inverse(state, bias_rate, &still, self.gravity, &sums.wrenches);
@@ -276,7 +283,6 @@ impl Scene {
             accelerations,
             rates: sums.rates,
             energy,
-            contacts: sums.contacts,
         }
     }
 
