@@ -4,6 +4,8 @@ use std::fmt::Write;
 
 use super::random::Draft;
 use super::rng::Rng;
+use super::state::Named;
+use super::touches::{asked, touching};
 use super::tree::{hooks, joint, mover, rounded, solid};
 
 /// A mechanism and a scene, as text.
@@ -11,6 +13,8 @@ use super::tree::{hooks, joint, mover, rounded, solid};
 pub struct Written {
     pub mechanism: String,
     pub scene: String,
+    /// Positions near which contacts touch, by joint.
+    pub near: Named,
 }
 
 /// The parts from which effects are drawn.
@@ -63,25 +67,37 @@ pub fn written(rng: &mut Rng) -> Written {
         drawn.effect(kind, i);
     }
     let Drawn {
-        coordinates, lines, ..
+        coordinates,
+        moving,
+        lines,
+        ..
     } = drawn;
     let mut scene = String::from("scene: 1\nmechanism: random.yaml\n");
     if !locked.is_empty() {
         let held = locked.iter().map(|j| format!("{j}: {}", rounded(rng, 0.7)));
         writeln!(scene, "lock: {{ {} }}", held.collect::<Vec<_>>().join(", ")).unwrap();
     }
+    let touch = touching(rng, &draft, &locked, &scene, &moving);
     let given = coordinates.iter().map(|c| format!("{c}: given"));
     scene += "effects:\n";
-    scene.extend(lines.iter().map(|line| format!("  - {line}\n")));
+    scene.extend(
+        lines
+            .iter()
+            .chain(&touch.lines)
+            .map(|line| format!("  - {line}\n")),
+    );
     writeln!(
         scene,
         "inputs: {{ {} }}",
         given.collect::<Vec<_>>().join(", ")
     )
     .unwrap();
+    let mechanism = draft.yaml() + &touch.keys;
+    scene += &asked(&scene, &mechanism);
     Written {
-        mechanism: draft.yaml(),
+        mechanism,
         scene,
+        near: touch.near,
     }
 }
 

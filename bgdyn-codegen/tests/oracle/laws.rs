@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
 
+use super::contact_law;
 use super::hydraulics;
 use super::mechanism::{line, seen};
 use super::state::{At, Sums};
@@ -78,6 +79,7 @@ pub fn law(e: &Effect, at: &At<'_>, sums: &mut Sums) {
         "dc_motor" => dc_motor(e, at, sums),
         "wrench" => wrench(e, at, sums),
         "drag" => drag(e, at, sums),
+        "compliant_contact" => contact_law::law(e, at, sums),
         "gear" | "rotor" | "payload" => {}
         _ => hydraulics::law(e, at, sums),
     }
@@ -187,7 +189,7 @@ fn stop(e: &Effect, at: &At<'_>, sums: &mut Sums) {
 
 /// Returns the nonzero y of (1 + e) y = ln((1 + y)/(1 − e y)), by bisection of 0 … 1/e and then by Newton
 /// steps.
-fn loss(e: Dd) -> Dd {
+pub fn loss(e: Dd) -> Dd {
     if e == Dd::ONE {
         return Dd::ZERO;
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
 
+use super::contact::{Contact, contacts};
 use super::vector::{
     M3, V3, add, apply, cross, dd, identity, norm, scale, times, transposed, turn,
 };
@@ -51,6 +52,7 @@ pub struct Mechanism {
     /// Parents before children.
     pub bodies: Vec<Body>,
     pub places: BTreeMap<String, Place>,
+    pub contacts: Vec<Contact>,
     pub gravity: V3,
 }
 
@@ -62,6 +64,7 @@ impl Mechanism {
         let mut read = Mechanism {
             bodies: vec![],
             places: BTreeMap::new(),
+            contacts: vec![],
             gravity,
         };
         let here = Origin {
@@ -93,7 +96,13 @@ impl Mechanism {
             read.places
                 .insert(text(frame, "name").expect("a name").into(), place);
         }
+        read.contacts = contacts(&file, &read.places);
         read
+    }
+
+    pub fn contact(&self, name: &str) -> &Contact {
+        let found = self.contacts.iter().find(|c| c.name == name);
+        found.unwrap_or_else(|| panic!("no contact {name}"))
     }
 
     pub fn body_of_joint(&self, joint: &str) -> usize {

@@ -1,11 +1,14 @@
 //! A scene parsed by the oracle, and its motion: M(q) a = E − h.
 
+use std::collections::BTreeMap;
+
 use bgdyn_runtime::Dd;
 use serde_yaml::Value;
 
+use super::contact_law::{Reading, each};
 use super::hydraulics;
 use super::laws::{Effect, geared, law};
-use super::mechanism::{Kind, Mechanism, Wrench, carried, efforts, motions};
+use super::mechanism::{Kind, Mechanism, Motion, Wrench, carried, efforts, motions};
 use super::state::{At, Named, State, Sums};
 use super::vector::{M3, V3, ZERO, add, apply, cross, dd, dot, scale};
 use super::yaml::{direction, list, number, text, vector};
@@ -81,7 +84,14 @@ impl Scene {
                         .masses
                         .push(carried(&keys, place));
                 }
-                self.effects.push(Effect { name, keys });
+                let effect = Effect { name, keys };
+                match effect.kind() {
+                    "compliant_contact" => {
+                        let each = each(effect, &self.mechanism.contacts);
+                        self.effects.extend(each);
+                    }
+                    _ => self.effects.push(effect),
+                }
             }
         }
     }
@@ -159,7 +169,7 @@ impl Scene {
         links.iter().zip(own).map(|(&l, r)| l + r).collect()
     }
 
-    fn at<'a>(&'a self, state: &'a State, motions: &'a [super::mechanism::Motion]) -> At<'a> {
+    fn at<'a>(&'a self, state: &'a State, motions: &'a [Motion]) -> At<'a> {
         At {
             mechanism: &self.mechanism,
             motions,
@@ -202,25 +212,38 @@ impl Scene {
         sums
     }
 
+    /// The poses of the bodies, at rest.
+    pub fn poses(&self, state: &State) -> Vec<Motion> {
+        motions(&self.mechanism, |i| {
+            [self.coordinate(state, i), Dd::ZERO, Dd::ZERO]
+        })
+    }
+
     /// Sets the volumes of a state from consecutive pressures.
     pub fn fill(&self, state: &mut State, pressure: impl FnMut() -> Dd) {
-        let rest = vec![Dd::ZERO; self.mechanism.bodies.len()];
-        let moved = motions(&self.mechanism, |i| {
-            [self.coordinate(state, i), rest[i], Dd::ZERO]
-        });
+        let moved = self.poses(state);
         let filled = hydraulics::filled(&self.effects, &self.at(state, &moved), pressure);
         state.x.extend(filled);
     }
 
-    /// Accelerations, rates and energy.
-    pub fn answer(&self, state: &State) -> Answer {
-        let moving = self.moving();
-        let bodies = self.mechanism.bodies.len();
-        let mut rate = vec![Dd::ZERO; bodies];
-        for &i in &moving {
+    /// The rate of each body's joint.
+    fn rates(&self, state: &State) -> Vec<Dd> {
+        let mut rate = vec![Dd::ZERO; self.mechanism.bodies.len()];
+        for i in self.moving() {
             rate[i] = state.v[&self.mechanism.bodies[i].joint];
         }
-        let still = vec![Dd::ZERO; bodies];
+        rate
+    }
+
+    /// What contacts do, by the effects' names.
+    pub fn contacts(&self, state: &State) -> BTreeMap<String, Reading> {
+        self.sums(state, &self.rates(state)).contacts
+    }
+
+    /// Accelerations, rates and energy.
+    pub fn answer(&self, state: &State) -> Answer {
+        let (moving, rate) = (self.moving(), self.rates(state));
+        let still = vec![Dd::ZERO; rate.len()];
         let sums = self.sums(state, &rate);
         let bias_rate = if self.products { &rate } else { &still };
         let bias = self.inverse(state, bias_rate, &still, self.gravity, &sums.wrenches);
@@ -265,9 +288,7 @@ impl Scene {
 
     /// Returns −Σ m g·r, including payloads.
     fn potential(&self, state: &State) -> Dd {
-        let moved = motions(&self.mechanism, |i| {
-            [self.coordinate(state, i), Dd::ZERO, Dd::ZERO]
-        });
+        let moved = self.poses(state);
         let mut sum = Dd::ZERO;
         for (body, m) in self.mechanism.bodies.iter().zip(&moved) {
             for mass in &body.masses {

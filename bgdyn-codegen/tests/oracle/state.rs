@@ -5,6 +5,7 @@ use std::fmt;
 
 use bgdyn_runtime::Dd;
 
+use super::contact_law::Reading;
 use super::mechanism::{Mechanism, Motion, Place, Wrench, seen};
 use super::vector::{V3, add};
 
@@ -91,6 +92,8 @@ pub struct Sums {
     pub flows: Named,
     /// Pressures of nodes.
     pub pressures: Named,
+    /// What contacts do, by the effects' names.
+    pub contacts: BTreeMap<String, Reading>,
 }
 
 impl Sums {

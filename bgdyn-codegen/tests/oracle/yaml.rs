@@ -19,6 +19,8 @@ pub fn number(value: &Value) -> Dd {
             };
             decimal(digits) * factor
         }
+        // A run-time parameter, with its default.
+        Value::Mapping(_) => number(&value["value"]),
         other => panic!("no number: {other:?}"),
     }
 }
