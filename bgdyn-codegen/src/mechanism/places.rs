@@ -116,10 +116,11 @@ fn moved(joint: &Joint, k: usize) -> Pose {
     }
 }
 
-/// Returns a coordinate at a sampled position: multiples of the golden ratio have no pattern in common
-/// with a mechanism.
+/// Returns a coordinate at a sampled position: multiples of the golden ratio by squares, so that neither single
+/// coordinates nor differences of two have the same value at all positions.
 fn sampled(coordinate: usize, position: usize) -> Dd {
-    let step = (1 + coordinate * POSITIONS + position) as f64 * 0.618_033_988_749_894_9;
+    let count = 1 + coordinate * POSITIONS + position;
+    let step = (count * count) as f64 * 0.618_033_988_749_894_9;
     Dd::from_f64(5.0 * (step - step.floor()) - 2.5)
 }
 

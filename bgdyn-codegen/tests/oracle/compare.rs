@@ -26,12 +26,9 @@ const WAYS: [&str; 4] = [
 const STATES: usize = 3;
 /// Tolerance of derivatives and energies in double-double, relative to the largest of them. A pressure is
 /// β ln(W/V): flows between almost equal ones lose ten digits and more.
-const EXACT: f64 = 1e-20;
+pub const EXACT: f64 = 1e-20;
 /// Tolerance of the Jacobian against differences of the oracle's derivative, in the same unit.
 const SLOPE: f64 = 1e-11;
-/// Tolerance where a contact has bent bristles and does not touch: √δ in its law is at least 1e-15, so that
-/// a force of this order remains.
-const APART: f64 = 1e-12;
 /// Step of those differences.
 const STEP: f64 = 1e-10;
 
@@ -68,13 +65,6 @@ pub struct Worst {
     pub readings: f64,
     /// Contacts that overlap, and that do not.
     pub touching: [usize; 2],
-}
-
-/// The largest differences, and those in states with bent bristles that do not touch.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Found {
-    pub exact: Worst,
-    pub apart: Worst,
 }
 
 impl Pair {
@@ -122,21 +112,11 @@ impl Pair {
         (!differences.is_empty()).then(|| explain(&differences))
     }
 
-    /// Returns the tolerance of everything but slopes.
-    pub fn allowed(&self, state: &State) -> f64 {
-        if self.bent_apart(state) { APART } else { EXACT }
-    }
-
     /// Compares everything in random states; the first difference, with the scene, is the error.
-    pub fn compare(&self, rng: &mut Rng, worst: &mut Found) -> Result<(), String> {
+    pub fn compare(&self, rng: &mut Rng, worst: &mut Worst) -> Result<(), String> {
         for _ in 0..STATES {
             let state = self.state(rng);
             let along = self.direction(rng);
-            let worst = if self.bent_apart(&state) {
-                &mut worst.apart
-            } else {
-                &mut worst.exact
-            };
             let compared = self
                 .derivative(&state, worst)
                 .and_then(|()| self.energy(&state, worst))
@@ -211,7 +191,7 @@ impl Pair {
         for function in &self.derivatives {
             let found = self.value(function, state)?;
             let what = format!("derivative by {}", function.formulation);
-            let off = self.equal(&what, &found, &wanted, self.allowed(state))?;
+            let off = self.equal(&what, &found, &wanted, EXACT)?;
             worst.derivative = worst.derivative.max(off);
         }
         Ok(())
@@ -254,7 +234,7 @@ impl Pair {
         let sum = stored.into_iter().fold(Dd::ZERO, |s, x| s + x);
         let wanted = self.oracle.answer(state).energy;
         let off = (sum - wanted).to_f64().abs() / size;
-        if off.is_nan() || off > self.allowed(state) {
+        if off.is_nan() || off > EXACT {
             return Err(format!(
                 "energy is {:e}, by the oracle {:e}",
                 sum.to_f64(),
@@ -267,7 +247,7 @@ impl Pair {
             size = entry.iter().fold(size, |m, x| m.max(x.to_f64().abs()));
         }
         let open = left.to_f64().abs() / size;
-        if open.is_nan() || open > self.allowed(state) {
+        if open.is_nan() || open > EXACT {
             return Err(format!("{:e} W are left over", left.to_f64()));
         }
         (worst.energy, worst.power) = (worst.energy.max(off), worst.power.max(open));

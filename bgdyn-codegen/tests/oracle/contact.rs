@@ -190,18 +190,17 @@ fn carrier(body: Option<usize>, motions: &[Motion]) -> Motion {
     seen(here, motions).2
 }
 
-/// Axes x and y of a plane with this normal n: the first two axes of its link if n is the third. Otherwise y is
-/// the part across n of the axis that n is farthest from, the first of such, and x = y × n. The page
-/// does not say so: the outputs and the bristles' states do.
+/// Axes x and y of a plane with this normal n: x is the direction of the projection of the link's x, y = n × x; where
+/// |n_x| > 0.9, y is that of the link's y, and x = y × n.
 fn tangents(n: V3) -> [V3; 2] {
-    let axes = identity();
-    if n == axes[2] {
-        return [axes[0], axes[1]];
+    let projected = |k: usize| {
+        let across = sub(identity()[k], scale(n, n[k]));
+        scale(across, Dd::ONE / norm(across))
+    };
+    if n[0].abs().to_f64() > 0.9 {
+        let y = projected(1);
+        return [cross(y, n), y];
     }
-    let size = |k: &usize| n[*k].abs().to_f64();
-    let least = (0..3).min_by(|a, b| size(a).total_cmp(&size(b)));
-    let k = least.expect("three axes");
-    let across = sub(axes[k], scale(n, n[k]));
-    let y = scale(across, Dd::ONE / norm(across));
-    [cross(y, n), y]
+    let x = projected(0);
+    [x, cross(n, x)]
 }

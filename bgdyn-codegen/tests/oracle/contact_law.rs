@@ -132,9 +132,6 @@ fn friction(
     }
 }
 
-/// The generated law has no smaller |γ_t| in ż, m/s, so that its slope is finite. The page does not say so.
-const LEAST_SLIP: f64 = 1e-15;
-
 /// −E (σ₀ z + σ₁ ż), ż = γ_t − σ₀ |γ_t| z/μ; stored ½ σ₀ E |z|², which pushes with ½ σ₀ |z|² ∂E/∂δ.
 /// Without contact ż = −z/release.
 fn bristles(
@@ -150,7 +147,7 @@ fn bristles(
     let world = |[x, y]: [Dd; 2]| add(scale(meeting.axes[0], x), scale(meeting.axes[1], y));
     let (z, stiffness) = (world([x, y]), e.number("bristles"));
     let rate = if meeting.gap < Dd::ZERO {
-        let bent = stiffness * norm(along).max(dd(LEAST_SLIP)) / coefficient(e, along);
+        let bent = stiffness * norm(along) / coefficient(e, along);
         sub(along, scale(z, bent))
     } else {
         scale(z, -(Dd::ONE / e.number("release")))

@@ -30,7 +30,7 @@ mod yaml;
 use std::collections::BTreeMap;
 
 use common::{told, try_scene};
-use compare::{Depth, Found, Pair};
+use compare::{Depth, Pair, Worst};
 use rng::Rng;
 
 /// Number of scenes in every run of the tests, and in a long one.
@@ -38,7 +38,7 @@ const FEW: u64 = 24;
 const MANY: u64 = 1000;
 
 fn agree(seeds: std::ops::Range<u64>, depth: impl Fn(u64) -> Depth) {
-    let (mut worst, mut kinds) = (Found::default(), BTreeMap::<String, usize>::new());
+    let (mut worst, mut kinds) = (Worst::default(), BTreeMap::<String, usize>::new());
     for seed in seeds {
         let mut rng = Rng::new(90_000 + seed);
         let written = draft::written(&mut rng);

@@ -53,13 +53,6 @@ fn event(reading: &Reading, part: &str) -> Dd {
 }
 
 impl Pair {
-    /// Returns whether a contact with bristles does not touch.
-    pub fn bent_apart(&self, state: &State) -> bool {
-        let bent = self.oracle.effects.iter().any(|e| e.has("bristles"));
-        let contacts = || self.oracle.contacts(state);
-        bent && contacts().values().any(|r| r.bristles && r.gap >= Dd::ZERO)
-    }
-
     pub fn touches(&self, state: &State, worst: &mut Worst) -> Result<(), String> {
         let Some(outputs) = &self.readings.outputs else {
             return Ok(());
@@ -84,7 +77,7 @@ impl Pair {
             pairs.push((name.into(), x, output(&reading, &part)));
         }
         self.entries(state, &contacts, &mut pairs)?;
-        close(&pairs, self.allowed(state), worst)?;
+        close(&pairs, super::compare::EXACT, worst)?;
         self.signs(state, part)
     }
 

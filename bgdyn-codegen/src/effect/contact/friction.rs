@@ -64,7 +64,7 @@ pub(super) const RELEASE: Key = number(
     "the time in which bristles without contact return to rest; needed with `bristles`",
 );
 
-/// Squares of smaller speeds, m²/s², count as this one under a root, so that the root has a derivative.
+/// The square of a speed, m²/s², below which bristles do not follow the slip: the root has a derivative above it.
 const LEAST: f64 = 1e-30;
 
 /// Returns whether the element has friction.
@@ -166,7 +166,8 @@ fn bristles<'g>(
     let z = states(element).map(|name| sums.state(&name));
     let slip = along.map(|axis| axis.dot(motion.slip));
     let dot = |a: [Expr<'g>; 2], b: [Expr<'g>; 2]| a[0] * b[0] + a[1] * b[1];
-    let speed = dot(slip, slip).max(sums.b.number(LEAST)).sqrt();
+    let (square, least) = (dot(slip, slip), sums.b.number(LEAST));
+    let speed = square.if_less(least, zero, square.max(least).sqrt());
     let [stiffness, damping, release] =
         [&BRISTLES, &BRISTLE_DAMPING, &RELEASE].map(|key| sums.number(element, key));
     let back = stiffness * speed / coefficient;

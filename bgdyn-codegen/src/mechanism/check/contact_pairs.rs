@@ -6,7 +6,7 @@ use super::loops::{Context, Planes, find_site, path, plane};
 use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Fields, Key, Located, ParsedValue, Raw, Reads, check_unit};
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::mechanism::{
     ContactPair, ContactPartner, ContactSphere, LinkId, Mechanism, Motion, Pose, SiteOrigins,
 };
@@ -71,6 +71,9 @@ const WITH_RADIUS: Key = Key {
     needed: false,
     about: "the radius of the other sphere; a point without it",
 };
+
+/// The cosine above which a normal is close to x.
+const CLOSE: f64 = 0.9;
 
 /// Gaps that differ by less, relative to the largest length, are equal.
 const ROUNDING: f64 = 1e-26;
@@ -285,6 +288,10 @@ impl ContactReader<'_> {
             _ => None,
         };
         let (link, pose) = plane(on.as_ref(), planes, self.faults)?;
+        let pose = Pose {
+            rotation: axes(pose.rotation.column(2)),
+            ..pose
+        };
         let given_base = self
             .context
             .0
@@ -298,6 +305,25 @@ impl ContactReader<'_> {
         }
         Some(ContactPartner::Plane { link, pose })
     }
+}
+
+/// Returns the axes of a plane with this normal: x is along the projection of the link's x, or y along that of the link's
+/// y where the normal is close to x. They are continuous where the normal is close to z.
+fn axes(normal: Vec3<Dd>) -> Mat3<Dd> {
+    let projected = |k: usize| {
+        let mut axis = Vec3([Dd::ZERO; 3]);
+        axis.0[k] = Dd::ONE;
+        if normal.0[k] == Dd::ZERO {
+            return axis;
+        }
+        let across = axis - normal.scale(normal.0[k]);
+        across.scale(Dd::ONE / across.dot(across).sqrt())
+    };
+    let (x, y) = match normal.0[0].to_f64().abs() > CLOSE {
+        true => (projected(1).cross(normal), projected(1)),
+        false => (projected(0), normal.cross(projected(0))),
+    };
+    Mat3::from_fn(|i, j| [x, y, normal][j].0[i])
 }
 
 /// Returns the corners of a box: x changes first, then y, then z.
