@@ -1,5 +1,7 @@
 //! Tests what contact laws refuse: the rule, the location, the words.
 
+use bgdyn_codegen::fault::Fault;
+
 use super::common::{told, try_scene};
 
 const BALL: &str = "
@@ -32,19 +34,15 @@ fn what_contact_laws_refuse() {
     let mut others: Vec<String> = Vec::new();
     for (keys, rule, words) in [
         ("contact: flor, stiffness: 1e5", "unknown-name", "`floor`"),
-        ("stiffness: 1e5", "effect-missing", "`contact`"),
+        ("stiffness: 1e5", "missing-key", "`contact`"),
         ("contact: floor", "effect-missing", "`linear_stiffness`"),
         (
             "contact: floor, stiffness: 1e5, linear_stiffness: 1e4",
             "effect-missing",
             "one of",
         ),
-        (
-            "contact: floor, stiffness: 0",
-            "effect-value",
-            "`stiffness`",
-        ),
-        ("contact: floor, stiffness: 1e5 N/m", "wrong-unit", "N/m"),
+        ("contact: floor, stiffness: 0", "effect-sign", "`stiffness`"),
+        ("contact: floor, stiffness: 1e5 N/m", "unit-misfit", "N/m"),
         (
             "contact: floor, contacts: [cube], stiffness: 1e5",
             "effect-contacts",
@@ -69,16 +67,16 @@ fn what_contact_laws_refuse() {
         others.extend(unlike(keys, rule, words));
     }
     for (more, rule, words) in [
-        ("damping: -1", "effect-value", "`damping`"),
+        ("damping: -1", "effect-sign", "`damping`"),
         ("restitution: 0.5", "effect-damping", "impact_speed"),
         (
             "restitution: 1.5, impact_speed: 1",
-            "effect-value",
-            "above 1",
+            "effect-sign",
+            "at most 1",
         ),
         (
             "restitution: 0, impact_speed: 1",
-            "effect-value",
+            "effect-sign",
             "`restitution`",
         ),
         (
@@ -86,7 +84,7 @@ fn what_contact_laws_refuse() {
             "effect-damping",
             "`damping`",
         ),
-        ("kinetic: -0.1, width: 0.01", "effect-value", "`kinetic`"),
+        ("kinetic: -0.1, width: 0.01", "effect-sign", "`kinetic`"),
         ("kinetic: 0.5", "effect-friction", "`bristles`"),
         (
             "kinetic: 0.5, width: 0.01, bristles: 1e3, release: 0.01",
@@ -96,7 +94,7 @@ fn what_contact_laws_refuse() {
         ("kinetic: 0.5, bristles: 1e3", "effect-missing", "`release`"),
         (
             "kinetic: 0.5, static: 0.4, stribeck_speed: 0.1, width: 0.01",
-            "effect-value",
+            "effect-order",
             "`static`",
         ),
         (
@@ -137,4 +135,112 @@ fn a_contact_has_one_law() {
         let text = told(&refusal, &scene);
         assert!(text.contains("has a law already: `one`"), "{text}");
     }
+}
+
+/// Contacts of a mechanism, each with the rule that it breaks.
+const CONTACTS: [(&str, &str, &str); 16] = [
+    (
+        "itself",
+        "{ link: hand, radius: 10 mm, with: arm, with_radius: 10 mm }",
+        "contact-moves-nothing",
+    ),
+    (
+        "carrier",
+        "{ link: hand, radius: 10 mm, on: palm }",
+        "contact-moves-nothing",
+    ),
+    (
+        "height",
+        "{ link: hand, radius: 10 mm }",
+        "contact-moves-nothing",
+    ),
+    (
+        "hole",
+        "{ link: hand, radius: -10 mm, on: wall }",
+        "radius-not-positive",
+    ),
+    (
+        "other_hole",
+        "{ link: hand, radius: 1 cm, with: hub, with_radius: -1 cm }",
+        "radius-not-positive",
+    ),
+    ("points", "{ link: hand, with: hub }", "contact-of-points"),
+    (
+        "both",
+        "{ link: hand, on: wall, with: hub, with_radius: 1 cm }",
+        "unused-key",
+    ),
+    (
+        "alone",
+        "{ link: hand, on: wall, with_radius: 1 cm }",
+        "unused-key",
+    ),
+    (
+        "mixed",
+        "{ link: hand, size: [0.1, 0.1, 0.1], to: [0.1, 0, 0], on: wall }",
+        "unused-key",
+    ),
+    (
+        "flat",
+        "{ link: hand, size: [0.1, 0, 0.1], on: wall }",
+        "value-not-positive",
+    ),
+    (
+        "short",
+        "{ link: hand, at: [0.1, 0, 0], to: [0.1, 0, 0], on: wall }",
+        "value-not-positive",
+    ),
+    (
+        "varying",
+        "{ link: hand, radius: { parameter: ball, value: 10 mm }, on: wall }",
+        "parameter-not-possible",
+    ),
+    ("stranger", "{ link: hant, on: wall }", "unknown-place"),
+    ("nowhere", "{ link: hand, on: walt }", "unknown-plane"),
+    ("nothing", "{ radius: 1 cm, on: wall }", "missing-key"),
+    (
+        "heavy",
+        "{ link: hand, radius: 1 kg, on: wall }",
+        "unit-misfit",
+    ),
+];
+
+/// Returns the faults of a mechanism with a contact.
+fn faults(name: &str, contact: &str) -> Vec<Fault> {
+    let text = format!(
+        "
+format: 1
+links:
+  - {{ name: arm, mass: 1, com: [0.2, 0, 0], joint: {{ name: turn, type: revolute, axis: z }} }}
+  - {{ name: hand, parent: arm, joint: {{ name: wrist, type: fixed, origin: {{ xyz: [0.4, 0, 0] }} }} }}
+frames:
+  - {{ name: hub, link: world, origin: {{ xyz: [1, 0, 0] }} }}
+planes:
+  wall: {{ normal: x, offset: -1 m }}
+  palm: {{ link: arm, normal: x }}
+contacts:
+  {name}: {contact}
+"
+    );
+    bgdyn_codegen::read(&text, Some("m")).1.0
+}
+
+#[test]
+fn what_contacts_of_mechanisms_refuse() {
+    for (name, contact, rule) in CONTACTS {
+        let found = faults(name, contact);
+        let rules: Vec<&str> = found.iter().map(|fault| fault.rule).collect();
+        assert_eq!(rules, [rule], "{name}: {found:?}");
+        assert!(found[0].path.contains(name), "{found:?}");
+    }
+    assert!(faults("sound", "{ link: hand, on: wall }").is_empty());
+}
+
+/// The ends of a capsule have the name of its entry and a number.
+#[test]
+fn two_contacts_of_one_name_are_refused() {
+    let both = "{ link: hand, to: [0.1, 0, 0], on: wall }\n  rod_2: { link: hand, on: wall }";
+    let found = faults("rod", both);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(found[0].rule, "repeated-name");
 }
