@@ -28,7 +28,6 @@ pub struct Reading {
     pub pushes: Dd,
     /// z·γ_t: the slip turns against the bristles where it is negative.
     pub with_bristles: Dd,
-    pub bristles: bool,
 }
 
 /// Friction at a contact.
@@ -80,7 +79,6 @@ pub fn law(e: &Effect, at: &At<'_>, sums: &mut Sums) {
         dissipated: -dot(force, meeting.velocity) - stored_rate,
         pushes,
         with_bristles: rubs.along,
-        bristles: e.has("bristles"),
     };
     sums.contacts.insert(e.name.clone(), reading);
 }
