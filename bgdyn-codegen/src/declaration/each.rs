@@ -97,6 +97,14 @@ impl Declaration {
         let Some(names) = names(&list, (each, &several), faults) else {
             return vec![];
         };
+        if names.is_empty() {
+            let location = &list.location;
+            faults.push(wording::empty_list(
+                location,
+                &self.name.value,
+                several.name,
+            ));
+        }
         let own = self.fields.clone().without(&several);
         let named = names.into_iter();
         named

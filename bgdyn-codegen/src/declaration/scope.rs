@@ -91,9 +91,7 @@ impl NameScope {
             locked,
             prescribed: mechanism.prescribed_names(),
             sites: SiteOrigins::new(mechanism),
-            contacts: (mechanism.contact_pairs().iter())
-                .map(|pair| pair.name.clone())
-                .collect(),
+            contacts: contact_names(mechanism),
             nodes: Vec::new(),
             refused: RejectedEffects::default(),
         }
@@ -134,6 +132,16 @@ impl NameScope {
         let own = found.or(dependent).map(|(_, motion)| *motion);
         own.or(follower.map(|(.., motion)| *motion))
     }
+}
+
+/// Returns the names of the entries of `contacts`, and those of the contacts of each with several.
+fn contact_names(mechanism: &Mechanism) -> Vec<String> {
+    let pairs = mechanism.contact_pairs();
+    let mut names: Vec<String> = pairs.iter().map(|pair| pair.entry.clone()).collect();
+    names.dedup();
+    let several = pairs.iter().filter(|pair| pair.name != pair.entry);
+    names.extend(several.map(|pair| pair.name.clone()));
+    names
 }
 
 /// Checks that the names of effects and of their nodes are unique and not those of joints, because they

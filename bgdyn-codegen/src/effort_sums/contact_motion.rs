@@ -14,6 +14,9 @@ use crate::expr::Expr;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId};
 
+/// The least square of a distance of two centres, m².
+const LEAST: f64 = 1e-30;
+
 /// The relative motion at a contact, world axes.
 #[derive(Clone, Copy, Debug)]
 pub struct ContactMotion<'g> {
@@ -53,7 +56,8 @@ impl<'g> EffortSums<'g, '_> {
             }
             ContactPartner::Sphere(other) => {
                 let apart = centre - self.centre(other);
-                let distance = apart.dot(apart).sqrt();
+                // Where the centres meet there is no normal; the root has a derivative even there.
+                let distance = apart.dot(apart).max(self.b.number(LEAST)).sqrt();
                 let one = self.b.number(1.0);
                 let normal = apart.scale(one / distance);
                 let gap = distance - self.b.constant(pair.sphere.radius + other.radius);

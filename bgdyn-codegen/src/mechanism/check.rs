@@ -146,7 +146,10 @@ fn checked(
         };
         loops::close(entries, &mut mechanism, &directions, faults)?;
         mechanism.contact_pairs = pairs?;
-        contact_pairs::refuse_constant(spec, &mechanism, faults);
+        // In a scene locked joints may leave a contact without motion.
+        if locked.is_none() {
+            contact_pairs::refuse_constant(spec, &mechanism, faults);
+        }
         mechanism.snapped = directions.into_snapped();
         Some(mechanism)
     };

@@ -33,13 +33,18 @@ fn what_contact_laws_refuse() {
     let sound = "contact: floor, stiffness: 1e5";
     let mut others: Vec<String> = Vec::new();
     for (keys, rule, words) in [
+        (
+            "contacts: [], stiffness: 1e5",
+            "effect-contacts",
+            "names none",
+        ),
         ("contact: flor, stiffness: 1e5", "unknown-name", "`floor`"),
         ("stiffness: 1e5", "missing-key", "`contact`"),
         ("contact: floor", "effect-missing", "`linear_stiffness`"),
         (
             "contact: floor, stiffness: 1e5, linear_stiffness: 1e4",
             "effect-missing",
-            "one of",
+            "has both",
         ),
         ("contact: floor, stiffness: 0", "effect-sign", "`stiffness`"),
         ("contact: floor, stiffness: 1e5 N/m", "unit-misfit", "N/m"),
@@ -67,6 +72,11 @@ fn what_contact_laws_refuse() {
         others.extend(unlike(keys, rule, words));
     }
     for (more, rule, words) in [
+        (
+            "kinetic: 0, bristles: 1e3, release: 0.01",
+            "effect-sign",
+            "`kinetic`",
+        ),
         ("damping: -1", "effect-sign", "`damping`"),
         ("restitution: 0.5", "effect-damping", "impact_speed"),
         (
@@ -89,7 +99,7 @@ fn what_contact_laws_refuse() {
         (
             "kinetic: 0.5, width: 0.01, bristles: 1e3, release: 0.01",
             "effect-friction",
-            "not both",
+            "both",
         ),
         ("kinetic: 0.5, bristles: 1e3", "effect-missing", "`release`"),
         (

@@ -17,7 +17,7 @@ pub(super) type Vec3<T> = [T; 3];
 pub struct ContactProblem<'a, T, const K: usize> {
     /// The Delassus matrix G = J M⁻¹ Jᵀ, in 1/kg, symmetric and positive semidefinite: `delassus[c][d][i][j]` is the
     /// velocity i at contact c from a unit of impulse j at contact d. Several contacts at one rigid body make it
-    /// singular. Blocks of contacts that are not active are not read.
+    /// singular. Blocks of contacts that are not active do not influence the result.
     pub delassus: &'a [[[[T; 3]; 3]; K]; K],
     /// Relative velocities b without the impulses, in m/s. Terms of restitution are part of them.
     pub velocities: &'a [[T; 3]; K],

@@ -12,7 +12,9 @@ pub(super) fn length<T: Real>(x: T, y: T) -> T {
 pub(super) fn project<T: Real>(friction: T, p: &Vec3<T>) -> Vec3<T> {
     let tangential = length(p[0], p[1]);
     let limit = friction * p[2];
-    if tangential <= T::EPSILON.mul_add(T::from_f64(4.0) * limit, limit) {
+    // Without friction the limit of an impulse that pulls is −0, which is not less than 0.
+    let presses = p[2] >= T::from_f64(0.0);
+    if presses && tangential <= T::EPSILON.mul_add(T::from_f64(4.0) * limit, limit) {
         return *p;
     }
     on_boundary(friction, p, friction.mul_add(tangential, p[2]))
@@ -41,8 +43,9 @@ fn contact_residual<T: Real>(friction: T, step: T, p: &Vec3<T>, velocity: &Vec3<
     let x = [p[0] - moved[0], p[1] - moved[1]];
     let (tangential, slip) = (length(x[0], x[1]), length(moved[0], moved[1]));
     let push = p[2] - moved[2];
-    let target = if tangential <= friction * (push - friction * slip) {
-        [x[0], x[1], push - friction * slip]
+    let lifted = push - friction * slip;
+    let target = if lifted >= T::from_f64(0.0) && tangential <= friction * lifted {
+        [x[0], x[1], lifted]
     } else {
         let product = p[0] * (p[0] - two * moved[0]) + p[1] * (p[1] - two * moved[1]);
         let sum = tangential + slip;

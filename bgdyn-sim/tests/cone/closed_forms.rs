@@ -35,6 +35,25 @@ fn a_contact_that_separates_has_no_impulse() {
     }
 }
 
+/// Without friction, straight along the normal: no start makes a contact pull, and none is left unsolved.
+#[test]
+fn a_contact_without_friction_never_pulls() {
+    for (velocity, normal) in [(1.0, 0.0), (0.0, 0.0), (-1.0, 2.0)] {
+        for start in [
+            [0.0; 3],
+            [0.0, 0.0, -2.0],
+            [0.0, 0.0, 5.0],
+            [1.0, 0.0, -1.0],
+        ] {
+            let contact = one(diagonal(2.0, 3.0, 0.5), [0.0, 0.0, velocity], 0.0);
+            let mut impulses = [start];
+            let outcome = contact.solve(&mut impulses);
+            assert!(outcome.solved, "{velocity} m/s from {start:?}: {outcome:?}");
+            assert_close(impulses[0], [0.0, 0.0, normal], "the impulse");
+        }
+    }
+}
+
 /// A positive definite block with the given coupling of normal and tangents.
 fn block(random: &mut Random, coupling: f64) -> [[f64; 3]; 3] {
     let rows: [[f64; 4]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| random.number()));

@@ -63,14 +63,18 @@ pub(super) fn contacts(
     };
     let pairs: Vec<&ContactPair> = names.iter().filter_map(of).collect();
     let mut planes: Vec<DrawnPlane> = Vec::new();
+    let mut spheres: Vec<ContactSphere> = Vec::new();
     for pair in &pairs {
-        sphere(bodies, &pair.sphere);
+        spheres.push(pair.sphere);
         match &pair.partner {
-            ContactPartner::Sphere(other) => sphere(bodies, other),
+            ContactPartner::Sphere(other) => spheres.push(*other),
             ContactPartner::Plane { link, pose } => {
                 let (body, place) = bodies.carrier(*link);
                 let placed = place.then(&Placed::of(pose));
-                let known = |plane: &DrawnPlane| plane.body == body && plane.at == placed.o;
+                let known = |plane: &DrawnPlane| {
+                    let place = (plane.body, plane.at, plane.axes);
+                    place == (body, placed.o, placed.axes())
+                };
                 if !planes.iter().any(known) {
                     planes.push(DrawnPlane {
                         body,
@@ -79,6 +83,11 @@ pub(super) fn contacts(
                     });
                 }
             }
+        }
+    }
+    for (k, one) in spheres.iter().enumerate() {
+        if !spheres[..k].contains(one) {
+            sphere(bodies, one);
         }
     }
     boxes(bodies, &pairs);

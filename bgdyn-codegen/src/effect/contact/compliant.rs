@@ -32,7 +32,7 @@ impl EffectKind for CompliantContact {
     }
 
     fn summary(&self) -> &'static str {
-        "compliant contact: λ = E(δ) (1 + (3/2) d δ̇) ≥ 0, E = k δ^(3/2) or k δ, along the normal, friction up to μ λ along the plane"
+        "compliant contact: λ = E(δ) (1 + (3/2) d δ̇) ≥ 0, E = k δ^(3/2) or k δ, along the normal, friction up to μ λ (smooth) or μ E (bristles) along the plane"
     }
 
     fn symbol(&self) -> &'static str {

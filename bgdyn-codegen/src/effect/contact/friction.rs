@@ -90,6 +90,9 @@ pub(super) fn check(check: &mut ValueCheck<'_>) {
         &[STRIBECK_SPEED, WIDTH, BRISTLES, RELEASE],
         Help::ContactWithoutFriction,
     );
+    if check.number(&BRISTLES).is_some() {
+        check.positive(&[KINETIC], Help::BristlesNeedRest);
+    }
     let element = check.element;
     let (location, name) = (element.location.clone(), &element.name);
     let has = |key: &Key| element.quantity(key).is_some();
@@ -101,7 +104,7 @@ pub(super) fn check(check: &mut ValueCheck<'_>) {
         ));
     }
     if has(&KINETIC) && has(&WIDTH) == has(&BRISTLES) {
-        check.report(wording::width_or_bristles(&location, name));
+        check.report(wording::width_or_bristles(&location, name, has(&WIDTH)));
     }
     if has(&BRISTLES) && !has(&RELEASE) {
         check.report(wording::bristles_without_release(&location, name));

@@ -73,18 +73,31 @@ pub(super) fn check(check: &mut ValueCheck<'_>) {
     check.positive(&[RESTITUTION], Help::RestitutionIsPositive);
     check.at_most_one(&RESTITUTION, Help::RestitutionAboveOne);
     check.positive(&[IMPACT_SPEED], Help::SpeedOfImpact);
-    let stiffnesses = [STIFFNESS, LINEAR_STIFFNESS].map(|key| check.number(&key).is_some());
-    if stiffnesses[0] == stiffnesses[1] {
-        let element = check.element;
-        check.report(wording::not_one_stiffness(&element.location, &element.name));
+    let element = check.element;
+    let (name, given) = (&element.name, |key: &Key| check.number(key).is_some());
+    let both = given(&STIFFNESS) && given(&LINEAR_STIFFNESS);
+    if given(&STIFFNESS) == given(&LINEAR_STIFFNESS) {
+        let location = check.location(&LINEAR_STIFFNESS);
+        check.report(wording::not_one_stiffness(&location, name, both));
     }
     let [damping, restitution, speed] =
         [DAMPING, RESTITUTION, IMPACT_SPEED].map(|key| check.number(&key).is_some());
-    if damping && (restitution || speed) || restitution != speed {
-        check.report(wording::damping_or_restitution(
-            &check.element.location,
-            &check.element.name,
-        ));
+    match (restitution, speed) {
+        (true, true) if damping => {
+            let location = check.location(&DAMPING);
+            check.report(wording::damping_beside_restitution(&location, name));
+        }
+        (true, false) => {
+            let location = check.location(&RESTITUTION);
+            let keys = [RESTITUTION.name, IMPACT_SPEED.name];
+            check.report(wording::restitution_alone(&location, name, keys));
+        }
+        (false, true) => {
+            let location = check.location(&IMPACT_SPEED);
+            let keys = [IMPACT_SPEED.name, RESTITUTION.name];
+            check.report(wording::restitution_alone(&location, name, keys));
+        }
+        _ => {}
     }
 }
 

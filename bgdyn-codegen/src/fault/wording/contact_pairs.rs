@@ -110,32 +110,49 @@ pub(crate) fn contact_of_given_base(location: &Location, name: &str) -> Fault {
 
 // The effect
 
-pub(crate) fn not_one_stiffness(location: &Location, effect: &str) -> Fault {
-    let message = format!(
-        "{} needs one of `stiffness` and `linear_stiffness`",
-        quote(effect)
-    );
+/// `both` is whether both are given.
+pub(crate) fn not_one_stiffness(location: &Location, effect: &str, both: bool) -> Fault {
+    let message = match both {
+        true => format!(
+            "{} has both `stiffness` and `linear_stiffness`",
+            quote(effect)
+        ),
+        false => format!("{} has no stiffness", quote(effect)),
+    };
     Fault::new(location, "effect-missing", message).with_help(
-        "`stiffness: 2e6 N/m^1.5` is Hertz's force k δ^(3/2), `linear_stiffness: 1e5 N/m` a force k δ",
+        "write one: `stiffness: 2e6 N/m^1.5` is Hertz's force k δ^(3/2), `linear_stiffness: 1e5 N/m` a force k δ",
     )
 }
 
-pub(crate) fn damping_or_restitution(location: &Location, effect: &str) -> Fault {
-    let message = format!(
-        "{} needs either `damping`, or `restitution` with `impact_speed`",
-        quote(effect)
-    );
-    Fault::new(location, "effect-damping", message)
-        .with_help("keep one of them; without all three an impact loses no energy along the normal")
+pub(crate) fn damping_beside_restitution(location: &Location, effect: &str) -> Fault {
+    let message = format!("{} has `damping` beside `restitution`", quote(effect));
+    Fault::new(location, "effect-damping", message).with_help(
+        "leave one of them out: the damping follows from `restitution` and `impact_speed`",
+    )
 }
 
-pub(crate) fn width_or_bristles(location: &Location, effect: &str) -> Fault {
-    let message = format!(
-        "{} has friction without one of `width` and `bristles`",
-        quote(effect)
-    );
+pub(crate) fn restitution_alone(
+    location: &Location,
+    effect: &str,
+    [given, missing]: [&str; 2],
+) -> Fault {
+    let message = format!("{} has `{given}` without `{missing}`", quote(effect));
+    Fault::new(location, "effect-damping", message).with_help(
+        "write both: an impact at the speed `impact_speed` keeps the part `restitution` of it",
+    )
+}
+
+/// `both` is whether both are given.
+pub(crate) fn width_or_bristles(location: &Location, effect: &str, both: bool) -> Fault {
+    let message = match both {
+        true => format!("{} has both `width` and `bristles`", quote(effect)),
+        false => format!(
+            "{} has friction without `width` or `bristles`",
+            quote(effect)
+        ),
+    };
     Fault::new(location, "effect-friction", message).with_help(
-        "write `width`, the slip over which smooth friction rises, or `bristles`, which hold; not both",
+        "write one: `width` is the slip over which smooth friction rises, `bristles` hold",
     )
 }
 

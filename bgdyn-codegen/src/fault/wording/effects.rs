@@ -180,7 +180,7 @@ pub(crate) fn one_and_several(location: &Location, effect: &str, keys: [&'static
 }
 
 pub(crate) fn listed_twice(location: &Location, key: &'static str, name: &str) -> Fault {
-    let one = key.trim_end_matches('s');
+    let one = key.strip_suffix('s').unwrap_or(key);
     let message = format!("the {one} `{name}` is in the list twice");
     Fault::new(location, rule_of(key), message).with_help("leave one of them out")
 }
@@ -192,6 +192,15 @@ pub(crate) fn list_of_wrong_kind(location: &Location, key: &'static str) -> Faul
             "write `contacts: all`, `contacts: [left_foot, right_foot]` or `contact: left_foot`"
         }
         _ => "write `joints: all`, `joints: [shoulder, elbow]` or `joint: shoulder`",
+    };
+    Fault::new(location, rule_of(key), message).with_help(help)
+}
+
+pub(crate) fn empty_list(location: &Location, effect: &str, key: &'static str) -> Fault {
+    let message = format!("`{key}` of `{effect}` names none");
+    let help = match key {
+        "contacts" => "name a contact; the mechanism lists them under `contacts`",
+        _ => "name a joint that moves, or leave the effect out",
     };
     Fault::new(location, rule_of(key), message).with_help(help)
 }
