@@ -49,11 +49,14 @@ fn fits(validator: &Validator, scene: &str) -> bool {
 fn every_scene_fits() {
     let validator = validator();
     let mut seen = 0;
-    let folders = ["specs/scenes", "tests/hard_cases/scenes"].map(|folder| root().join(folder));
+    let folders = ["specs/scenes", "specs/contact", "tests/hard_cases/scenes"]
+        .map(|folder| root().join(folder));
     let entries = folders
         .iter()
         .flat_map(|folder| fs::read_dir(folder).expect("a folder"));
-    for path in entries.map(|entry| entry.expect("an entry").path()) {
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    let is_scene = |path: &std::path::PathBuf| path.to_string_lossy().ends_with(".scene.yaml");
+    for path in paths.filter(is_scene) {
         let text = fs::read_to_string(&path).expect("a text");
         let instance: Value = serde_yaml::from_str(&text).expect("YAML");
         let faults: Vec<String> = validator

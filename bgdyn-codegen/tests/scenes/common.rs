@@ -13,11 +13,12 @@ use bgdyn_runtime::Dd;
 /// The repository's scene files.
 pub fn specs() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../specs/scenes");
-    let mut found: Vec<PathBuf> = std::fs::read_dir(folder)
+    let mut found: Vec<PathBuf> = std::fs::read_dir(&folder)
         .expect("the folder of scenes")
         .map(|entry| entry.expect("an entry").path())
         .collect();
     found.sort();
+    found.push(folder.join("../contact/ball_in_corner.scene.yaml"));
     found
 }
 

@@ -40,7 +40,7 @@ fn what_contact_laws_refuse() {
         ),
         ("contact: flor, stiffness: 1e5", "unknown-name", "`floor`"),
         ("stiffness: 1e5", "missing-key", "`contact`"),
-        ("contact: floor", "effect-missing", "`linear_stiffness`"),
+        ("contact: floor", "effect-missing", "no stiffness"),
         (
             "contact: floor, stiffness: 1e5, linear_stiffness: 1e4",
             "effect-missing",
