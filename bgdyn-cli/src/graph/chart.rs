@@ -17,6 +17,8 @@ pub(crate) struct Chart {
     pub lines: Vec<ChartLink>,
     /// The velocities that loops hold at zero.
     pub loops: Vec<ChartLink>,
+    /// Relative velocities at contacts.
+    pub contacts: Vec<ChartLink>,
     /// Frames of links with an element: their flow is [ω; v].
     pub sites: Vec<ChartLink>,
     /// Names of links that no coordinate moves, which have no junctions.
@@ -29,10 +31,11 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
-    /// Returns links, then lines, then sites, then loops.
+    /// Returns links, then lines, then sites, then loops, then contacts.
     pub fn bands(&self) -> impl Iterator<Item = &ChartLink> {
         let places = self.lines.iter().chain(&self.sites);
-        self.links.iter().chain(places).chain(&self.loops)
+        let relative = self.loops.iter().chain(&self.contacts);
+        self.links.iter().chain(places).chain(relative)
     }
 
     /// Returns every flow, link by link.

@@ -83,6 +83,7 @@ impl Chart {
             links,
             lines: Vec::new(),
             loops: Vec::new(),
+            contacts: Vec::new(),
             sites: Vec::new(),
             still: still.map(name).collect(),
             folded,

@@ -30,7 +30,7 @@ impl Chart {
         chart
     }
 
-    /// Adds the flows along lines, at sites of links, and of loops.
+    /// Adds the flows along lines, at sites of links, of loops, and at contacts.
     pub(super) fn add_ports(
         &mut self,
         graph: &BondGraph,
@@ -72,8 +72,8 @@ impl Chart {
                     (
                         name,
                         format!("γ{n}"),
-                        format!("J{n} of γ{n}"),
-                        &mut chart.sites,
+                        format!("∂γ{n}/∂q̇"),
+                        &mut chart.contacts,
                     )
                 }
             };

@@ -3,38 +3,29 @@
 //! It is f = −(c₁ + c₂ |v|) v against the velocity v of its origin, m = −c_ω ω against its angular velocity. c₁
 //! is Stokes' drag, c₂ = ½ ρ C_d A Newton's.
 
-use super::keys::AT;
+use super::keys::{AT, optional_number};
 use super::wrench::{act, moves, twist};
 use super::{Effect, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effort_sums::EffortSums;
 use crate::fault::{Faults, Help, wording};
-use crate::format::{Dimension, Key, Reads};
+use crate::format::{Dimension, Key};
 use crate::math::Vec3;
 
 pub(super) struct Drag;
 
-const fn number(name: &'static str, fit: &'static [Dimension], about: &'static str) -> Key {
-    Key {
-        name,
-        reads: Reads::Number(fit),
-        needed: false,
-        about,
-    }
-}
-
-const QUADRATIC: Key = number(
+const QUADRATIC: Key = optional_number(
     "quadratic",
     &[Dimension::QuadraticDamping],
     "c₂, force per square of the speed: ½ ρ C_d A",
 );
-const ANGULAR: Key = number(
+const ANGULAR: Key = optional_number(
     "angular",
     &[Dimension::AngularDamping],
     "c_ω, moment per angular speed",
 );
-const LINEAR: Key = number("linear", &[Dimension::Damping], "c₁, force per speed");
+const LINEAR: Key = optional_number("linear", &[Dimension::Damping], "c₁, force per speed");
 
 static KEYS: [Key; 4] = [AT, LINEAR, QUADRATIC, ANGULAR];
 

@@ -2,6 +2,20 @@
 
 use crate::format::{Dimension, Key, Reads};
 
+/// Returns the key of a number that a file need not give.
+pub(super) const fn optional_number(
+    name: &'static str,
+    fit: &'static [Dimension],
+    about: &'static str,
+) -> Key {
+    Key {
+        name,
+        reads: Reads::Number(fit),
+        needed: false,
+        about,
+    }
+}
+
 /// The joint an effect acts on.
 pub(super) const JOINT: Key = Key {
     name: "joint",

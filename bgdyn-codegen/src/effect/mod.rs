@@ -4,6 +4,7 @@
 //! the state ([`EffectKind::declare`]), and its constitutive law ([`Effect::law`]): efforts on junctions,
 //! rates of states, and the power that it supplies, stores and dissipates.
 
+mod hunt_crossley;
 mod keys;
 mod law;
 mod nodes;

@@ -1,18 +1,12 @@
 //! Compliant stops at a joint's limits, with a given coefficient of restitution.
 //!
-//! The law of Hunt and Crossley 1975: at the depth δ the stop pushes back with k δ (1 + μ δ̇), never
-//! inwards. Unlike the force of a spring with a parallel damper, its force begins and ends without a jump.
-//!
-//! μ follows from the required restitution e at an impact speed v. For m ẍ = −k x (1 + μ ẋ), with ẋ as a
-//! function of x, an impact from v to −e v satisfies (Marhefka and Orin 1999) (1 + e) y = ln((1 + y)/(1 −
-//! e y)), y = μ v, for any mass and stiffness. With ρ = (1 − e)/(1 + e) and y = 2 z/(1 + e) this is coth z
-//! − 1/z = ρ, which has one root. Slower impacts have a greater restitution, faster ones a smaller one.
+//! At the depth δ the stop pushes back with k δ (1 + μ δ̇), never inwards (`hunt_crossley.rs`).
 
 use bgdyn_runtime::Dd;
 
 use super::coulomb_smooth::SPEED;
 use super::keys::JOINT;
-use super::{Effect, nodes};
+use super::{Effect, hunt_crossley, nodes};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, ValueCheck};
 use crate::effort_sums::{EffortSums, Port};
@@ -100,11 +94,12 @@ impl EffectKind for Stop {
 
     fn declare(&self, element: &Element, layout: &mut StateLayout) {
         let (name, joint) = (&element.name, element.needed_name(&JOINT));
-        layout.event(begins(name), format!("`{joint}` meets a stop"));
-        layout.event(ends(name), format!("`{joint}` leaves a stop"));
-        let about =
-            format!("`{joint}` is pulled off a stop faster than that springs back, or no more");
-        layout.event(pulled(name), about);
+        let about = [
+            format!("`{joint}` meets a stop"),
+            format!("`{joint}` leaves a stop"),
+            format!("`{joint}` is pulled off a stop faster than that springs back, or no more"),
+        ];
+        hunt_crossley::declare(name, layout, about);
     }
 }
 
@@ -130,9 +125,7 @@ impl Effect for Stop {
             gap = Some(gap.map_or(-depth, |other: Expr<'_>| other.min(-depth)));
         }
         let gap = gap.unwrap_or(zero);
-        sums.event(&begins(&element.name), gap);
-        sums.event(&ends(&element.name), -gap);
-        sums.event(&pulled(&element.name), follows);
+        hunt_crossley::set_events(&element.name, sums, (gap, follows));
         sums.reading(
             format!("{}_effort", element.name),
             pushed,
@@ -140,18 +133,6 @@ impl Effect for Stop {
             "effort of the stops on the joint".into(),
         );
     }
-}
-
-fn begins(name: &str) -> String {
-    format!("{name}_begins")
-}
-
-fn ends(name: &str) -> String {
-    format!("{name}_ends")
-}
-
-fn pulled(name: &str) -> String {
-    format!("{name}_pulled")
 }
 
 /// The law of one stop.
@@ -172,61 +153,17 @@ fn one_side<'g>(
 ) -> Side<'g> {
     let zero = sums.b.zero();
     let value = |key| element.quantity(key).map_or(Dd::ONE, |q| q.value);
-    let damping = sums
-        .b
-        .constant(damping(value(&RESTITUTION), value(&IMPACT_SPEED)));
+    let (restitution, speed) = (value(&RESTITUTION), value(&IMPACT_SPEED));
+    let damping = sums.b.constant(hunt_crossley::damping(restitution, speed));
     let (depth, rate) = (depth.max(zero), port.rate * outwards);
     let elastic = sums.number(element, &STIFFNESS) * depth;
-    let follows = damping * rate + sums.b.number(1.0);
-    let force = elastic * follows.max(zero);
-    let effort = force * -outwards;
+    let push = hunt_crossley::push(sums, elastic, (damping, rate));
+    let effort = push.force * -outwards;
     sums.push(port, effort);
     sums.store(elastic * depth * Dd::from_f64(0.5));
-    sums.dissipate((force - elastic) * rate);
+    sums.dissipate(push.dissipated);
     Side {
         effort,
-        follows: elastic * follows,
+        follows: push.follows,
     }
-}
-
-/// Returns μ, s/m or s/rad: the damping for the restitution e, 0 < e ≤ 1, of an impact at `speed`.
-pub(super) fn damping(restitution: Dd, speed: Dd) -> Dd {
-    let two = Dd::from_f64(2.0);
-    let ratio = (Dd::ONE - restitution) / (Dd::ONE + restitution);
-    two * inverse_langevin(ratio) / ((Dd::ONE + restitution) * speed)
-}
-
-/// Solves coth z − 1/z = ρ for z ≥ 0, 0 ≤ ρ < 1. The left side increases with z and is greater than 1 −
-/// 1/z, so z is at most 1/(1 − ρ).
-fn inverse_langevin(ratio: Dd) -> Dd {
-    if ratio <= Dd::ZERO {
-        return Dd::ZERO;
-    }
-    let half = Dd::from_f64(0.5);
-    let (mut low, mut high) = (Dd::ZERO, Dd::ONE / (Dd::ONE - ratio));
-    // Each halving gains a bit; a small root needs more than the 106 bits of a double-double.
-    for _ in 0..160 {
-        let middle = (low + high) * half;
-        if langevin(middle) < ratio {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    (low + high) * half
-}
-
-/// Returns coth z − 1/z for z > 0. Near zero, where the terms cancel, it uses the continued fraction
-/// z/(3 + z²/(5 + z²/(7 + …))).
-fn langevin(z: Dd) -> Dd {
-    if z < Dd::from_f64(2.0) {
-        let square = z * z;
-        let mut below = Dd::from_f64(65.0);
-        for k in (1..32).rev() {
-            below = Dd::from_f64(f64::from(2 * k + 1)) + square / below;
-        }
-        return z / below;
-    }
-    let decay = (z * Dd::from_f64(-2.0)).exp();
-    (Dd::ONE + decay) / (Dd::ONE - decay) - Dd::ONE / z
 }

@@ -2,6 +2,7 @@
 
 mod base;
 mod constraint;
+mod contact_gaps;
 mod contact_pairs;
 mod direction;
 mod inertia;
@@ -148,7 +149,7 @@ fn checked(
         mechanism.contact_pairs = pairs?;
         // In a scene locked joints may leave a contact without motion.
         if locked.is_none() {
-            contact_pairs::refuse_constant(spec, &mechanism, faults);
+            contact_gaps::refuse_constant(spec, &mechanism, faults);
         }
         mechanism.snapped = directions.into_snapped();
         Some(mechanism)

@@ -254,3 +254,29 @@ fn two_contacts_of_one_name_are_refused() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0].rule, "repeated-name");
 }
+
+/// With loops, locking closes them anew; a contact that then cannot move stays without effect, as in a tree.
+#[test]
+fn locked_joints_may_leave_a_contact_without_motion() {
+    let four_bar = "
+format: 1
+links:
+  - { name: crank, mass: 1, com: [0.05, 0, 0], joint: { name: crank, type: revolute, axis: z } }
+  - { name: coupler, parent: crank, mass: 1, com: [0.2, 0, 0], joint: { name: knee, type: revolute, axis: z, origin: { xyz: [0.1, 0, 0] } } }
+  - { name: rocker, mass: 1, com: [0.15, 0, 0], joint: { name: rocker, type: revolute, axis: z, origin: { xyz: [0.4, 0, 0] } } }
+  - { name: hand, parent: rocker, mass: 1, com: [0.1, 0, 0.1], joint: { name: wrist, type: revolute, axis: z, origin: { xyz: [0.3, 0, 0] } } }
+loops:
+  - { name: pin, type: hinge, a: { link: coupler, origin: { xyz: [0.4, 0, 0] } }, b: { link: rocker, origin: { xyz: [0.3, 0, 0] } }, branch: left }
+planes:
+  wall: { normal: x, offset: -1 m }
+contacts:
+  knuckle: { link: crank, at: [0.1, 0, 0], on: wall }
+  nail: { link: hand, at: [0.2, 0, 0], on: wall }
+";
+    let scene = "scene: 1\nmechanism: m.yaml\neffects:\n  - inertia\n  - touch: { type: compliant_contact, contact: nail, stiffness: 1e5 }\nlock: { crank: 1 rad }\n";
+    let (system, _) = try_scene(scene, four_bar).unwrap_or_else(|refusal| {
+        panic!("{}", told(&refusal, scene));
+    });
+    assert_eq!(system.scene.layout.nv(), 1, "the wrist moves");
+    assert!(system.idle().is_empty());
+}

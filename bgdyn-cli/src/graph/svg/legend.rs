@@ -38,6 +38,7 @@ const MTF: &str = "transformer modulated by the coordinates below its modulus, w
 const LINE_RATE: &str = "rate of the length between two places, m/s; the transformers on the way there are ∂s/∂qⱼ, one number each";
 const SITE: &str = "motion [ω; v] of a place of a link, rad/s and m/s; the transformers on the way there are the columns of its Jacobian J, of six numbers each";
 const LOOP: &str = "velocity of place b of a loop relative to its place a, one number for each row: the flow source holds it at 0, and its effort are the multipliers λ; the transformers on the way there are rows of B";
+const CONTACT: &str = "velocity of a sphere relative to what it touches, at the contact point, m/s; the transformers on the way there are the columns of its Jacobian, of three numbers each";
 const TF: &str = "transformer whose modulus is the same at all times";
 const PARAMETER: &str = "the same at all times, but a run-time parameter";
 const STORE: &str = "inertial store: mass m, kg; inertia J, kg·m², about the centre of mass in the link's axes. Derivative causality: every link's flow follows from the q̇, so the stores meet in the mass matrix";
@@ -50,8 +51,7 @@ const GEAR: &str = "on a joint's drive: a gear, at the joint's scale, with its e
 const CYLINDER: &str = "on a joint or a line: a side of a cylinder, of area A: effort = A · pressure, flow of fluid = A · velocity";
 const RESISTOR: &str =
     "resistor: friction, a damper, a winding, an orifice; takes power and stores none";
-const COMPLIANCE: &str =
-    "compliance: a spring, a stop, a soft drive, fluid under pressure; stores by displacement";
+const COMPLIANCE: &str = "compliance: a spring, a stop, a contact, a soft drive, fluid under pressure; stores by displacement";
 const GYRATOR: &str = "gyrator, a DC motor: effort on the joint = k N · current, induced voltage = k N · velocity; u is the voltage fed to it, V";
 
 /// Returns the entries for a drawing, in lines of this width.
@@ -101,6 +101,7 @@ fn elements(chart: &Chart) -> Vec<(Sign, String)> {
         ("ṡ", LINE_RATE, !chart.lines.is_empty()),
         ("V", SITE, !chart.sites.is_empty()),
         ("ċ", LOOP, !chart.loops.is_empty()),
+        ("γ", CONTACT, !chart.contacts.is_empty()),
         ("TF", TF, of_symbol("TF")),
         (
             "p",

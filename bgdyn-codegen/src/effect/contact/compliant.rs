@@ -1,7 +1,6 @@
 //! Contact with a compliant normal force and friction: the surfaces may overlap a little.
 
-use super::super::Effect;
-use super::super::nodes;
+use super::super::{Effect, hunt_crossley, nodes};
 use super::{friction, normal};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
@@ -93,11 +92,12 @@ impl EffectKind for CompliantContact {
             let about = format!("the slip at `{contact}` turns against the bristles");
             layout.event(friction::reverses(element), about);
         }
-        layout.event(begins(name), format!("`{contact}` touches"));
-        layout.event(ends(name), format!("`{contact}` touches no more"));
-        let about =
-            format!("the surfaces at `{contact}` part faster than they spring back, or no more");
-        layout.event(pulled(name), about);
+        let about = [
+            format!("`{contact}` touches"),
+            format!("`{contact}` touches no more"),
+            format!("the surfaces at `{contact}` part faster than they spring back, or no more"),
+        ];
+        hunt_crossley::declare(name, layout, about);
     }
 
     fn owns_state(&self, element: &Element, state: &str) -> bool {
@@ -129,18 +129,15 @@ impl Effect for CompliantContact {
         let motion = sums.contact_motion(element);
         let normal = normal::force(element, sums, (motion.gap, motion.rate));
         sums.store(normal.stored);
-        sums.dissipate(normal.dissipated);
+        sums.dissipate(normal.push.dissipated);
         let zero = sums.b.zero();
         let (along, more) = match friction::acts(element) {
             true => friction::force(element, sums, (&motion, &normal)),
             false => (Vec3([zero; 3]), zero),
         };
-        let pressed = normal.force + more;
+        let pressed = normal.push.force + more;
         sums.push_contact(&motion, motion.normal.scale(pressed) + along);
-        let name = &element.name;
-        sums.event(&begins(name), motion.gap);
-        sums.event(&ends(name), -motion.gap);
-        sums.event(&pulled(name), normal.follows);
+        hunt_crossley::set_events(&element.name, sums, (motion.gap, normal.push.follows));
         readings(element, sums, &motion, (pressed, along));
     }
 }
@@ -191,16 +188,4 @@ fn readings<'g>(
         "m/s",
         "speed along the plane of contact",
     );
-}
-
-fn begins(name: &str) -> String {
-    format!("{name}_begins")
-}
-
-fn ends(name: &str) -> String {
-    format!("{name}_ends")
-}
-
-fn pulled(name: &str) -> String {
-    format!("{name}_pulled")
 }

@@ -11,60 +11,52 @@
 
 use bgdyn_runtime::Dd;
 
+use super::super::keys::optional_number;
 use super::normal::NormalForce;
 use crate::declaration::{Element, ValueCheck};
 use crate::effort_sums::{ContactMotion, EffortSums};
 use crate::expr::Expr;
 use crate::fault::{Help, wording};
-use crate::format::{Dimension, Key, Reads};
+use crate::format::{Dimension, Key};
 use crate::math::Vec3;
 
-const fn number(name: &'static str, fit: &'static [Dimension], about: &'static str) -> Key {
-    Key {
-        name,
-        reads: Reads::Number(fit),
-        needed: false,
-        about,
-    }
-}
-
-pub(super) const KINETIC: Key = number(
+pub(super) const KINETIC: Key = optional_number(
     "kinetic",
     &[Dimension::One],
     "μ_k, the coefficient of friction while slipping; no friction without it",
 );
-pub(super) const STATIC: Key = number(
+pub(super) const STATIC: Key = optional_number(
     "static",
     &[Dimension::One],
     "μ_s, the coefficient close to rest; μ_k without it",
 );
-pub(super) const STRIBECK_SPEED: Key = number(
+pub(super) const STRIBECK_SPEED: Key = optional_number(
     "stribeck_speed",
     &[Dimension::Speed],
     "v_s, the speed of the Stribeck curve; needed where μ_s is given",
 );
-pub(super) const WIDTH: Key = number(
+pub(super) const WIDTH: Key = optional_number(
     "width",
     &[Dimension::Speed],
     "w, the slip with 71 % of smooth friction; or `bristles`",
 );
-pub(super) const BRISTLES: Key = number(
+pub(super) const BRISTLES: Key = optional_number(
     "bristles",
     &[Dimension::InverseLength],
     "σ₀, stiffness of bristles per normal force: they deflect by μ/σ₀; instead of `width`",
 );
-pub(super) const BRISTLE_DAMPING: Key = number(
+pub(super) const BRISTLE_DAMPING: Key = optional_number(
     "bristle_damping",
     &[Dimension::InverseSpeed],
     "σ₁, damping of the bristles per normal force",
 );
-pub(super) const RELEASE: Key = number(
+pub(super) const RELEASE: Key = optional_number(
     "release",
     &[Dimension::Time],
     "the time in which bristles without contact return to rest; needed with `bristles`",
 );
 
-/// The square of a speed, m²/s², below which bristles do not follow the slip: the root has a derivative above it.
+/// The square of a speed, m²/s², below which bristles do not yield: above it the root of the square has a derivative.
 const LEAST: f64 = 1e-30;
 
 /// Returns whether the element has friction.
@@ -140,7 +132,7 @@ pub(super) fn force<'g>(
         (Some(along), true) => bristles(element, sums, (motion, normal), (along, coefficient)),
         _ => {
             let width = sums.number(element, &WIDTH);
-            let factor = coefficient * normal.force / (square + width * width).sqrt();
+            let factor = coefficient * normal.push.force / (square + width * width).sqrt();
             sums.dissipate(factor * square);
             (motion.slip.scale(-factor), sums.b.zero())
         }

@@ -7,7 +7,7 @@
 
 use bgdyn_runtime::Dd;
 
-use super::super::stop;
+use super::super::hunt_crossley::{self, Push};
 use crate::declaration::{Element, ValueCheck};
 use crate::effort_sums::EffortSums;
 use crate::expr::Expr;
@@ -51,18 +51,14 @@ const LEAST: f64 = 1e-30;
 /// The normal force.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct NormalForce<'g> {
-    /// λ, N.
-    pub(super) force: Expr<'g>,
+    /// λ, N, and its power.
+    pub(super) push: Push<'g>,
     /// E, N.
     pub(super) elastic: Expr<'g>,
     /// ∂E/∂δ, N/m.
     pub(super) slope: Expr<'g>,
-    /// E (1 + μ δ̇), N: negative where the surfaces part faster than they spring back.
-    pub(super) follows: Expr<'g>,
     /// Stored energy, J.
     pub(super) stored: Expr<'g>,
-    /// Dissipated power, W.
-    pub(super) dissipated: Expr<'g>,
 }
 
 /// Checks the numbers of the law.
@@ -123,15 +119,11 @@ pub(super) fn force<'g>(
         }
     };
     let slope = gap.if_less(zero, slope, zero);
-    let factor = sums.b.number(1.0) - damping(element, sums) * rate;
-    let force = elastic * factor.max(zero);
     NormalForce {
-        force,
+        push: hunt_crossley::push(sums, elastic, (damping(element, sums), -rate)),
         elastic,
         slope,
-        follows: elastic * factor,
         stored,
-        dissipated: (elastic - force) * rate,
     }
 }
 
@@ -139,7 +131,9 @@ pub(super) fn force<'g>(
 fn damping<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
     let value = |key| element.quantity(key).map(|q| q.value);
     match (value(&RESTITUTION), value(&IMPACT_SPEED)) {
-        (Some(restitution), Some(speed)) => sums.b.constant(stop::damping(restitution, speed)),
+        (Some(restitution), Some(speed)) => {
+            sums.b.constant(hunt_crossley::damping(restitution, speed))
+        }
         _ => sums.number(element, &DAMPING) * Dd::from_f64(1.5),
     }
 }

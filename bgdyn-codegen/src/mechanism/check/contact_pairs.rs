@@ -2,14 +2,12 @@
 
 use bgdyn_runtime::Dd;
 
-use super::loops::{Context, Planes, find_site, path, plane};
+use super::loops::{Context, Planes, find_site, plane};
 use crate::fault::wording::expected;
 use crate::fault::{Faults, Location, wording};
 use crate::format::{Dimension, Fields, Key, Located, ParsedValue, Raw, Reads, check_unit};
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{
-    ContactPair, ContactPartner, ContactSphere, LinkId, Mechanism, Motion, Pose, SiteOrigins,
-};
+use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId, Pose};
 use crate::name::is_identifier;
 
 /// The keys of an entry of `contacts`.
@@ -74,9 +72,6 @@ const WITH_RADIUS: Key = Key {
 
 /// The cosine above which a normal is close to x.
 const CLOSE: f64 = 0.9;
-
-/// Gaps that differ by less, relative to the largest length, are equal.
-const ROUNDING: f64 = 1e-26;
 
 /// Reads the entries of `contacts`. `None` if a rule is broken.
 pub(super) fn contact_pairs(
@@ -154,19 +149,7 @@ fn read(
         },
         partner,
     };
-    let pairs: Vec<ContactPair> = centres.into_iter().enumerate().map(pair).collect();
-    let (_, tree, _) = context;
-    let way = path(tree, link, partner.link());
-    let moves =
-        |&(LinkId(i), _): &(LinkId, bool)| tree.links()[i].joint.kind.motion != Motion::None;
-    if !way.iter().any(moves) {
-        faults.push(wording::contact_pair_moves_nothing(
-            &raw.location,
-            &name.value,
-        ));
-        return None;
-    }
-    Some(pairs)
+    Some(centres.into_iter().enumerate().map(pair).collect())
 }
 
 /// Reads the keys of one entry.
@@ -337,59 +320,4 @@ fn corners(centre: Vec3<Dd>, edges: Vec3<Dd>) -> Vec<Vec3<Dd>> {
         centre + Vec3([side(0), side(1), side(2)])
     };
     (0..8).map(corner).collect()
-}
-
-/// Reports entries of `contacts` whose gaps no joint changes.
-pub(super) fn refuse_constant(
-    spec: &crate::format::Spec,
-    mechanism: &Mechanism,
-    faults: &mut Faults,
-) {
-    for raw in spec.contacts.value().into_iter().flatten() {
-        let all = mechanism.contact_pairs().iter();
-        let mut own = all.filter(|pair| pair.entry == raw.name.value).peekable();
-        if own.peek().is_none() {
-            continue;
-        }
-        let constant: Option<Vec<f64>> = own.map(|pair| constant_gap(mechanism, pair)).collect();
-        if let Some(gaps) = constant {
-            let fault = wording::contact_gap_constant(&raw.location, &raw.name.value, gaps[0]);
-            faults.push(fault);
-        }
-    }
-}
-
-/// Returns the gap of a pair if it is the same at sampled positions, m.
-fn constant_gap(mechanism: &Mechanism, pair: &ContactPair) -> Option<f64> {
-    let poses = SiteOrigins::sampled_poses(mechanism);
-    let gaps: Vec<Dd> = poses.iter().map(|poses| gap(pair, poses)).collect();
-    let first = *gaps.first()?;
-    let size = poses.iter().flatten().flat_map(|pose| pose.translation.0);
-    let size = size.map(|x| x.to_f64().abs()).fold(1e-3, f64::max);
-    let same = gaps
-        .iter()
-        .all(|x| (*x - first).to_f64().abs() <= ROUNDING * size);
-    same.then(|| first.to_f64())
-}
-
-/// Returns the gap of a pair with links at these poses, m.
-fn gap(pair: &ContactPair, poses: &[Pose]) -> Dd {
-    let of = |link: Option<LinkId>| link.map_or(Pose::IDENTITY, |LinkId(i)| poses[i]);
-    let place = |sphere: &ContactSphere| {
-        let pose = of(sphere.link);
-        pose.translation + pose.rotation * sphere.centre
-    };
-    let centre = place(&pair.sphere);
-    match &pair.partner {
-        ContactPartner::Plane { link, pose } => {
-            let carrier = of(*link);
-            let origin = carrier.translation + carrier.rotation * pose.translation;
-            let normal = (carrier.rotation * pose.rotation).column(2);
-            normal.dot(centre - origin) - pair.sphere.radius
-        }
-        ContactPartner::Sphere(other) => {
-            let apart = centre - place(other);
-            apart.dot(apart).sqrt() - pair.sphere.radius - other.radius
-        }
-    }
 }
