@@ -4,6 +4,7 @@ mod all_faults_reported;
 mod build_script;
 #[path = "../common/mod.rs"]
 mod common;
+mod examples;
 mod invalid;
 mod messages_in_one_folder;
 mod reader;

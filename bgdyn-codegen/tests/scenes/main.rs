@@ -9,6 +9,7 @@ mod causality;
 mod combinations;
 mod combined;
 mod common;
+mod constrained_contacts;
 mod controller_model;
 mod controllers;
 mod cylinders;
