@@ -53,6 +53,7 @@ pub mod manifold;
 mod operations;
 mod pose;
 pub mod random;
+mod rigid_contact;
 pub mod rotation;
 mod sampled;
 mod scalar;
@@ -86,6 +87,7 @@ pub use nalgebra;
 pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
+pub use rigid_contact::{ContactMap, MOST_CONTACTS, RigidContact};
 pub use scalar::Scalar;
 #[cfg(feature = "serde")]
 pub use serde;

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use crate::Scalar;
 use crate::joint::QuasiJoint;
+use crate::rigid_contact::{ContactMap, RigidContact};
 use crate::sampled::SampledControl;
 use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 
@@ -167,6 +168,43 @@ pub trait HybridSystem<T: Scalar> {
         input: &Self::Inputs,
         t: T,
     ) -> Result<ArrayOf<Self::Modes, Contact<T>>, Self::Singular>;
+
+    /// Returns the names of the rigid contacts. The rates do not know them: an integrator must solve for their
+    /// impulses, as `Moreau` of the crate `bgdyn-sim` does.
+    fn rigid_contact_names(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Returns for each rigid contact its entry in the balance of power: what its impulses take is dissipated there.
+    fn rigid_contact_entries(&self) -> &'static [usize] {
+        &[]
+    }
+
+    /// Writes the state of each rigid contact, in the order of their names.
+    fn contact_states(
+        &self,
+        y: &Self::State,
+        input: &Self::Inputs,
+        t: T,
+        contacts: &mut [RigidContact<T>],
+    ) {
+        let _ = (y, input, t, contacts);
+    }
+
+    /// Writes how each rigid contact and the velocities act on each other, in the order of their names.
+    ///
+    /// # Errors
+    /// As [`HybridSystem::derivative`].
+    fn contact_maps(
+        &self,
+        y: &Self::State,
+        input: &Self::Inputs,
+        t: T,
+        maps: &mut [Option<ContactMap<Self::State>>],
+    ) -> Result<(), Self::Singular> {
+        let _ = (y, input, t, maps);
+        Ok(())
+    }
 
     /// Returns the outputs.
     fn output(

@@ -35,6 +35,9 @@ pub(crate) struct Ledger<E> {
     work: Power<E>,
 }
 
+/// Time and weight of the midpoint rule.
+const ONE: [(Words, Words); 1] = [(ratio(1.0, 2.0), ratio(1.0, 1.0))];
+
 /// Times and weights of Gauss's quadrature with two points, exact to degree 3.
 const TWO: [(Words, Words); 2] = [
     (
@@ -70,7 +73,11 @@ const FOUR: [(Words, Words); 4] = [
 /// Returns the times within a step at which power is evaluated, and their weights, for an integrator of
 /// this order.
 pub(crate) fn quadrature(order: u32) -> &'static [(Words, Words)] {
-    if order <= 4 { &TWO } else { &FOUR }
+    match order {
+        0..=1 => &ONE,
+        2..=4 => &TWO,
+        _ => &FOUR,
+    }
 }
 
 impl<E: StateVector> Ledger<E> {
@@ -100,6 +107,12 @@ impl<E: StateVector> Ledger<E> {
     pub(crate) fn add(&mut self, time: Of<E>, power: &Power<E>) {
         self.work.supplied.add(time, &power.supplied);
         self.work.dissipated.add(time, &power.dissipated);
+    }
+
+    /// Adds an energy that an entry has dissipated.
+    pub(crate) fn lose(&mut self, entry: usize, energy: Of<E>) {
+        let lost = &mut self.work.dissipated.entries_mut()[entry];
+        *lost = *lost + energy;
     }
 
     /// Returns the account.

@@ -22,6 +22,9 @@ pub enum Reason<E> {
     },
     /// The matrix of an implicit integrator is singular.
     SingularMatrix,
+    /// The equation has rigid contacts, and the integrator does not solve for their impulses; or more than
+    /// [`MOST_CONTACTS`](bgdyn_runtime::MOST_CONTACTS).
+    RigidContacts,
     /// The integrator needs the slopes of the rates, and they are not available.
     NoJacobian,
     /// The tolerance requires steps that are too small for the resolution of time.
@@ -62,6 +65,9 @@ impl<E: fmt::Debug> fmt::Display for Reason<E> {
             ),
             Self::SingularMatrix => f.write_str(
                 "the method's matrix is singular; a smaller step may help",
+            ),
+            Self::RigidContacts => f.write_str(
+                "the method does not know so many rigid contacts: use `moreau`, which knows 32, or a compliant law of contact",
             ),
             Self::NoJacobian => f.write_str(
                 "the method needs the slopes of the rates; generate the scene with them, or take them from differences",

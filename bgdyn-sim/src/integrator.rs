@@ -6,6 +6,7 @@ use bgdyn_runtime::{Scalar as _, StateVector};
 
 use crate::dense::Dense;
 use crate::failure::Reason;
+use crate::moreau::ContactStep;
 use crate::ode::{Ode, ScalarOf};
 use crate::real::Of;
 
@@ -62,6 +63,17 @@ pub trait Integrator<Y: StateVector> {
     /// States are then projected only where they stray from their manifold.
     fn keeps_lengths(&self) -> bool {
         false
+    }
+
+    /// Returns whether it solves for the impulses of rigid contacts ([`Ode::contacts`]). Others refuse equations with some.
+    fn solves_contacts(&self) -> bool {
+        false
+    }
+
+    /// Returns the rigid contacts in a step, of an integrator that solves for their impulses.
+    fn contact_step<'s>(&self, stages: &'s Self::Stages) -> Option<&'s ContactStep<Of<Y>>> {
+        let _ = stages;
+        None
     }
 
     /// Computes a step of length `h`.

@@ -7,6 +7,7 @@ use crate::dopri5::Dopri5;
 use crate::extrapolation::Extrapolation12;
 use crate::gauss::{Gauss2, Gauss3, Gauss4, Midpoint};
 use crate::integrator::Integrator;
+use crate::moreau::Moreau;
 use crate::real::{Of, Real};
 use crate::rk4::Rk4;
 use crate::rodas4::Rodas4;
@@ -49,5 +50,6 @@ integrators! {
     "rodas4" => Rodas4,
     "dopri5" => Dopri5,
     "dop853" => Dop853,
+    "moreau" => Moreau::<Of<Y>>::new(),
     "extrapolation12" => Extrapolation12::default(),
 }

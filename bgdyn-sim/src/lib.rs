@@ -12,6 +12,7 @@
 //! | `rodas4` | 4(3) | stiff scenes, fixed or controlled steps |
 //! | `dopri5` | 5(4) | controlled steps, not stiff |
 //! | `dop853` | 8(5,3) | the same at small tolerances |
+//! | `moreau` | 2, with impacts 1 | rigid contacts, fixed steps |
 //! | `extrapolation12` | 12 | references in double-double |
 //!
 //! [`rk4_step`] takes a step of any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene. Positions
@@ -47,7 +48,7 @@
 //! ```
 //!
 //! [`ilqr`] finds efforts and feedback for a motion of least cost, [`cone`] the impulses of rigid contacts with Coulomb
-//! friction.
+//! friction; [`Moreau`] steps scenes with such contacts.
 //!
 //! SI units and radians, time in s, energy in J. Frames, signs and the order of spatial vectors are those
 //! of the models: see [`bgdyn_runtime`].
@@ -82,6 +83,7 @@ mod integrators;
 pub mod lanes;
 mod lu;
 mod model_step;
+mod moreau;
 mod ode;
 mod plant;
 pub mod quasi_joints;
@@ -115,6 +117,7 @@ pub use gauss::{Gauss, Gauss2, Gauss3, Gauss4, Midpoint};
 pub use integrator::{Integrator, IntegratorInfo, Start, Step};
 pub use integrators::{INTEGRATORS, WithIntegrator, with_integrator};
 pub use model_step::rk4_step;
+pub use moreau::{ContactStep, Moreau};
 pub use ode::{Jacobian, Ode, ScalarOf};
 pub use plant::{FixedModes, Plant, Power};
 pub use real::{Of, Real};

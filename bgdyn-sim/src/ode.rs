@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::StateVector;
+use bgdyn_runtime::{ContactMap, RigidContact, StateVector};
 
 use crate::real::Of;
 
@@ -109,6 +109,40 @@ pub trait Ode {
         let _ = y;
         true
     }
+
+    /// Returns the number of rigid contacts, at most [`MOST_CONTACTS`](bgdyn_runtime::MOST_CONTACTS). The rates do not know
+    /// them: only integrators that solve for their impulses ([`crate::Integrator::solves_contacts`]) accept equations with some.
+    fn contacts(&self) -> usize {
+        0
+    }
+
+    /// Writes the state of each rigid contact.
+    ///
+    /// # Errors
+    /// As [`Ode::rates`].
+    fn contact_states(
+        &self,
+        t: ScalarOf<Self>,
+        y: &Self::State,
+        contacts: &mut [RigidContact<ScalarOf<Self>>],
+    ) -> Result<(), Self::Error> {
+        let _ = (t, y, contacts);
+        Ok(())
+    }
+
+    /// Writes how each rigid contact and the velocities act on each other.
+    ///
+    /// # Errors
+    /// As [`Ode::rates`].
+    fn contact_maps(
+        &self,
+        t: ScalarOf<Self>,
+        y: &Self::State,
+        maps: &mut [Option<ContactMap<Self::State>>],
+    ) -> Result<(), Self::Error> {
+        let _ = (t, y, maps);
+        Ok(())
+    }
 }
 
 impl<O: Ode> Ode for &O {
@@ -154,5 +188,27 @@ impl<O: Ode> Ode for &O {
 
     fn strays(&self, y: &O::State) -> bool {
         (**self).strays(y)
+    }
+
+    fn contacts(&self) -> usize {
+        (**self).contacts()
+    }
+
+    fn contact_states(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+        contacts: &mut [RigidContact<ScalarOf<O>>],
+    ) -> Result<(), O::Error> {
+        (**self).contact_states(t, y, contacts)
+    }
+
+    fn contact_maps(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+        maps: &mut [Option<ContactMap<O::State>>],
+    ) -> Result<(), O::Error> {
+        (**self).contact_maps(t, y, maps)
     }
 }

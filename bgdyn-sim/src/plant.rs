@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::StateVector;
+use bgdyn_runtime::{ContactMap, RigidContact, StateVector};
 
 use crate::ode::{Jacobian, Ode};
 use crate::real::Of;
@@ -115,6 +115,46 @@ pub trait Plant {
     fn strays(&self, y: &Self::State) -> bool {
         let _ = y;
         true
+    }
+
+    /// The number of rigid contacts, as [`Ode::contacts`].
+    fn contacts(&self) -> usize {
+        0
+    }
+
+    /// The entry of the balance of power to which each rigid contact belongs.
+    fn contact_entry(&self, contact: usize) -> usize {
+        contact
+    }
+
+    /// The state of each rigid contact, as [`Ode::contact_states`].
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn contact_states(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        contacts: &mut [RigidContact<Time<Self>>],
+    ) -> Result<(), Self::Error> {
+        let _ = (t, y, modes, contacts);
+        Ok(())
+    }
+
+    /// How rigid contacts and velocities act on each other, as [`Ode::contact_maps`].
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn contact_maps(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        maps: &mut [Option<ContactMap<Self::State>>],
+    ) -> Result<(), Self::Error> {
+        let _ = (t, y, modes, maps);
+        Ok(())
     }
 
     /// Values whose passage through zero is an event.
@@ -247,5 +287,27 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
 
     fn strays(&self, y: &P::State) -> bool {
         self.plant.strays(y)
+    }
+
+    fn contacts(&self) -> usize {
+        self.plant.contacts()
+    }
+
+    fn contact_states(
+        &self,
+        t: Time<P>,
+        y: &P::State,
+        contacts: &mut [RigidContact<Time<P>>],
+    ) -> Result<(), P::Error> {
+        self.plant.contact_states(t, y, self.modes, contacts)
+    }
+
+    fn contact_maps(
+        &self,
+        t: Time<P>,
+        y: &P::State,
+        maps: &mut [Option<ContactMap<P::State>>],
+    ) -> Result<(), P::Error> {
+        self.plant.contact_maps(t, y, self.modes, maps)
     }
 }

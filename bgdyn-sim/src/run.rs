@@ -94,6 +94,11 @@ where
         let ledger = self.booked(&proposal, dense.as_ref(), after.as_ref())?;
         // Nothing can fail from here on.
         let h = proposal.step.h;
+        self.contacts = self
+            .solver
+            .integrator()
+            .contact_step(&proposal.step.stages)
+            .copied();
         self.solver.take(proposal);
         self.ledger = ledger;
         if let Some((y, modes)) = after {
@@ -141,6 +146,16 @@ where
                 weight.to::<Time<P>>() * h,
                 &power.map_err(Reason::Singular)?,
             );
+        }
+        if let Some(contacts) = self.solver.integrator().contact_step(&step.step.stages) {
+            for (c, &loss) in contacts
+                .losses
+                .iter()
+                .enumerate()
+                .take(self.plant.contacts())
+            {
+                ledger.lose(self.plant.contact_entry(c), loss);
+            }
         }
         let (y, modes) = match after {
             Some((y, modes)) => (y, modes),

@@ -1,7 +1,8 @@
 //! Compiled scenes as plants.
 
 use bgdyn_runtime::{
-    ArrayOf, Canonical, Contact, FixedVector, HybridSystem, MatrixOf, SampledControl, Slope,
+    ArrayOf, Canonical, Contact, ContactMap, FixedVector, HybridSystem, MatrixOf, RigidContact,
+    SampledControl, Slope,
 };
 
 use crate::finite_differences::differences;
@@ -202,6 +203,37 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
 
     fn strays(&self, y: &S::State) -> bool {
         scene_positions::strays(self.scene, y)
+    }
+
+    fn contacts(&self) -> usize {
+        self.scene.rigid_contact_names().len()
+    }
+
+    fn contact_entry(&self, contact: usize) -> usize {
+        self.scene.rigid_contact_entries()[contact]
+    }
+
+    fn contact_states(
+        &self,
+        t: T,
+        y: &S::State,
+        modes: &S::Modes,
+        contacts: &mut [RigidContact<T>],
+    ) -> Result<(), S::Singular> {
+        let input = self.input(t, y, modes);
+        self.scene.contact_states(y, &input, t, contacts);
+        Ok(())
+    }
+
+    fn contact_maps(
+        &self,
+        t: T,
+        y: &S::State,
+        modes: &S::Modes,
+        maps: &mut [Option<ContactMap<S::State>>],
+    ) -> Result<(), S::Singular> {
+        self.scene
+            .contact_maps(y, &self.input(t, y, modes), t, maps)
     }
 
     fn events(&self, t: T, y: &S::State, modes: &S::Modes) -> Result<S::Events, S::Singular> {

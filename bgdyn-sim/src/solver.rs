@@ -1,6 +1,6 @@
 //! Advances a state step by step: fixed or controlled steps, plain or compensated sums.
 
-use bgdyn_runtime::{Scalar as _, StateVector};
+use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 
 use crate::control::{Controller, Tolerance, first_step};
 use crate::dense::Dense;
@@ -249,6 +249,14 @@ where
         ode: &O,
         h: Of<Y>,
     ) -> Result<Proposal<Y, M::Stages>, Reason<O::Error>> {
+        let most = if self.integrator.solves_contacts() {
+            MOST_CONTACTS
+        } else {
+            0
+        };
+        if ode.contacts() > most {
+            return Err(Reason::RigidContacts);
+        }
         let step = self.integrator.step(ode, &self.start(), h)?;
         let t = sum_in_two(self.t, self.low_time + h);
         let (mut y, mut low) = match &self.low {
@@ -284,7 +292,9 @@ where
     pub(crate) fn take(&mut self, proposal: Proposal<Y, M::Stages>) {
         (self.t, self.low_time) = proposal.t;
         (self.y, self.low) = proposal.y;
-        self.before = proposal.smooth.then_some(proposal.step);
+        // Impulses are a good guess for the next ones also after a projection.
+        let continues = proposal.smooth || self.integrator.solves_contacts();
+        self.before = continues.then_some(proposal.step);
     }
 
     /// Returns the states within a proposed step.

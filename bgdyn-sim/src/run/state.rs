@@ -6,6 +6,7 @@ use crate::audit::{Audit, Ledger};
 use crate::control::Tolerance;
 use crate::failure::{Failure, Reason};
 use crate::integrator::Integrator;
+use crate::moreau::ContactStep;
 use crate::plant::{FixedModes, Plant, Time};
 use crate::real::{Of, Real};
 use crate::rk4::Rk4;
@@ -71,6 +72,8 @@ pub struct Run<P: Plant, M: Integrator<P::State> = Rk4> {
     /// Events that followed each other in next to no time.
     pub(super) zeno_count: usize,
     pub(super) agreement: Agreement,
+    /// The rigid contacts in the last step.
+    pub(super) contacts: Option<ContactStep<Time<P>>>,
 }
 
 /// How many events a call may still meet.
@@ -119,6 +122,7 @@ where
             kinks: 0,
             zeno_count: 0,
             agreement: Agreement::Unknown,
+            contacts: None,
         }
     }
 
@@ -176,6 +180,11 @@ where
             self.agreement = Agreement::Disturbed;
         }
         &mut self.plant
+    }
+
+    /// The impulses and losses of the rigid contacts in the last step, of a method that solves for them.
+    pub fn contacts(&self) -> Option<&ContactStep<Time<P>>> {
+        self.contacts.as_ref()
     }
 
     /// Where the energy went since the start.

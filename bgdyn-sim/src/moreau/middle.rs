@@ -1,0 +1,167 @@
+//! The middle of a step, and the velocities at its end without impulses.
+
+use bgdyn_runtime::{ArrayOf, MatrixOf, Scalar as _, StateVector};
+
+use crate::failure::Reason;
+use crate::lu::{factor, solve};
+use crate::ode::Ode;
+use crate::real::{Of, Real};
+
+/// The middle of a step. Components that are not positions are called velocities here; first-order states are among them.
+pub(super) struct Middle<Y: StateVector> {
+    /// t + h/2
+    pub(super) t: Of<Y>,
+    /// h
+    pub(super) h: Of<Y>,
+    /// The positions q_m = q + (h/2) v, with the velocities at the beginning.
+    pub(super) y: Y,
+    /// The number of positions.
+    pub(super) positions: usize,
+    /// The factors of B = 1 − (h/2) ∂v̇/∂v, n × n for n velocities at the beginning of the matrix; without them B = 1.
+    factors: Option<(MatrixOf<Y>, ArrayOf<Y, usize>)>,
+    linearised: bool,
+}
+
+impl<Y: StateVector> Middle<Y>
+where
+    Of<Y>: Real,
+{
+    /// Returns the middle of the step of length `h` from a state at a time.
+    pub(super) fn new<O: Ode<State = Y>>(
+        ode: &O,
+        (t, from): (Of<Y>, &Y),
+        h: Of<Y>,
+    ) -> Result<Self, Reason<O::Error>> {
+        let half = h * Of::<Y>::from_f64(0.5);
+        let positions = ode.positions();
+        let mut y = from.clone();
+        moved(ode, t, &mut y, half)?;
+        ode.project(&mut y).map_err(Reason::Singular)?;
+        y.entries_mut()[positions..].copy_from_slice(&from.entries()[positions..]);
+        Ok(Middle {
+            t: t + half,
+            h,
+            y,
+            positions,
+            factors: None,
+            linearised: false,
+        })
+    }
+
+    /// Returns the velocities at the end without impulses, from a guess of those with impulses: one step of Newton's method
+    /// for v + h v̇((v + v⁺)/2) − v⁺ = 0. The positions are those of the middle.
+    pub(super) fn free<O: Ode<State = Y>>(&self, ode: &O, end: &Y) -> Result<Y, Reason<O::Error>> {
+        let rates = ode
+            .rates(self.t, &self.mean(end))
+            .map_err(Reason::Singular)?;
+        let mut step = end.zero();
+        let (start, n) = (self.y.entries(), self.positions);
+        for (i, x) in step.entries_mut().iter_mut().enumerate().skip(n) {
+            *x = (start[i] - end.entries()[i]) + self.h * rates.entries()[i];
+        }
+        self.solve(&mut step);
+        let mut free = self.y.clone();
+        for (i, x) in free.entries_mut().iter_mut().enumerate().skip(n) {
+            *x = end.entries()[i] + step.entries()[i];
+        }
+        Ok(free)
+    }
+
+    /// Returns the state in the middle with the mean velocities.
+    fn mean(&self, end: &Y) -> Y {
+        let half = Of::<Y>::from_f64(0.5);
+        let mut mean = self.y.clone();
+        let velocities = mean.entries_mut().iter_mut().zip(end.entries());
+        for (x, &end) in velocities.skip(self.positions) {
+            *x = half * (*x + end);
+        }
+        mean
+    }
+
+    /// Factors B with the slopes at the mean velocities. Returns whether B changed: once in a step, if there are slopes.
+    pub(super) fn linearise<O: Ode<State = Y>>(
+        &mut self,
+        ode: &O,
+        end: &Y,
+    ) -> Result<bool, Reason<O::Error>> {
+        if self.linearised {
+            return Ok(false);
+        }
+        self.linearised = true;
+        let Some(slopes) = ode.jacobian(self.t, &self.mean(end)) else {
+            return Ok(false);
+        };
+        let slopes = slopes.map_err(Reason::Singular)?.state;
+        let (all, positions) = (end.entries().len(), self.positions);
+        let n = all - positions;
+        let half = self.h * Of::<Y>::from_f64(0.5);
+        let mut matrix = end.matrix();
+        let entries = Y::columns_mut(&mut matrix);
+        for (j, column) in Y::columns(&slopes).chunks(all).skip(positions).enumerate() {
+            for (i, &slope) in column[positions..].iter().enumerate() {
+                let own = if i == j { 1.0 } else { 0.0 };
+                entries[j * n + i] = Of::<Y>::from_f64(own) - half * slope;
+            }
+        }
+        let mut pivots = end.array(0);
+        if !factor(&mut entries[..n * n], &mut pivots.as_mut()[..n], n) {
+            return Err(Reason::SingularMatrix);
+        }
+        self.factors = Some((matrix, pivots));
+        Ok(true)
+    }
+
+    /// Replaces velocities x by B⁻¹ x.
+    pub(super) fn solve(&self, x: &mut Y) {
+        if let Some((matrix, pivots)) = &self.factors {
+            let x = &mut x.entries_mut()[self.positions..];
+            let n = x.len();
+            solve(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], x);
+        }
+    }
+
+    /// Returns whether B differs from 1.
+    pub(super) fn is_linearised(&self) -> bool {
+        self.factors.is_some()
+    }
+
+    /// Returns the change of velocities in units of what is neglected.
+    pub(super) fn change(&self, next: &Y, end: &Y, free: &Y) -> f64 {
+        let (mut change, mut size) = (0.0_f64, f64::MIN_POSITIVE);
+        for i in self.positions..next.entries().len() {
+            let at = |y: &Y| y.entries()[i].to_f64();
+            change = change.max((at(next) - at(end)).abs());
+            let sizes = [next, free, &self.y].map(|y| at(y).abs());
+            size = sizes.into_iter().fold(size, f64::max);
+            if !at(next).is_finite() {
+                return f64::INFINITY;
+            }
+        }
+        change / (size * 256.0 * Of::<Y>::EPSILON.to_f64())
+    }
+
+    /// Moves the positions of the middle to the end of the step, with the velocities there.
+    pub(super) fn advance<O: Ode<State = Y>>(
+        &self,
+        ode: &O,
+        end: &mut Y,
+    ) -> Result<(), Reason<O::Error>> {
+        moved(ode, self.t, end, self.h * Of::<Y>::from_f64(0.5))
+    }
+}
+
+/// Moves the positions of a state by its velocities, for a time.
+pub(super) fn moved<O: Ode>(
+    ode: &O,
+    t: Of<O::State>,
+    y: &mut O::State,
+    time: Of<O::State>,
+) -> Result<(), Reason<O::Error>> {
+    let change = ode.position_change(t, y, time).map_err(Reason::Singular)?;
+    let positions = ode.positions();
+    let all = y.entries_mut().iter_mut().zip(change.entries());
+    for (x, &change) in all.take(positions) {
+        *x = *x + change;
+    }
+    Ok(())
+}

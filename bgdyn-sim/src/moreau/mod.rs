@@ -1,0 +1,143 @@
+//! Time stepping for rigid contacts, after Moreau and Jean.
+
+mod impulses;
+mod lift;
+mod middle;
+
+use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
+
+use self::impulses::Impulses;
+use self::lift::lifted;
+use self::middle::Middle;
+use crate::cone::ContactOptions;
+use crate::dense::Dense;
+use crate::failure::Reason;
+use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
+use crate::ode::Ode;
+use crate::real::{Of, Real};
+
+/// Time stepping for rigid contacts with Coulomb friction (Moreau 1988; Jean 1999; Acary and Brogliato 2008, chapter 10),
+/// with fixed steps. With the positions in the middle of the step, q_m = q + (h/2) v,
+///
+/// v⁺ = v + h v̇(t + h/2, q_m, (v + v⁺)/2) + M⁻¹ Jᵀ p,  q⁺ = q_m + (h/2) v⁺
+///
+/// where the impulses p are the solution of Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's
+/// law of restitution and γ_t⁺. A contact is active if its gap would be closed at the end of the step without impulses.
+/// Where a closed contact overlaps afterwards, the positions are put right in the metric of M, without a spring.
+///
+/// Order 2 between impacts, order 1 with impacts: an impact is anywhere within its step. Without contacts it is a symmetric
+/// method that is implicit in the velocities. Velocities are solved for by substitution; where that is slow, by Newton's
+/// method with the slopes of the rates, if these are available.
+#[derive(Clone, Copy, Debug)]
+pub struct Moreau<T> {
+    /// When the search for impulses ends.
+    pub options: ContactOptions<T>,
+}
+
+impl<T: Real> Moreau<T> {
+    /// Returns the integrator with the default options of [`crate::cone::solve`].
+    pub fn new() -> Self {
+        let options = ContactOptions::default();
+        Moreau { options }
+    }
+}
+
+impl<T: Real> Default for Moreau<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The rigid contacts in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactStep<T> {
+    /// p, N·s along (x, y, normal) of each contact; 0 for those that are open. p/h is the mean force in the step.
+    pub impulses: [[T; 3]; MOST_CONTACTS],
+    /// The energy that each contact takes, J: −p·(γ⁻ + γ⁺)/2.
+    pub losses: [T; MOST_CONTACTS],
+    /// The residual of the impulses, N·s, as [`crate::cone::ContactOutcome::residual`].
+    pub residual: T,
+    /// Whether it meets the tolerance.
+    pub solved: bool,
+    /// The deepest overlap of a contact at the end of the step, m; 0 without overlap.
+    pub depth: T,
+}
+
+/// The largest number of evaluations of the rates in a step.
+const MOST_ITERATIONS: usize = 40;
+
+impl<Y: StateVector> Integrator<Y> for Moreau<Of<Y>>
+where
+    Of<Y>: Real,
+{
+    type Stages = ContactStep<Of<Y>>;
+
+    fn info(&self) -> IntegratorInfo {
+        IntegratorInfo {
+            name: "moreau",
+            order: 1,
+            estimate: None,
+            looks: 1,
+            reads_jacobian: true,
+        }
+    }
+
+    fn keeps_lengths(&self) -> bool {
+        true
+    }
+
+    fn solves_contacts(&self) -> bool {
+        true
+    }
+
+    fn contact_step<'s>(&self, stages: &'s Self::Stages) -> Option<&'s ContactStep<Of<Y>>> {
+        Some(stages)
+    }
+
+    fn step<O: Ode<State = Y>>(
+        &self,
+        ode: &O,
+        from: &Start<'_, Y, Self::Stages>,
+        h: Of<Y>,
+    ) -> Result<Step<Y, Self::Stages>, Reason<O::Error>> {
+        let mut middle = Middle::new(ode, (from.t, from.y), h)?;
+        let mut impulses = Impulses::new(ode, &middle, self.options, from.before)?;
+        let mut end = middle.y.clone();
+        let mut before = f64::INFINITY;
+        for iteration in 1.. {
+            let free = middle.free(ode, &end)?;
+            let next = impulses.pushed(ode, &middle, &free)?;
+            let change = middle.change(&next, &end, &free);
+            end = next;
+            if change <= 1.0 {
+                break;
+            }
+            if iteration == MOST_ITERATIONS {
+                let iterations = iteration;
+                return Err(Reason::NoConvergence { iterations, change });
+            }
+            // Substitution that is slow, or that does not converge.
+            if change > 0.1 * before && middle.linearise(ode, &end)? {
+                impulses.forget_maps();
+            }
+            before = change;
+        }
+        let mut stages = impulses.result(&middle, &end);
+        middle.advance(ode, &mut end)?;
+        lifted(ode, (from.t + h, h), &mut end, &impulses, &mut stages)?;
+        let change = end.plus(-Of::<Y>::from_f64(1.0), from.y);
+        Ok(Step { h, change, stages })
+    }
+
+    /// The straight line through both ends: velocities jump somewhere within the step.
+    fn dense<O: Ode<State = Y>>(
+        &self,
+        _: &O,
+        from: &Start<'_, Y, Self::Stages>,
+        step: &Step<Y, Self::Stages>,
+    ) -> Result<Dense<Y>, Reason<O::Error>> {
+        let mut terms = [const { None }; 7];
+        terms[0] = Some(step.change.clone());
+        Ok(Dense::new(from.t, step.h, from.y, terms))
+    }
+}
