@@ -78,6 +78,7 @@ pub(crate) fn in_short<E: Debug>(reason: &Reason<E>) -> String {
         Reason::NotFinite => "unstable: not finite".into(),
         Reason::NoConvergence { .. } => "stages not solved".into(),
         Reason::SingularMatrix => "matrix of the stages singular".into(),
+        Reason::RigidContacts => "knows no rigid contacts".into(),
         Reason::NoJacobian => "needs slopes".into(),
         Reason::StepTooSmall { h, .. } => format!("steps below {h:.0e} s"),
         Reason::TooManyEvents { .. } => "too many events".into(),

@@ -206,6 +206,8 @@ pub struct StateLayout {
     pub prescribed: Vec<String>,
     /// Event functions; an event occurs where one falls through zero.
     pub events: Vec<Variable>,
+    /// Names of the elements that are rigid contacts.
+    pub rigid_contacts: Vec<String>,
 }
 
 impl StateLayout {

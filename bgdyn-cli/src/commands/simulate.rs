@@ -119,7 +119,7 @@ impl Simulate {
             .map_err(|f| start_refused(&f))?;
         let plant = plant.with_overrides(&system);
         let run = watched("run", &plant, &way);
-        let files = self.write(&file.stem, &columns, &run)?;
+        let files = self.write((&file.stem, &system), &columns, &run)?;
         print(&format!(
             "{}, by {}\n{files}\n",
             report::summary(&file.stem, &way.integration),
@@ -225,14 +225,24 @@ impl Simulate {
     }
 
     /// Writes table and plot; returns the message about them.
-    fn write(&self, name: &str, columns: &[Column], run: &Record) -> Result<String> {
+    fn write(
+        &self,
+        (name, system): (&str, &SceneEquations),
+        columns: &[Column],
+        run: &Record,
+    ) -> Result<String> {
         let out = &self.out;
         let shown = |path: &Path| format!("{} cannot be written", path.display());
         std::fs::create_dir_all(out)
             .with_context(|| format!("the folder {} cannot be made", out.display()))?;
         let table = out.join(format!("{name}.csv"));
         std::fs::write(&table, report::csv(columns, run)).with_context(|| shown(&table))?;
-        let written = format!("written: {} ({} rows)", table.display(), run.rows.len());
+        let mut written = format!("written: {} ({} rows)", table.display(), run.rows.len());
+        if let Some(forces) = report::contact_csv(system, run) {
+            let table = out.join(format!("{name}_contacts.csv"));
+            std::fs::write(&table, forces).with_context(|| shown(&table))?;
+            written += &format!(", {}", table.display());
+        }
         #[cfg(feature = "plot")]
         let written = {
             let picture = out.join(format!("{name}.svg"));

@@ -9,6 +9,7 @@ mod doubts;
 pub(crate) mod page;
 mod plant;
 mod plant_calls;
+mod plant_contacts;
 mod plant_positions;
 #[cfg(feature = "plot")]
 pub(crate) mod plot;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bgdyn_codegen::engine::{CallArguments, Engine, Status};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{Contact, Dd};
+use bgdyn_runtime::{Contact, ContactMap, Dd, RigidContact};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Sampler, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
@@ -267,6 +267,36 @@ impl Plant for Evaluated<'_> {
     fn strays(&self, y: &Numbers) -> bool {
         self.functions.closing.is_some()
             || quasi_joints::strays(&self.functions.quasi_joints, y.as_slice())
+    }
+
+    fn contacts(&self) -> usize {
+        self.system.scene.layout.rigid_contacts.len()
+    }
+
+    fn contact_entry(&self, contact: usize) -> usize {
+        let rigid = self.functions.rigid.as_ref();
+        rigid.map_or(0, |rigid| rigid.entries[contact])
+    }
+
+    fn contact_states(
+        &self,
+        t: f64,
+        state: &Numbers,
+        modes: &Numbers,
+        contacts: &mut [RigidContact<f64>],
+    ) -> Evaluation<()> {
+        self.states_of_contacts(t, state, modes, contacts);
+        Ok(())
+    }
+
+    fn contact_maps(
+        &self,
+        t: f64,
+        state: &Numbers,
+        modes: &Numbers,
+        maps: &mut [Option<ContactMap<Numbers>>],
+    ) -> Evaluation<()> {
+        self.maps_of_contacts(t, state, modes, maps)
     }
 
     fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {

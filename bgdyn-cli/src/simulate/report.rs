@@ -47,10 +47,51 @@ pub fn report(system: &SceneEquations, record: &Record) -> String {
         let _ = write!(text, ", kinks of laws passed: {}", record.kinks);
     }
     text.push('\n');
+    text += &contacts(record);
     text += &events(system, record);
     text += &state(system, record);
     text += &energy(system, record);
     text
+}
+
+/// Returns how well the rigid contacts were solved, on a line; empty without some.
+fn contacts(record: &Record) -> String {
+    let Some(quality) = record.contacts else {
+        return String::new();
+    };
+    let mut text = format!(
+        "rigid contacts: deepest overlap {} m, largest residual {} N s",
+        short(quality.depth),
+        short(quality.residual)
+    );
+    if quality.unsolved > 0 {
+        let _ = write!(
+            text,
+            ", {} steps not solved to the tolerance",
+            quality.unsolved
+        );
+    }
+    text.push('\n');
+    text
+}
+
+/// Returns the mean forces of the rigid contacts as comma-separated values: in the step up to each row, along the
+/// directions of the contact. `None` without rigid contacts.
+pub fn contact_csv(system: &SceneEquations, record: &Record) -> Option<String> {
+    let names = &system.scene.layout.rigid_contacts;
+    if names.is_empty() {
+        return None;
+    }
+    let ends = ["friction_x", "friction_y", "normal"];
+    let heads = names
+        .iter()
+        .flat_map(|name| ends.map(|end| format!("{name}_{end} [N]")));
+    let header = once("t [s]".to_owned()).chain(heads).collect();
+    let rows = record.rows.iter().map(|row| {
+        let numbers = once(&row.t).chain(row.contacts.as_flattened());
+        numbers.map(|x| format!("{x:?}")).collect()
+    });
+    Some(table::write_csv(once(header).chain(rows)))
 }
 
 fn events(system: &SceneEquations, record: &Record) -> String {

@@ -8,7 +8,7 @@ use bgdyn_sim::{
 };
 
 use super::plant::{Evaluated, Numbers};
-use super::run_table::{EnergyAt, Event, Record, Row, Way};
+use super::run_table::{ContactQuality, EnergyAt, Event, Record, Row, Way};
 use super::scene_functions::Form;
 use super::undefined::Undefined;
 
@@ -112,6 +112,9 @@ struct RunRecorder<'a, M: Integrator<Numbers>> {
     events: Vec<Event>,
     energy: Vec<EnergyAt>,
     moved: f64,
+    /// The mean forces of the rigid contacts in the last step.
+    forces: Vec<[f64; 3]>,
+    quality: Option<ContactQuality>,
 }
 
 impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
@@ -121,6 +124,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         way: &'a Way,
         watch: &'a mut dyn FnMut(f64),
     ) -> Self {
+        let forces = vec![[0.0; 3]; run.plant().contacts()];
         RunRecorder {
             run,
             outputs,
@@ -132,6 +136,8 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             events: vec![],
             energy: vec![],
             moved: 0.0,
+            forces,
+            quality: None,
         }
     }
 
@@ -154,6 +160,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             modes,
             audit: self.run.audit(),
             moved: self.moved,
+            contacts: self.quality,
             failure: failed.map(|failure| failure.reason.to_string()),
         }
     }
@@ -197,6 +204,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             let passed = (self.run.events, self.run.kinks);
             if zeno_count < ZENO_LIMIT {
                 let dense = self.run.advance_densely(left)?;
+                self.take_contacts(dense.length());
                 self.sample(&dense, &before, rest);
             } else {
                 // Continues without a stop at every kink.
@@ -220,6 +228,23 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             (self.watch)(self.run.t() / self.way.integration.end);
         }
         Ok(())
+    }
+
+    /// Records the rigid contacts in a step of this length.
+    fn take_contacts(&mut self, h: f64) {
+        let Some(contacts) = self.run.contacts() else {
+            return;
+        };
+        if self.forces.is_empty() {
+            return;
+        }
+        for (force, impulse) in self.forces.iter_mut().zip(&contacts.impulses) {
+            *force = impulse.map(|p| p / h);
+        }
+        let quality = self.quality.get_or_insert_default();
+        quality.depth = quality.depth.max(contacts.depth);
+        quality.residual = quality.residual.max(contacts.residual);
+        quality.unsolved += usize::from(!contacts.solved);
     }
 
     /// Records the output points inside a step.
@@ -271,6 +296,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             y,
             modes: modes.clone(),
             inputs,
+            contacts: self.forces.clone(),
             extra,
         });
         self.book();

@@ -71,6 +71,8 @@ pub struct Row {
     pub modes: Numbers,
     /// The inputs, driven ones and 0 for the others.
     pub inputs: Vec<f64>,
+    /// The mean forces of the rigid contacts in the step up to this instant, N along (x, y, normal).
+    pub contacts: Vec<[f64; 3]>,
     /// Whether it is a row for an event or for the end, and no output point.
     pub extra: bool,
 }
@@ -101,6 +103,17 @@ pub struct Event {
     pub after: Numbers,
 }
 
+/// How well the rigid contacts of a run were solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ContactQuality {
+    /// The deepest overlap at the end of a step, m.
+    pub depth: f64,
+    /// The largest residual of the impulses of a step, N·s.
+    pub residual: f64,
+    /// The number of steps whose residual does not meet the tolerance.
+    pub unsolved: usize,
+}
+
 /// The record of a run.
 #[derive(Clone, Debug)]
 pub struct Record {
@@ -125,6 +138,8 @@ pub struct Record {
     /// The largest energy that moved or could have moved at any of the points, J: supplied, increase of
     /// stored energy, dissipated, or energy of the motion; at least 1e-12 of the stored energy.
     pub moved: f64,
+    /// How well the rigid contacts were solved, in a scene with some.
+    pub contacts: Option<ContactQuality>,
     /// The reason for an early end.
     pub failure: Option<String>,
 }

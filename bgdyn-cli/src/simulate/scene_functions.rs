@@ -24,6 +24,7 @@ pub(super) struct SceneFunctions {
     pub(super) inputs: Option<Box<dyn Callable>>,
     pub(super) events: Option<Box<dyn Callable>>,
     pub(super) contacts: Option<Box<dyn Callable>>,
+    pub(super) rigid: Option<RigidContacts>,
     pub(super) outputs: Option<Box<dyn Callable>>,
     pub(super) power: Box<dyn Callable>,
     pub(super) energy: Box<dyn Callable>,
@@ -46,6 +47,15 @@ pub(super) struct SceneFunctions {
 pub(super) struct ClosedLoops {
     pub(super) step: Box<dyn Callable>,
     pub(super) dependents: Vec<Dependent>,
+}
+
+/// The functions of rigid contacts.
+#[derive(Debug)]
+pub(super) struct RigidContacts {
+    pub(super) states: Box<dyn Callable>,
+    pub(super) maps: Box<dyn Callable>,
+    /// The entry of each in the balance of power.
+    pub(super) entries: Vec<usize>,
 }
 
 /// The functions of the canonical form.
@@ -81,6 +91,11 @@ impl SceneFunctions {
             inputs: if_there(SceneFunction::Inputs),
             events: if_there(SceneFunction::Events),
             contacts: if_there(SceneFunction::Contacts),
+            rigid: if_there(SceneFunction::ContactStates).map(|states| RigidContacts {
+                states,
+                maps: prepare(SceneFunction::ContactMaps),
+                entries: rigid_entries(system),
+            }),
             outputs: if_there(SceneFunction::Outputs),
             power: prepare(SceneFunction::Power),
             energy: prepare(SceneFunction::Energy),
@@ -117,13 +132,25 @@ impl SceneFunctions {
         ];
         let always = [&self.derivative, &self.power, &self.energy];
         let closing = self.closing.iter().map(|closing| &closing.step);
+        let rigid = self
+            .rigid
+            .iter()
+            .flat_map(|rigid| [&rigid.states, &rigid.maps]);
         let all = always.into_iter().chain(optional.into_iter().flatten());
         engines_of(
             all.chain(canonical)
                 .chain(closing)
+                .chain(rigid)
                 .map(|function| &**function),
         )
     }
+}
+
+/// Returns the entry of each rigid contact in the balance of power.
+fn rigid_entries(system: &SceneEquations) -> Vec<usize> {
+    let names = system.scene.layout.rigid_contacts.iter();
+    let entry = |name: &String| system.entries.iter().position(|entry| entry.name == *name);
+    names.map(|name| entry(name).unwrap_or_default()).collect()
 }
 
 /// Returns a position that changes where loops close, by its component in the state.

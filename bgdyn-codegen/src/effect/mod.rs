@@ -36,7 +36,7 @@ use crate::declaration::{EffectKind, EffectKinds, Element};
 pub use law::Effect;
 
 /// All effects.
-pub static EFFECTS: [&dyn Effect; 29] = [
+pub static EFFECTS: [&dyn Effect; 30] = [
     &gravity::Gravity,
     &inertia::LinkInertia,
     &velocity_products::VelocityProducts,
@@ -50,6 +50,7 @@ pub static EFFECTS: [&dyn Effect; 29] = [
     &damper::Damper,
     &stop::Stop,
     &contact::CompliantContact,
+    &contact::RigidContact,
     &series_elastic::SeriesElastic,
     &gear::GearEffect,
     &rotor::RotorEffect,

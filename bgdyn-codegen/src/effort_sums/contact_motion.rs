@@ -10,7 +10,7 @@ use bgdyn_runtime::Dd;
 use super::EffortSums;
 use crate::bond_graph::SiteId;
 use crate::declaration::{Element, undeclared};
-use crate::expr::Expr;
+use crate::expr::{Builder, Expr};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId};
 
@@ -34,6 +34,22 @@ pub struct ContactMotion<'g> {
     pub point: Vec3<Expr<'g>>,
     /// The two bodies, each with its lever c − o; `None` for the world.
     bodies: [Option<(SiteId, Vec3<Expr<'g>>)>; 2],
+}
+
+impl<'g> ContactMotion<'g> {
+    /// Returns two unit vectors that make a right-handed system with the normal, as functions of the normal alone (Duff,
+    /// Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017). They jump where the normal crosses the plane z = 0.
+    pub(crate) fn tangents(&self, b: &'g Builder) -> [Vec3<Expr<'g>>; 2] {
+        let [x, y, z] = self.normal.0;
+        let one = b.number(1.0);
+        let sign = z.if_less(b.zero(), -one, one);
+        let scale = -(one / (sign + z));
+        let product = x * y * scale;
+        [
+            Vec3([one + sign * x * x * scale, sign * product, -(sign * x)]),
+            Vec3([product, sign + y * y * scale, -y]),
+        ]
+    }
 }
 
 impl<'g> EffortSums<'g, '_> {
@@ -111,6 +127,21 @@ impl<'g> EffortSums<'g, '_> {
                 self.push_on(j, effort);
             }
         }
+    }
+
+    /// Returns ∂(v_a(c) − v_b(c))/∂v for each coordinate of the links, world axes.
+    pub(super) fn columns_of_contact(&mut self, motion: &ContactMotion<'g>) -> Vec<Vec3<Expr<'g>>> {
+        let zero = Vec3([self.b.zero(); 3]);
+        let mut all = vec![zero; self.graph.coordinates.len()];
+        for (body, first) in motion.bodies.into_iter().zip([true, false]) {
+            let Some((site, lever)) = body else { continue };
+            for (sum, column) in all.iter_mut().zip(self.columns(site)) {
+                let [wx, wy, wz, vx, vy, vz] = column;
+                let own = Vec3([vx, vy, vz]) + Vec3([wx, wy, wz]).cross(lever);
+                *sum = if first { *sum + own } else { *sum - own };
+            }
+        }
+        all
     }
 
     /// Returns the pair of the element.

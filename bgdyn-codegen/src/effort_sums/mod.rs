@@ -9,6 +9,7 @@ mod parts;
 mod poses;
 mod read;
 mod result;
+mod rigid_contacts;
 mod undeclared;
 mod write;
 
@@ -30,6 +31,7 @@ pub use contact_motion::ContactMotion;
 pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
 pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};
+pub use rigid_contacts::RigidRows;
 
 /// The sums to which the laws of a scene's effects add.
 pub struct EffortSums<'g, 'a> {
@@ -71,6 +73,8 @@ pub struct EffortSums<'g, 'a> {
     jacobians: BTreeMap<SiteId, Vec<[Expr<'g>; 6]>>,
     /// Contact points and forces on spheres.
     contact_forces: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)>,
+    /// Rigid contacts.
+    rigid: Vec<RigidRows<'g>>,
     /// Moment and force of contacts at the origins of links, world axes.
     wrenches: BTreeMap<SiteId, [Expr<'g>; 6]>,
 }
@@ -122,6 +126,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             poses: BTreeMap::new(),
             jacobians: BTreeMap::new(),
             contact_forces: Vec::new(),
+            rigid: Vec::new(),
             wrenches: BTreeMap::new(),
         };
         sums.push_drives_of_dependents();

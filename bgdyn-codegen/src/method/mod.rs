@@ -384,6 +384,7 @@ impl Method {
             Method::MassMatrixRate => Shape::Symmetric,
             Method::Scene(
                 SceneFunction::Energy
+                | SceneFunction::ContactStates
                 | SceneFunction::Inverse
                 | SceneFunction::Inputs
                 | SceneFunction::Outputs

@@ -13,6 +13,10 @@ pub enum SceneFunction {
     Events,
     /// Slip, its acceleration, holding effort and margin of each mode.
     Contacts,
+    /// Gap, velocity, friction and restitution of each rigid contact.
+    ContactStates,
+    /// The Jacobian of each rigid contact, and M⁻¹ Jᵀ.
+    ContactMaps,
     /// Power supplied, stored and dissipated by each effect.
     Power,
     /// Energy stored by each effect.
@@ -38,12 +42,14 @@ pub enum SceneFunction {
 
 impl SceneFunction {
     /// All functions.
-    pub const ALL: [SceneFunction; 15] = [
+    pub const ALL: [SceneFunction; 17] = [
         SceneFunction::Derivative,
         SceneFunction::Inverse,
         SceneFunction::Inputs,
         SceneFunction::Events,
         SceneFunction::Contacts,
+        SceneFunction::ContactStates,
+        SceneFunction::ContactMaps,
         SceneFunction::Power,
         SceneFunction::Energy,
         SceneFunction::Outputs,
@@ -71,6 +77,8 @@ impl SceneFunction {
             SceneFunction::Inputs => "input",
             SceneFunction::Events => "events",
             SceneFunction::Contacts => "contacts",
+            SceneFunction::ContactStates => "contact_states",
+            SceneFunction::ContactMaps => "contact_maps",
             SceneFunction::Power => "power",
             SceneFunction::Energy => "energy",
             SceneFunction::Outputs => "output",
@@ -99,6 +107,12 @@ impl SceneFunction {
             SceneFunction::Events => "Values whose fall through zero is an event.",
             SceneFunction::Contacts => {
                 "For each mode: slip, its acceleration, the effort that holds, the most that can hold."
+            }
+            SceneFunction::ContactStates => {
+                "For each rigid contact: gap, velocity along x, y and normal, coefficient of friction, restitution."
+            }
+            SceneFunction::ContactMaps => {
+                "For each rigid contact: the rows of its Jacobian along x, y and normal, and the columns of M⁻¹ Jᵀ."
             }
             SceneFunction::Power => {
                 "Balance of power, W: Σ supplied = Σ rate of the energy stored + Σ dissipated."

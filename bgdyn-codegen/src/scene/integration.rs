@@ -45,6 +45,8 @@ pub enum IntegratorName {
     Dopri5,
     /// Dormand and Prince's method of order 8, with error control.
     Dop853,
+    /// Time stepping of Moreau and Jean for rigid contacts.
+    Moreau,
 }
 
 /// Functions of a scene that an integrator reads besides its rates.
@@ -54,16 +56,18 @@ enum RequiredFunctions {
     Rates,
     /// The slope ∂ẏ/∂y.
     Jacobian,
+    /// The slope ∂ẏ/∂y, and rigid contacts, for whose impulses it solves.
+    Contacts,
     /// The canonical form: the other integrator is the same one in velocities.
     Canonical(IntegratorName),
 }
 
 use IntegratorName as I;
-use RequiredFunctions::{Canonical, Jacobian, Rates};
+use RequiredFunctions::{Canonical, Contacts, Jacobian, Rates};
 
 /// The integrators in the order of the enum: name, whether it has step control, functions that it reads. A
 /// test of the command `bgdyn` compares every line with the integrator of that name.
-const TABLE: [(IntegratorName, &str, bool, RequiredFunctions); 11] = [
+const TABLE: [(IntegratorName, &str, bool, RequiredFunctions); 12] = [
     (I::SemiImplicitEuler, "semi_implicit_euler", false, Rates),
     (I::Rk4, "rk4", false, Rates),
     (I::Midpoint, "midpoint", false, Jacobian),
@@ -90,6 +94,7 @@ const TABLE: [(IntegratorName, &str, bool, RequiredFunctions); 11] = [
     (I::Rodas4, "rodas4", true, Jacobian),
     (I::Dopri5, "dopri5", true, Rates),
     (I::Dop853, "dop853", true, Rates),
+    (I::Moreau, "moreau", false, Contacts),
 ];
 
 impl IntegratorName {
@@ -122,7 +127,12 @@ impl IntegratorName {
 
     /// Returns whether it needs the slope ∂ẏ/∂y, to solve for its stages in (q, v).
     pub fn needs_jacobian(self) -> bool {
-        matches!(TABLE[self as usize].3, Jacobian)
+        matches!(TABLE[self as usize].3, Jacobian | Contacts)
+    }
+
+    /// Returns whether it solves for the impulses of rigid contacts.
+    pub fn solves_contacts(self) -> bool {
+        matches!(TABLE[self as usize].3, Contacts)
     }
 
     /// Returns whether it integrates the canonical form.
@@ -134,7 +144,7 @@ impl IntegratorName {
     pub fn on_velocities(self) -> Self {
         match TABLE[self as usize].3 {
             Canonical(same) => same,
-            Rates | Jacobian => self,
+            Rates | Jacobian | Contacts => self,
         }
     }
 }

@@ -49,7 +49,8 @@ fn all(system: &SceneEquations, sums: &EffortSums<'_, '_>) -> Vec<(Named, EntryS
             dissipated,
         } = sums.balances()[i];
         let holds = sums.contacts().iter().any(|c| c.element == i);
-        let acts = holds || [supplied, stored, dissipated].iter().any(|x| !x.is_zero());
+        let touches = sums.rigid_contacts().iter().any(|c| c.element == i);
+        let acts = holds || touches || [supplied, stored, dissipated].iter().any(|x| !x.is_zero());
         if acts && !terms.is_empty() {
             let about = element.effect.summary().to_owned();
             let name = element.name.clone();

@@ -17,7 +17,12 @@ impl SceneEquations {
             let powers = [balance.supplied, balance.stored, balance.dissipated];
             let mut numbers = element.quantities().peekable();
             let is_off = numbers.peek().is_some() && numbers.all(|(_, q)| q.value.to_f64() == 0.0);
-            self.acts_at_site(*at) && powers.iter().all(|power| power.is_zero()) && !is_off
+            let mut rigid = sums.rigid_contacts().iter();
+            let touches = rigid.any(|contact| contact.element == *at);
+            self.acts_at_site(*at)
+                && !touches
+                && powers.iter().all(|power| power.is_zero())
+                && !is_off
         });
         idle.map(|(_, (element, _))| element).collect()
     }

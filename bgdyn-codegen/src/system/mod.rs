@@ -19,6 +19,7 @@ mod jacobian;
 mod pose_hold;
 mod range;
 mod reference;
+mod rigid_contacts;
 mod signals;
 mod slope;
 mod start;
@@ -32,7 +33,7 @@ use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::choice::GraphMethods;
 use crate::effect;
 pub use crate::effort_sums::{
-    ActuatorEfforts, Balance, Contact, EffortSums, Hold, LossyGear, Port, Reading,
+    ActuatorEfforts, Balance, Contact, EffortSums, Hold, LossyGear, Port, Reading, RigidRows,
 };
 use crate::expr::{Builder, Expr};
 use crate::fault::{Faults, wording};
@@ -184,6 +185,9 @@ impl SceneEquations {
             SceneFunction::Inputs => !layout.inputs.is_empty(),
             SceneFunction::Events => !layout.events.is_empty(),
             SceneFunction::Contacts => !layout.modes.is_empty(),
+            SceneFunction::ContactStates | SceneFunction::ContactMaps => {
+                !layout.rigid_contacts.is_empty()
+            }
             SceneFunction::Outputs => !self.outputs.is_empty(),
             SceneFunction::Derivative
             | SceneFunction::Inverse
@@ -236,6 +240,8 @@ impl SceneEquations {
             SceneFunction::Inputs => vec![self.one(role, signals::inputs)],
             SceneFunction::Events => vec![self.one(role, events::events)],
             SceneFunction::Contacts => vec![self.one(role, holds::contacts)],
+            SceneFunction::ContactStates => vec![self.one(role, rigid_contacts::states)],
+            SceneFunction::ContactMaps => vec![self.one(role, rigid_contacts::maps)],
             SceneFunction::Power => vec![self.one(role, balance::power)],
             SceneFunction::Energy => vec![self.one(role, balance::energy)],
             SceneFunction::Outputs => vec![self.one(role, |system, b| {

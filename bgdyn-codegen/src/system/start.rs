@@ -7,6 +7,7 @@ use bgdyn_runtime::{Contact, Dd, Scalar, mode_by_slip, resolve_stiction_by};
 use nalgebra::DVector;
 
 use super::holds::contacts_under;
+use super::rigid_contacts::check_start;
 use super::{EffortSums, SceneEquations};
 use crate::declaration::Element;
 use crate::effect;
@@ -27,6 +28,7 @@ impl SceneEquations {
         let b = Builder::silent();
         let sums = self.effort_sums(&b);
         let states = states(&self.scene, &sums);
+        check_start(&self, &sums, &mut faults);
         drop(sums);
         self.initial.x = states;
         if !faults.any_fault() && !self.scene.layout.modes.is_empty() {

@@ -86,6 +86,8 @@ impl CheckedScene<'_> {
             SceneFunction::Inputs
             | SceneFunction::Events
             | SceneFunction::Contacts
+            | SceneFunction::ContactStates
+            | SceneFunction::ContactMaps
             | SceneFunction::Energy
             | SceneFunction::Outputs => None,
             SceneFunction::PositionRates => {

@@ -54,6 +54,10 @@ pub const WRITTEN: &[(&str, &str)] = &[
         "{ type: compliant_contact, contact: tip_floor, stiffness: 2e5, damping: 0.3, kinetic: 0.5, static: 0.6, stribeck_speed: 0.1, width: 0.01 }",
     ),
     (
+        "rigid_contact",
+        "{ type: rigid_contact, contact: tip_floor, friction: 0.5, restitution: 0.2 }",
+    ),
+    (
         "series_elastic",
         "{ type: series_elastic, joint: turn, stiffness: 90, inertia: 1e-4, ratio: 50 }",
     ),

@@ -112,6 +112,9 @@ impl SceneCall<'_> {
             SceneFunction::Inputs => names.inputs.clone(),
             SceneFunction::Events => parts(&layout.events),
             SceneFunction::Contacts => parts(&layout.modes),
+            SceneFunction::ContactStates | SceneFunction::ContactMaps => {
+                layout.rigid_contacts.clone()
+            }
             SceneFunction::Power | SceneFunction::Energy => named(&self.system.entries),
             SceneFunction::Outputs => named(&self.system.outputs),
             SceneFunction::PositionRates | SceneFunction::ClosingStep => {
@@ -239,6 +242,8 @@ impl SceneCall<'_> {
             }
             SceneFunction::Power => rows(3),
             SceneFunction::Contacts => rows(4),
+            SceneFunction::ContactStates => rows(6),
+            SceneFunction::ContactMaps => rows(6 * self.system.scene.layout.nv()),
             SceneFunction::Jacobian => self.jacobian(values),
             SceneFunction::InputJacobian => self.input_jacobian(values),
             _ => json!(values),

@@ -2,14 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use bgdyn_codegen::engine::{CallArguments, Callable, Engine};
 use bgdyn_codegen::mechanism::{ContactPair, ContactPartner, ContactSphere};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_codegen::tape::Tape;
 use serde::Serialize;
 
 use super::bodies::Bodies;
 use super::body::Placed;
+use super::contact_forces::forces;
 use crate::simulate::run_table::Row;
 
 /// Corners of the polygons that are drawn as the circles of a sphere.
@@ -54,14 +53,14 @@ pub(super) fn contacts(
     grain: f64,
     rows: &[&Row],
 ) -> Option<Contacts> {
-    let (names, function) = system.contact_forces()?;
+    let forces = forces(system, rows)?;
     let mechanism = &system.scene.mechanism;
     let of = |name: &String| {
         let mut elements = system.scene.elements.iter();
         let element = elements.find(|element| element.name == *name);
         mechanism.contact_pair(element?.contact()?)
     };
-    let pairs: Vec<&ContactPair> = names.iter().filter_map(of).collect();
+    let pairs: Vec<&ContactPair> = forces.names.iter().filter_map(of).collect();
     let mut planes: Vec<DrawnPlane> = Vec::new();
     let mut spheres: Vec<ContactSphere> = Vec::new();
     for pair in &pairs {
@@ -91,53 +90,28 @@ pub(super) fn contacts(
         }
     }
     boxes(bodies, &pairs);
-    let values = values(system, &*Tape.prepare(&function), rows);
-    let forces = values.iter().flat_map(|row| row.chunks(6)).map(|six| {
-        let force = six[3..].iter().map(|x| x * x).sum::<f64>().sqrt();
+    let sizes = forces.rows.iter().flatten().map(|(_, force)| {
+        let force = force.iter().map(|x| x * x).sum::<f64>().sqrt();
         if force.is_finite() { force } else { 0.0 }
     });
-    let unit = forces.fold(1e-300, f64::max) / FORCES;
+    let unit = sizes.fold(1e-300, f64::max) / FORCES;
+    let in_units = |all: Vec<[f64; 3]>, unit: f64| {
+        let all = all.into_iter().flatten();
+        all.map(|x| (x / unit).round() as i64).collect()
+    };
     let of_contact = |(k, name): (usize, &String)| {
-        let part = |from: usize, unit: f64| {
-            let own = values
-                .iter()
-                .flat_map(move |row| row[6 * k + from..6 * k + from + 3].to_vec());
-            own.map(|x| (x / unit).round() as i64).collect()
-        };
+        let (at, force) = forces.rows.iter().map(|row| row[k]).unzip();
         DrawnForce {
             name: name.clone(),
-            at: part(0, grain),
-            force: part(3, unit),
+            at: in_units(at, grain),
+            force: in_units(force, unit),
         }
     };
     Some(Contacts {
         planes,
         unit,
-        forces: names.iter().enumerate().map(of_contact).collect(),
+        forces: forces.names.iter().enumerate().map(of_contact).collect(),
     })
-}
-
-/// Returns contact points and forces at the rows.
-fn values(system: &SceneEquations, function: &dyn Callable, rows: &[&Row]) -> Vec<Vec<f64>> {
-    let scene = &system.scene;
-    let (nq, nv) = (scene.layout.nq(), scene.layout.nv());
-    let parameters = scene.parameters.iter().map(|p| p.default.to_f64());
-    let parameters: Vec<f64> = parameters.collect();
-    let at = |row: &&Row| {
-        let y = row.y.as_slice();
-        let (values, _) = function.value(&CallArguments {
-            q: &y[..nq],
-            v: &y[nq..nq + nv],
-            x: &y[nq + nv..],
-            u: &row.inputs,
-            modes: row.modes.as_slice(),
-            parameters: &parameters,
-            t: Some(row.t),
-            ..CallArguments::default()
-        });
-        values
-    };
-    rows.iter().map(at).collect()
 }
 
 /// Draws three circles of a sphere; nothing for a point.

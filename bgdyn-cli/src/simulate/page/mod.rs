@@ -2,6 +2,7 @@
 
 mod bodies;
 mod body;
+mod contact_forces;
 mod contacts;
 mod curve;
 mod poses;

@@ -76,6 +76,8 @@ impl SceneResult {
             SceneFunction::Inputs => in_order("NU"),
             SceneFunction::Events => in_order("NE"),
             SceneFunction::Contacts => in_order("4 * NM"),
+            SceneFunction::ContactStates => in_order("6 * NK"),
+            SceneFunction::ContactMaps => in_order("6 * NK * NV"),
             SceneFunction::Power => in_order("3 * NB"),
             SceneFunction::Energy => in_order("NB"),
             SceneFunction::Outputs => in_order("NY"),

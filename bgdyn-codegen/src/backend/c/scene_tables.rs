@@ -9,7 +9,7 @@ use crate::layout::Variable;
 pub(super) fn sizes(scene: &SceneInterface) -> Vec<Size> {
     let layout = &scene.layout;
     let (nq, nv, nx) = (layout.nq(), layout.nv(), layout.nx());
-    vec![
+    let mut all = vec![
         ("NQ", "positions", nq),
         ("NV", "velocities", nv),
         ("NX", "first-order states", nx),
@@ -28,7 +28,10 @@ pub(super) fn sizes(scene: &SceneInterface) -> Vec<Size> {
         ("NE", "events", layout.events.len()),
         ("NB", "entries of the balance of power", scene.entries.len()),
         ("NR", "loops and contacts", layout.loops.len()),
-    ]
+    ];
+    let rigid = layout.rigid_contacts.len();
+    all.extend((rigid > 0).then_some(("NK", "rigid contacts", rigid)));
+    all
 }
 
 /// Returns the tables, without empty ones: C has no empty arrays.
@@ -112,6 +115,12 @@ pub(super) fn tables(scene: &SceneInterface, style: &Style) -> Vec<Table> {
             "pivot_names",
             "NV + NX + NR",
             pivots,
+        ),
+        names(
+            "Names of the rigid contacts.",
+            "rigid_contact_names",
+            "NK",
+            layout.rigid_contacts.clone(),
         ),
         numbers(
             "The mode that each event may change; -1 for none.",

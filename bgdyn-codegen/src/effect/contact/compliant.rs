@@ -1,25 +1,18 @@
 //! Contact with a compliant normal force and friction: the surfaces may overlap a little.
 
 use super::super::{Effect, hunt_crossley, nodes};
-use super::{friction, normal};
+use super::{CONTACT, friction, normal, one_law};
 use crate::bond_graph::{BondNetwork, NodeKind, PowerTerm};
 use crate::declaration::{EffectKind, Element, SceneContext, ValueCheck};
 use crate::effort_sums::{ContactMotion, EffortSums};
 use crate::expr::Expr;
 use crate::fault::{Faults, wording};
-use crate::format::{Dimension, Key, Reads};
+use crate::format::{Dimension, Key};
 use crate::layout::StateLayout;
 use crate::math::Vec3;
 use crate::mechanism::ContactPartner;
 
 pub(in crate::effect) struct CompliantContact;
-
-const CONTACT: Key = Key {
-    name: "contact",
-    reads: Reads::Contact,
-    needed: true,
-    about: "the contact, one of the mechanism's `contacts`",
-};
 
 impl EffectKind for CompliantContact {
     fn keyword(&self) -> &'static str {
@@ -62,18 +55,8 @@ impl EffectKind for CompliantContact {
     }
 
     fn check_in_scene(&self, element: &Element, beside: &SceneContext<'_>, faults: &mut Faults) {
+        one_law(element, beside, faults);
         let name = element.needed_name(&CONTACT);
-        let others = beside
-            .elements
-            .iter()
-            .take_while(|other| other.name != element.name);
-        if let Some(other) = others
-            .into_iter()
-            .find(|other| other.contact() == Some(name))
-        {
-            let fault = wording::contact_with_two_laws(&element.location, name, &other.name);
-            faults.push(fault);
-        }
         let pair = beside.mechanism.contact_pair(name);
         let round = pair.is_some_and(|pair| matches!(pair.partner, ContactPartner::Sphere(_)));
         if round && friction::has_bristles(element) {

@@ -3,6 +3,7 @@
 mod constants;
 mod method;
 mod parts;
+mod rigid_contacts;
 mod stub;
 mod system;
 mod types;

@@ -22,9 +22,16 @@ pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream
     let doc = format!(" The scene {} was refused: see the error.", output.source);
     let structure = structure(&model, &doc, &scene.parameters);
     let (constants, types) = (constants::constants(scene), types::types(scene));
-    // The type of contacts exists only if there are modes.
-    let roles = SceneFunction::ALL.into_iter();
-    let roles = roles.filter(|r| *r != SceneFunction::Contacts || !scene.layout.modes.is_empty());
+    // What is of modes or of rigid contacts exists only if there are some.
+    let layout = &scene.layout;
+    let exists = |role: &SceneFunction| match role {
+        SceneFunction::Contacts => !layout.modes.is_empty(),
+        SceneFunction::ContactStates | SceneFunction::ContactMaps => {
+            !layout.rigid_contacts.is_empty()
+        }
+        _ => true,
+    };
+    let roles = SceneFunction::ALL.into_iter().filter(exists);
     let methods = roles.clone().map(|role| {
         let signature = method::signature(role, scene);
         quote! {

@@ -7,6 +7,7 @@ use quote::quote;
 use super::super::constants::size;
 use super::super::tokens::{ident, number};
 use super::parts::{mode_parts, names_of, of_named};
+use super::rigid_contacts;
 use crate::interface::SceneInterface;
 use crate::scene::StateLayout;
 
@@ -48,6 +49,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
     let control = scene.control.as_ref().map(|own| control(own.sampled()));
     let quasi_joints = quasi_joints(layout);
     let constrained = constrained_positions(layout);
+    let rigid_contacts = rigid_contacts::of_trait(scene);
     let mode_velocities = velocities.iter().map(|&j| size(layout.nq() + j));
     quote! {
         impl<T: __Scalar> __rt::HybridSystem<T> for #name<T> {
@@ -69,6 +71,7 @@ pub(super) fn system_trait(scene: &SceneInterface, name: &Ident) -> TokenStream 
             fn mode_velocities(&self) -> &'static [usize; NM] { &[#(#mode_velocities),*] }
             #corners
             #control
+            #rigid_contacts
             fn output_names(&self) -> &'static [&'static str; NY] { &OUTPUT_NAMES }
             fn entry_names(&self) -> &'static [&'static str; #count] { &ENTRY_NAMES }
             fn start(&self) -> (__na::SVector<T, N>, __na::SVector<T, NM>) {

@@ -191,3 +191,44 @@ pub(crate) fn bristles_of_spheres(location: &Location, contact: &str) -> Fault {
     Fault::new(location, "effect-friction", message)
         .with_help("write `width` instead of `bristles`")
 }
+
+pub(crate) fn integrator_without_contacts(
+    location: &Location,
+    (element, method): (&str, &str),
+    solving: &[&str],
+) -> Fault {
+    let message = format!(
+        "the effect {} is a rigid contact, and `{method}` does not solve for its impulses",
+        quote(element)
+    );
+    Fault::new(location, "integration", message).with_help(format!(
+        "write `integration: {{ method: {}, step: 1 ms }}`, or take `compliant_contact`",
+        solving.join(" or ")
+    ))
+}
+
+pub(crate) fn too_many_rigid_contacts(location: &Location, number: usize, most: usize) -> Fault {
+    let message = format!("the scene has {number} rigid contacts; the solver takes {most}");
+    Fault::new(location, "effect-contacts", message)
+        .with_help("name fewer of them in `contacts`, or take `compliant_contact`")
+}
+
+pub(crate) fn rigid_contact_beside_modes(location: &Location, element: &str, mode: &str) -> Fault {
+    let message = format!(
+        "the effect {} is a rigid contact beside `{mode}`, which can hold its joint: both are not solved together",
+        quote(element)
+    );
+    Fault::new(location, "effect-contacts", message).with_help(
+        "take a friction without modes, `coulomb_smooth`, `stribeck` or `lugre`, or `compliant_contact`",
+    )
+}
+
+pub(crate) fn rigid_contact_overlaps(location: &Location, contact: &str, depth: f64) -> Fault {
+    let message = format!(
+        "the surfaces of the contact {} overlap by {} m at the start",
+        quote(contact),
+        six_digits(depth)
+    );
+    Fault::new(location, "start-overlaps", message)
+        .with_help("change `initial` so that its gap is 0 or more, or take `compliant_contact`")
+}

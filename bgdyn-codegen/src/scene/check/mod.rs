@@ -13,6 +13,7 @@ mod locks;
 mod outputs;
 mod pose;
 mod prescribed;
+mod rigid_contacts;
 mod run;
 mod state;
 
@@ -133,7 +134,9 @@ fn scene(
         },
     };
     let scene = assembled(empty, &refused, faults);
+    let scene = rigid_contacts::with_integrator(spec, scene);
     canonical(spec, &scene, faults);
+    rigid_contacts::check(spec, &scene, faults);
     let moving = moving_base(spec, &scene, faults);
     let carried = prescribed::places(&scene, faults);
     prescribed::canonical(spec, &scene, faults);

@@ -1,0 +1,98 @@
+//! Emits what a scene with rigid contacts has more than others.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::super::body::vector;
+use super::super::constants::size;
+use crate::interface::SceneInterface;
+use crate::scene::StateLayout;
+
+/// Returns the type of the states of the contacts.
+pub(super) fn states_type(layout: &StateLayout) -> TokenStream {
+    let number = size(layout.rigid_contacts.len());
+    quote! { [__rt::RigidContact<T>; #number] }
+}
+
+/// Returns the type of their maps.
+pub(super) fn maps_type(layout: &StateLayout) -> TokenStream {
+    let number = size(layout.rigid_contacts.len());
+    quote! { [__rt::ContactMap<__na::SVector<T, N>>; #number] }
+}
+
+/// Returns their states from six numbers each.
+pub(super) fn states(values: &[TokenStream]) -> TokenStream {
+    let one = |v: &[TokenStream]| match v {
+        [gap, x, y, normal, friction, restitution] => quote! {
+            __rt::RigidContact {
+                gap: #gap,
+                velocity: [#x, #y, #normal],
+                friction: #friction,
+                restitution: #restitution,
+            }
+        },
+        _ => unreachable!("six numbers a contact"),
+    };
+    let all = values.chunks(6).map(one);
+    quote! { [#(#all),*] }
+}
+
+/// Returns their maps from three rows and three columns each, for the velocities.
+pub(super) fn maps(layout: &StateLayout, values: &[TokenStream]) -> TokenStream {
+    let nv = layout.nv();
+    let zeros = |n: usize| (0..n).map(|_| quote! { T::from_f64(0.0) });
+    let in_state = |velocities: &[TokenStream]| {
+        let all = zeros(layout.nq()).chain(velocities.iter().cloned());
+        vector(&all.chain(zeros(layout.nx())).collect::<Vec<_>>())
+    };
+    let one = |values: &[TokenStream]| {
+        let mut all = values.chunks(nv.max(1)).map(in_state);
+        let [rows, columns] = [(); 2].map(|()| all.by_ref().take(3).collect::<Vec<_>>());
+        quote! { __rt::ContactMap { rows: [#(#rows),*], columns: [#(#columns),*] } }
+    };
+    let all = values.chunks((6 * nv).max(1)).map(one);
+    quote! { [#(#all),*] }
+}
+
+/// Returns the methods of the trait, if the scene has rigid contacts.
+pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
+    let names = &scene.layout.rigid_contacts;
+    if names.is_empty() {
+        return TokenStream::new();
+    }
+    let entries = names.iter().map(|name| {
+        let mut entries = scene.entries.iter();
+        size(entries.position(|entry| entry.name == *name).unwrap_or(0))
+    });
+    quote! {
+        fn rigid_contact_names(&self) -> &'static [&'static str] { &[#(#names),*] }
+        fn rigid_contact_entries(&self) -> &'static [usize] { &[#(#entries),*] }
+        fn contact_states(
+            &self,
+            y: &__na::SVector<T, N>,
+            input: &__na::SVector<T, NU>,
+            t: T,
+            contacts: &mut [__rt::RigidContact<T>],
+        ) {
+            let state = State::from_vectors(y, &State::<T>::default().modes());
+            let all = self.contact_states(&state, &Input::from_vector(input), t);
+            for (to, from) in contacts.iter_mut().zip(all) {
+                *to = from;
+            }
+        }
+        fn contact_maps(
+            &self,
+            y: &__na::SVector<T, N>,
+            input: &__na::SVector<T, NU>,
+            t: T,
+            maps: &mut [::core::option::Option<__rt::ContactMap<__na::SVector<T, N>>>],
+        ) -> ::core::result::Result<(), Self::Singular> {
+            let state = State::from_vectors(y, &State::<T>::default().modes());
+            let all = self.contact_maps(&state, &Input::from_vector(input), t)?;
+            for (to, from) in maps.iter_mut().zip(all) {
+                *to = ::core::option::Option::Some(from);
+            }
+            ::core::result::Result::Ok(())
+        }
+    }
+}
