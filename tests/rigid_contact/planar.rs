@@ -22,13 +22,21 @@ fn downhill(y: &Y) -> f64 {
 fn a_disc_rolls_or_slips_down_an_incline() {
     let (sin, cos) = (0.6, 0.8);
     let scene = Rolls::<f64>::default();
-    let mut run = start!(&scene, |_: &mut Y| {});
-    advance(&mut run, 2.0, 2000);
-    let speed = downhill(run.y());
     let wanted = 2.0 / 3.0 * G * sin * 2.0;
-    assert!((speed - wanted).abs() < 1e-9, "{speed} for {wanted}");
-    assert!((speed - 0.2 * run.y()[5]).abs() < 1e-11, "it rolls");
-    assert!(run.audit().drift().abs() < 1e-9, "{:?}", run.audit());
+    let error = |steps: usize| {
+        let mut run = start!(&scene, |_: &mut Y| {});
+        advance(&mut run, 2.0, steps);
+        let speed = downhill(run.y());
+        let slip = speed - 0.2 * run.y()[5];
+        assert!(slip.abs() < 1e-10, "it rolls: {slip:e}");
+        (speed - wanted).abs()
+    };
+    let (coarse, fine) = (error(1000), error(4000));
+    let order = (coarse / fine).log2() / 2.0;
+    assert!(
+        fine < 3e-5 && (1.9..2.1).contains(&order),
+        "{coarse:e}, {fine:e}"
+    );
 
     let scene = Slips::<f64>::default();
     let mut run = start!(&scene, |_: &mut Y| {});
@@ -94,7 +102,7 @@ fn a_block_rocks_as_housner_says() {
     };
     let worst = |steps: usize| (0..8).map(|k| error(steps + k)).fold(0.0, f64::max);
     let (coarse, fine) = (worst(500), worst(8000));
-    assert!(fine < 1e-4, "{coarse:e}, {fine:e}");
+    assert!(fine < 5e-4, "{coarse:e}, {fine:e}");
     assert!(coarse / fine > 8.0, "{coarse:e}, {fine:e}");
 }
 

@@ -6,7 +6,7 @@ use super::ContactStep;
 use super::middle::Middle;
 use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, solve};
 use crate::failure::Reason;
-use crate::integrator::Step;
+use crate::integrator::Start;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
@@ -16,47 +16,37 @@ type Components<T> = [T; 3];
 /// The contacts of a step and their impulses.
 pub(super) struct Impulses<Y: StateVector> {
     options: ContactOptions<Of<Y>>,
-    /// The contacts in the middle of the step, with the velocities at the beginning.
-    pub(super) contacts: [RigidContact<Of<Y>>; MOST_CONTACTS],
     number: usize,
+    /// The contacts at the beginning of the step, and in its middle with the velocities of the beginning.
+    pub(super) before: Contacts<Of<Y>>,
+    middle: Contacts<Of<Y>>,
     /// Those whose gap would close.
     pub(super) active: [bool; MOST_CONTACTS],
-    /// Their Jacobian, and B⁻¹ M⁻¹ Jᵀ.
+    /// Those that approach by less than forces add in the step: after a bounce they would touch again within it. They do
+    /// not bounce, but close what is left of their gap.
+    pub(super) slow: [bool; MOST_CONTACTS],
+    /// Their Jacobian, and B⁻¹ M⁻¹ Jᵀ, in the middle.
     pub(super) maps: [Option<ContactMap<Y>>; MOST_CONTACTS],
     impulses: [Components<Of<Y>>; MOST_CONTACTS],
     outcome: Option<ContactOutcome<Of<Y>>>,
 }
 
-/// Returns a contact with all numbers 0.
-pub(super) fn no_contact<T: Real>() -> RigidContact<T> {
-    let zero = T::from_f64(0.0);
-    RigidContact {
-        gap: zero,
-        velocity: [zero; 3],
-        friction: zero,
-        restitution: zero,
-    }
-}
+/// The contacts of an equation in a state; those after its own ones are zero.
+pub(super) type Contacts<T> = [RigidContact<T>; MOST_CONTACTS];
 
 impl<Y: StateVector> Impulses<Y>
 where
     Of<Y>: Real,
 {
-    /// Returns the contacts in the middle of a step. The search for impulses begins at those of the step before.
+    /// Returns the contacts of a step from a state. The search for impulses begins at those of the step before.
     pub(super) fn new<O: Ode<State = Y>>(
         ode: &O,
-        middle: &Middle<Y>,
+        (from, middle): (&Start<'_, Y, ContactStep<Of<Y>>>, &Middle<Y>),
         options: ContactOptions<Of<Y>>,
-        before: Option<&Step<Y, ContactStep<Of<Y>>>>,
     ) -> Result<Self, Reason<O::Error>> {
         let number = ode.contacts();
-        let mut contacts = [no_contact(); MOST_CONTACTS];
-        if number > 0 {
-            ode.contact_states(middle.t, &middle.y, &mut contacts[..number])
-                .map_err(Reason::Singular)?;
-        }
         let zero = Of::<Y>::from_f64(0.0);
-        let impulses = match before {
+        let impulses = match from.before {
             Some(step) => {
                 let scale = middle.h / step.h;
                 step.stages.impulses.map(|p| p.map(|p| scale * p))
@@ -65,9 +55,11 @@ where
         };
         Ok(Impulses {
             options,
-            contacts,
             number,
+            before: contacts_at(ode, from.t, from.y)?,
+            middle: contacts_at(ode, middle.t, &middle.y)?,
             active: [false; MOST_CONTACTS],
+            slow: [false; MOST_CONTACTS],
             maps: [const { None }; MOST_CONTACTS],
             impulses,
             outcome: None,
@@ -75,11 +67,21 @@ where
     }
 
     /// Makes the maps anew, since B changed.
-    pub(super) fn forget_maps(&mut self) {
-        self.maps = [const { None }; MOST_CONTACTS];
+    pub(super) fn remake_maps<O: Ode<State = Y>>(
+        &mut self,
+        ode: &O,
+        middle: &Middle<Y>,
+    ) -> Result<(), Reason<O::Error>> {
+        match self.maps.iter().any(Option::is_some) {
+            true => self.make_maps(ode, middle),
+            false => Ok(()),
+        }
     }
 
-    /// Returns velocities with the impulses that their contacts then need.
+    /// Returns velocities with the impulses that their contacts then need. `free` are those without impulses.
+    ///
+    /// The velocities γ⁺ at the contacts are those at the end of the step, where the axes of bodies have turned on. They are
+    /// linearised with J in the middle: γ⁺ = γ⁺(p₀) + G (p − p₀) for the last impulses p₀.
     pub(super) fn pushed<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -89,7 +91,22 @@ where
         if self.number == 0 {
             return Ok(free.clone());
         }
-        self.find_active(ode, middle, free)?;
+        let first = self.outcome.is_none();
+        let known = if first {
+            free.clone()
+        } else {
+            self.with_impulses(free)
+        };
+        let mut end = known.clone();
+        middle.advance(ode, &mut end)?;
+        let ahead = contacts_at(ode, middle.end(), &end)?;
+        self.find_active(&ahead);
+        if first {
+            for (c, slow) in self.slow.iter_mut().enumerate() {
+                let approach = self.before[c].velocity[2];
+                *slow = approach.abs() <= (ahead[c].velocity[2] - approach).abs();
+            }
+        }
         let mut at = [0; MOST_CONTACTS];
         let mut n = 0;
         for c in (0..self.number).filter(|&c| self.active[c]) {
@@ -97,45 +114,50 @@ where
             n += 1;
         }
         if n == 0 {
-            return Ok(free.clone());
+            return Ok(known);
         }
         if self.maps[at[0]].is_none() {
             self.make_maps(ode, middle)?;
         }
+        let given = (middle, &ahead, first);
         match n {
-            1 => self.solve::<1>(middle, free, &at[..n]),
-            2..=4 => self.solve::<4>(middle, free, &at[..n]),
-            5..=8 => self.solve::<8>(middle, free, &at[..n]),
-            9..=16 => self.solve::<16>(middle, free, &at[..n]),
-            _ => self.solve::<MOST_CONTACTS>(middle, free, &at[..n]),
+            1 => self.solve::<1>(given, &at[..n]),
+            2..=4 => self.solve::<4>(given, &at[..n]),
+            5..=8 => self.solve::<8>(given, &at[..n]),
+            9..=16 => self.solve::<16>(given, &at[..n]),
+            _ => self.solve::<MOST_CONTACTS>(given, &at[..n]),
         }
+        Ok(self.with_impulses(free))
+    }
+
+    /// Returns velocities with the impulses of the active contacts.
+    fn with_impulses(&self, free: &Y) -> Y {
         let mut end = free.clone();
-        for &c in &at[..n] {
+        for c in (0..self.number).filter(|&c| self.active[c]) {
             if let Some(map) = &self.maps[c] {
                 for (column, &p) in map.columns.iter().zip(&self.impulses[c]) {
                     end.add(p, column);
                 }
             }
         }
-        Ok(end)
+        end
     }
 
     /// Finds the contacts whose gap would be closed at the end of the step. A contact stays active in its step.
-    fn find_active<O: Ode<State = Y>>(
-        &mut self,
-        ode: &O,
-        middle: &Middle<Y>,
-        free: &Y,
-    ) -> Result<(), Reason<O::Error>> {
-        let mut ahead = [no_contact(); MOST_CONTACTS];
-        ode.contact_states(middle.t, free, &mut ahead[..self.number])
-            .map_err(Reason::Singular)?;
-        let half = middle.h * Of::<Y>::from_f64(0.5);
+    fn find_active(&mut self, ahead: &Contacts<Of<Y>>) {
         for (active, contact) in self.active.iter_mut().zip(&ahead[..self.number]) {
-            let closes = contact.gap + half * contact.velocity[2] <= Of::<Y>::from_f64(0.0);
-            *active = *active || closes;
+            *active = *active || contact.gap <= Of::<Y>::from_f64(0.0);
         }
-        Ok(())
+    }
+
+    /// Returns the normal velocity that a contact needs to open again, with the opposite sign: Newton's e γ_n⁻; of a slow
+    /// one the speed at which the gap in the middle closes until the end.
+    fn returned(&self, c: usize, h: Of<Y>) -> Of<Y> {
+        if self.slow[c] {
+            let gap = self.middle[c].gap.max(Of::<Y>::from_f64(0.0));
+            return gap * Of::<Y>::from_f64(2.0) / h;
+        }
+        self.before[c].restitution * self.before[c].velocity[2]
     }
 
     fn make_maps<O: Ode<State = Y>>(
@@ -156,34 +178,44 @@ where
         Ok(())
     }
 
-    /// Solves for the impulses of the contacts `at`, of which there are at most K.
-    fn solve<const K: usize>(&mut self, middle: &Middle<Y>, free: &Y, at: &[usize]) {
+    /// Solves for the impulses of the contacts `at`, of which there are at most K. `ahead` are the contacts at the end of
+    /// the step with the last impulses, or, the `first` time, without impulses.
+    fn solve<const K: usize>(
+        &mut self,
+        (middle, ahead, first): (&Middle<Y>, &Contacts<Of<Y>>, bool),
+        at: &[usize],
+    ) {
         let zero = Of::<Y>::from_f64(0.0);
         let mut delassus = [[[[zero; 3]; 3]; K]; K];
         let mut velocities = [[zero; 3]; K];
         let (mut friction, mut active) = ([zero; K], [false; K]);
         let mut impulses = [[zero; 3]; K];
-        let gained = free.plus(-Of::<Y>::from_f64(1.0), &middle.y);
         for (i, &c) in at.iter().enumerate() {
-            let (Some(map), contact) = (&self.maps[c], &self.contacts[c]) else {
-                continue;
-            };
-            let gain = core::array::from_fn(|k| self.dot(middle, &map.rows[k], &gained));
-            velocities[i] = sum(&contact.velocity, &gain);
-            velocities[i][2] = velocities[i][2] + contact.restitution * contact.velocity[2];
-            (friction[i], active[i]) = (contact.friction, true);
+            let (now, before) = (&ahead[c], &self.before[c]);
+            velocities[i] = now.velocity;
+            velocities[i][2] = velocities[i][2] + self.returned(c, middle.h);
+            (friction[i], active[i]) = (before.friction, true);
             impulses[i] = self.impulses[c];
             for (j, &d) in at.iter().enumerate() {
-                if let Some(other) = &self.maps[d] {
+                if let (Some(map), Some(other)) = (&self.maps[c], &self.maps[d]) {
                     delassus[i][j] = core::array::from_fn(|k| {
                         let row = &map.rows[k];
-                        core::array::from_fn(|l| self.dot(middle, row, &other.columns[l]))
+                        core::array::from_fn(|l| dot(middle.positions, row, &other.columns[l]))
                     });
                 }
             }
         }
-        if middle.is_linearised() {
-            symmetrise(&mut delassus, &impulses, &mut velocities);
+        symmetrise(&mut delassus);
+        if !first {
+            for (c, velocity) in velocities.iter_mut().enumerate() {
+                for (d, p) in impulses.iter().enumerate() {
+                    for (sum, row) in velocity.iter_mut().zip(&delassus[c][d]) {
+                        for (&g, &p) in row.iter().zip(p) {
+                            *sum = *sum - g * p;
+                        }
+                    }
+                }
+            }
         }
         let problem = ContactProblem {
             delassus: &delassus,
@@ -195,13 +227,6 @@ where
         for (&c, p) in at.iter().zip(impulses) {
             self.impulses[c] = p;
         }
-    }
-
-    /// Returns the scalar product of the velocities.
-    fn dot(&self, middle: &Middle<Y>, a: &Y, b: &Y) -> Of<Y> {
-        let n = middle.positions;
-        let products = a.entries()[n..].iter().zip(&b.entries()[n..]);
-        products.fold(Of::<Y>::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
     }
 
     /// Returns impulses and losses, with the velocities at the end.
@@ -218,9 +243,9 @@ where
         let half = Of::<Y>::from_f64(0.5);
         for c in (0..self.number).filter(|&c| self.active[c]) {
             let Some(map) = &self.maps[c] else { continue };
-            let (p, before) = (self.impulses[c], self.contacts[c].velocity);
+            let (p, before) = (self.impulses[c], self.middle[c].velocity);
             let work = (0..3).fold(zero, |work, k| {
-                let gain = self.dot(middle, &map.rows[k], &gained);
+                let gain = dot(middle.positions, &map.rows[k], &gained);
                 work + p[k] * (before[k] + half * gain)
             });
             (step.impulses[c], step.losses[c]) = (p, -work);
@@ -229,28 +254,46 @@ where
     }
 }
 
-/// Replaces G by its symmetric part. The other part, small and due to gyroscopic terms, acts with the last impulses: the
-/// iteration ends where both are the same.
-fn symmetrise<T: Real, const K: usize>(
-    delassus: &mut [[[[T; 3]; 3]; K]; K],
-    impulses: &[[T; 3]; K],
-    velocities: &mut [[T; 3]; K],
-) {
+/// Replaces G by its symmetric part: B has a small other one, due to gyroscopic terms.
+fn symmetrise<T: Real, const K: usize>(delassus: &mut [[[[T; 3]; 3]; K]; K]) {
     let half = T::from_f64(0.5);
     let all = *delassus;
-    for (c, velocity) in velocities.iter_mut().enumerate() {
-        for (d, p) in impulses.iter().enumerate() {
-            for (i, sum) in velocity.iter_mut().enumerate() {
-                for (j, &p) in p.iter().enumerate() {
-                    let (own, other) = (all[c][d][i][j], all[d][c][j][i]);
-                    delassus[c][d][i][j] = half * (own + other);
-                    *sum = *sum + half * (own - other) * p;
+    for (c, row) in delassus.iter_mut().enumerate() {
+        for (d, block) in row.iter_mut().enumerate() {
+            for (i, row) in block.iter_mut().enumerate() {
+                for (j, entry) in row.iter_mut().enumerate() {
+                    *entry = half * (all[c][d][i][j] + all[d][c][j][i]);
                 }
             }
         }
     }
 }
 
-fn sum<T: Real>(a: &Components<T>, b: &Components<T>) -> Components<T> {
-    core::array::from_fn(|k| a[k] + b[k])
+/// Returns the scalar product of the velocities of two states.
+fn dot<Y: StateVector>(positions: usize, a: &Y, b: &Y) -> Of<Y> {
+    let pairs = a.entries()[positions..]
+        .iter()
+        .zip(&b.entries()[positions..]);
+    pairs.fold(Of::<Y>::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
+}
+
+/// Returns the contacts in a state.
+pub(super) fn contacts_at<O: Ode>(
+    ode: &O,
+    t: Of<O::State>,
+    y: &O::State,
+) -> Result<Contacts<Of<O::State>>, Reason<O::Error>> {
+    let zero = Of::<O::State>::from_f64(0.0);
+    let mut contacts = [RigidContact {
+        gap: zero,
+        velocity: [zero; 3],
+        friction: zero,
+        restitution: zero,
+    }; MOST_CONTACTS];
+    let number = ode.contacts();
+    if number > 0 {
+        ode.contact_states(t, y, &mut contacts[..number])
+            .map_err(Reason::Singular)?;
+    }
+    Ok(contacts)
 }

@@ -4,10 +4,10 @@
 //! directions of the normals (Acary 2013, "Projected event-capturing time-stepping schemes"). A contact that bounces is not
 //! moved: its overlap ends by itself.
 
-use bgdyn_runtime::{MOST_CONTACTS, RigidContact, Scalar as _, StateVector};
+use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 
 use super::ContactStep;
-use super::impulses::{Impulses, no_contact};
+use super::impulses::{Contacts, Impulses, contacts_at};
 use super::middle::moved;
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::failure::Reason;
@@ -29,33 +29,28 @@ where
     if number == 0 {
         return Ok(());
     }
-    let mut contacts = [no_contact(); MOST_CONTACTS];
+    let mut contacts = contacts_at(ode, t, end)?;
     let zero = Of::<O::State>::from_f64(0.0);
-    ode.contact_states(t, end, &mut contacts[..number])
-        .map_err(Reason::Singular)?;
     let size = end.entries()[..ode.positions()].iter();
     let size = size.fold(Of::<O::State>::from_f64(1.0), |most, x| most.max(x.abs()));
     let negligible = Of::<O::State>::EPSILON * Of::<O::State>::from_f64(64.0) * size;
     let rests = |c: usize| {
-        let bounce = impulses.contacts[c].restitution * impulses.contacts[c].velocity[2];
-        impulses.active[c] && step.impulses[c][2] > zero && h * bounce.abs() <= negligible
+        let bounce = impulses.before[c].restitution * impulses.before[c].velocity[2];
+        let ends = impulses.slow[c] || h * bounce.abs() <= negligible;
+        impulses.active[c] && step.impulses[c][2] > zero && ends
     };
     let resting: [bool; MOST_CONTACTS] = core::array::from_fn(|c| c < number && rests(c));
     if deepest(&contacts, &resting) > negligible {
         let gaps = contacts.map(|contact| contact.gap);
         shift(ode, t, end, &resting, &gaps, impulses)?;
-        ode.contact_states(t, end, &mut contacts[..number])
-            .map_err(Reason::Singular)?;
+        contacts = contacts_at(ode, t, end)?;
     }
     step.depth = deepest(&contacts, &[true; MOST_CONTACTS]);
     Ok(())
 }
 
 /// Returns the deepest overlap among some contacts.
-fn deepest<T: Real>(
-    contacts: &[RigidContact<T>; MOST_CONTACTS],
-    among: &[bool; MOST_CONTACTS],
-) -> T {
+fn deepest<T: Real>(contacts: &Contacts<T>, among: &[bool; MOST_CONTACTS]) -> T {
     let all = contacts.iter().zip(among).filter(|&(_, &among)| among);
     all.fold(T::from_f64(0.0), |most, (contact, _)| {
         most.max(-contact.gap)

@@ -120,9 +120,9 @@ where
         }
     }
 
-    /// Returns whether B differs from 1.
-    pub(super) fn is_linearised(&self) -> bool {
-        self.factors.is_some()
+    /// Returns the time at the end of the step.
+    pub(super) fn end(&self) -> Of<Y> {
+        self.t + self.h * Of::<Y>::from_f64(0.5)
     }
 
     /// Returns the change of velocities in units of what is neglected.

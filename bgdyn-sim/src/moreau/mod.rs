@@ -22,7 +22,8 @@ use crate::real::{Of, Real};
 /// v⁺ = v + h v̇(t + h/2, q_m, (v + v⁺)/2) + M⁻¹ Jᵀ p,  q⁺ = q_m + (h/2) v⁺
 ///
 /// where the impulses p are the solution of Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's
-/// law of restitution and γ_t⁺. A contact is active if its gap would be closed at the end of the step without impulses.
+/// law of restitution and γ_t⁺, at the end of the step. J and M are those in the middle. A contact that approaches by less
+/// than forces add in a step does not bounce. A contact is active if its gap would be closed at the end of the step without impulses.
 /// Where a closed contact overlaps afterwards, the positions are put right in the metric of M, without a spring.
 ///
 /// Order 2 between impacts, order 1 with impacts: an impact is anywhere within its step. Without contacts it is a symmetric
@@ -68,6 +69,9 @@ pub struct ContactStep<T> {
 const STALLS: usize = 2;
 const ROUGH: f64 = 1e5;
 
+/// Changes that fall by less than this factor are reason for Newton's method.
+const SLOW: f64 = 0.25;
+
 /// The largest number of evaluations of the rates in a step.
 const MOST_ITERATIONS: usize = 40;
 
@@ -106,7 +110,7 @@ where
         h: Of<Y>,
     ) -> Result<Step<Y, Self::Stages>, Reason<O::Error>> {
         let mut middle = Middle::new(ode, (from.t, from.y), h)?;
-        let mut impulses = Impulses::new(ode, &middle, self.options, from.before)?;
+        let mut impulses = Impulses::new(ode, (from, &middle), self.options)?;
         let mut end = middle.y.clone();
         let (mut before, mut stalls) = (f64::INFINITY, 0);
         for iteration in 1.. {
@@ -125,8 +129,9 @@ where
                 return Err(Reason::NoConvergence { iterations, change });
             }
             // Substitution that is slow, or that does not converge.
-            if change > 0.1 * before && middle.linearise(ode, &end)? {
-                impulses.forget_maps();
+            if change > SLOW * before && middle.linearise(ode, &end)? {
+                impulses.remake_maps(ode, &middle)?;
+                stalls = 0;
             }
             before = change;
         }
