@@ -272,11 +272,13 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
                 Entries::Joints | Entries::VectorTriple => rows(&all, nv),
                 Entries::Task | Entries::TaskColumns => rows(&all, 6),
                 Entries::TaskVector => json!(all),
+                Entries::Symmetric(columns) | Entries::Columns(columns) => rows(&all, columns),
                 Entries::ParameterColumns(_) => rows(&all, all.len() / nv.max(1)),
             }
         }
         Shape::Point => json!(values),
-        Shape::PointJacobian => rows(values, nv),
+        Shape::PointJacobian | Shape::Rows(_) => rows(values, nv),
+        Shape::Numbers(_) => json!(values),
         Shape::RowMatrix => rows(values, nt),
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),

@@ -1,0 +1,87 @@
+//! The gap, the axes and the contact point of a pair, fixed axes.
+
+use super::tangents::across;
+use crate::expr::{Builder, Expr};
+use crate::formulation::placement::Placement;
+use crate::math::{Mat3, Vec3};
+use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId};
+use bgdyn_runtime::Dd;
+
+/// The least square of a distance of two centres, m²: where they meet there is no normal, and the root has a derivative
+/// even there.
+const LEAST: f64 = 1e-30;
+
+/// Where a pair touches.
+#[derive(Clone, Copy)]
+pub(super) struct PairFrame<'g> {
+    /// The distance of the surfaces, m; negative where they overlap.
+    pub(super) gap: Expr<'g>,
+    /// The directions x and y, and the unit normal from the partner to the sphere.
+    pub(super) axes: [Vec3<Expr<'g>>; 3],
+    /// c, the contact point.
+    pub(super) point: Vec3<Expr<'g>>,
+}
+
+impl<'g> PairFrame<'g> {
+    /// Returns where a pair touches: c is on the line of the normal through the centre of the sphere; against a plane it is
+    /// on the sphere, of two spheres in the middle of the gap.
+    pub(super) fn new(b: &'g Builder, placement: &Placement<'g>, pair: &ContactPair) -> Self {
+        let centre = centre(b, placement, &pair.sphere);
+        let radius = b.constant(pair.sphere.radius);
+        match &pair.partner {
+            ContactPartner::Plane { link, pose } => {
+                let rotation = pose.rotation.map(|x| b.constant(x));
+                let rotation = match link {
+                    Some(LinkId(i)) => placement.rotations[*i] * rotation,
+                    None => rotation,
+                };
+                let origin = place(b, placement, *link, pose.translation);
+                let axes = [0, 1, 2].map(|k| rotation.column(k));
+                let normal = axes[2];
+                PairFrame {
+                    gap: normal.dot(centre - origin) - radius,
+                    axes,
+                    point: centre - normal.scale(radius),
+                }
+            }
+            ContactPartner::Sphere(other) => {
+                let apart = centre - self::centre(b, placement, other);
+                let distance = apart.dot(apart).max(b.number(LEAST)).sqrt();
+                let normal = apart.scale(b.number(1.0) / distance);
+                let gap = distance - b.constant(pair.sphere.radius + other.radius);
+                let [x, y] = across(b, normal);
+                PairFrame {
+                    gap,
+                    axes: [x, y, normal],
+                    point: centre - normal.scale(radius + gap * Dd::from_f64(0.5)),
+                }
+            }
+        }
+    }
+
+    /// Returns its rotation, with the axes as columns, row by row, and the contact point.
+    pub(super) fn pose(&self) -> Vec<Expr<'g>> {
+        let rotation = Mat3(self.axes.map(|axis| axis.0)).transpose();
+        let rotation = rotation.0.into_iter().flatten();
+        rotation.chain(self.point.0).collect()
+    }
+}
+
+/// Returns the centre of a sphere.
+fn centre<'g>(b: &'g Builder, placement: &Placement<'g>, sphere: &ContactSphere) -> Vec3<Expr<'g>> {
+    place(b, placement, sphere.link, sphere.centre)
+}
+
+/// Returns a place on a link.
+fn place<'g>(
+    b: &'g Builder,
+    placement: &Placement<'g>,
+    link: Option<LinkId>,
+    at: Vec3<Dd>,
+) -> Vec3<Expr<'g>> {
+    let at = b.vector(at);
+    match link {
+        Some(LinkId(i)) => placement.point(i, at),
+        None => at,
+    }
+}
