@@ -18,8 +18,8 @@ use crate::method::{CONTACT_DIRECTIONS, ContactMethod, Method, Shape};
 use crate::random::Random;
 
 /// A number in which the literal functions are computed.
-trait Real: Scalar<Mask = bool, Refused = Option<usize>> {}
-impl<T: Scalar<Mask = bool, Refused = Option<usize>>> Real for T {}
+trait PlainScalar: Scalar<Mask = bool, Refused = Option<usize>> {}
+impl<T: Scalar<Mask = bool, Refused = Option<usize>>> PlainScalar for T {}
 
 /// The contacts by the literal poses and velocities of the links.
 struct LiteralContacts<'a> {
@@ -29,7 +29,7 @@ struct LiteralContacts<'a> {
 }
 
 /// The motion of a link.
-struct LinkMotion<T> {
+struct ContactLink<T> {
     rotation: Mat3<T>,
     origin: Vec3<T>,
     angular: Vec3<T>,
@@ -62,10 +62,10 @@ impl<'a> LiteralContacts<'a> {
     }
 
     /// Returns the contacts at a state.
-    fn touches<T: Real>(&self, at: &Inputs<T>) -> Vec<Touch<T>> {
+    fn touches<T: PlainScalar>(&self, at: &Inputs<T>) -> Vec<Touch<T>> {
         let links = self.links.iter();
         let motions = links.map(|(link, functions)| (*link, link_motion(functions, at)));
-        let motions: BTreeMap<LinkId, LinkMotion<T>> = motions.collect();
+        let motions: BTreeMap<LinkId, ContactLink<T>> = motions.collect();
         let pairs = self.graph.contacts.iter();
         pairs.map(|pair| touch(pair, &motions)).collect()
     }
@@ -112,10 +112,10 @@ impl<'a> LiteralContacts<'a> {
     }
 }
 
-fn link_motion<T: Real>([pose, velocity]: &[Function; 2], at: &Inputs<T>) -> LinkMotion<T> {
+fn link_motion<T: PlainScalar>([pose, velocity]: &[Function; 2], at: &Inputs<T>) -> ContactLink<T> {
     let (pose, velocity) = (pose.evaluate(at.clone()).0, velocity.evaluate(at.clone()).0);
     let vector = |x: &[T]| Vec3([x[0], x[1], x[2]]);
-    LinkMotion {
+    ContactLink {
         rotation: Mat3::from_fn(|i, j| pose[3 * i + j]),
         origin: vector(&pose[9..]),
         angular: vector(&velocity[..3]),
@@ -123,7 +123,10 @@ fn link_motion<T: Real>([pose, velocity]: &[Function; 2], at: &Inputs<T>) -> Lin
     }
 }
 
-fn touch<T: Real>(pair: &ContactPair, motions: &BTreeMap<LinkId, LinkMotion<T>>) -> Touch<T> {
+fn touch<T: PlainScalar>(
+    pair: &ContactPair,
+    motions: &BTreeMap<LinkId, ContactLink<T>>,
+) -> Touch<T> {
     let of = |link: Option<LinkId>| link.and_then(|link| motions.get(&link));
     let number = |x: Dd| T::from_parts(x.hi(), x.lo());
     let half = T::from_f64(0.5);
@@ -166,7 +169,7 @@ fn touch<T: Real>(pair: &ContactPair, motions: &BTreeMap<LinkId, LinkMotion<T>>)
 
 /// Returns x, y and n: with s e_z on the side of n, x = e_x − n_x (n + s e_z)/(1 + s n_z), the turn of e_x that takes s e_z
 /// to n on the shortest way, and y = n × x.
-fn basis<T: Real>(normal: Vec3<T>) -> [Vec3<T>; 3] {
+fn basis<T: PlainScalar>(normal: Vec3<T>) -> [Vec3<T>; 3] {
     let one = T::from_f64(1.0);
     let zero = T::from_f64(0.0);
     let [x, _, z] = normal.0;
@@ -177,11 +180,11 @@ fn basis<T: Real>(normal: Vec3<T>) -> [Vec3<T>; 3] {
 }
 
 /// Returns γ, contact after contact.
-fn velocities<T: Real>(touches: &[Touch<T>]) -> Vec<T> {
+fn velocities<T: PlainScalar>(touches: &[Touch<T>]) -> Vec<T> {
     touches.iter().flat_map(|touch| touch.velocity).collect()
 }
 
-fn gaps<T: Real>(touches: &[Touch<T>]) -> Vec<T> {
+fn gaps<T: PlainScalar>(touches: &[Touch<T>]) -> Vec<T> {
     touches.iter().map(|touch| touch.gap).collect()
 }
 

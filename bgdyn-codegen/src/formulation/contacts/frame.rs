@@ -18,8 +18,10 @@ pub(super) struct PairFrame<'g> {
     pub(super) gap: Expr<'g>,
     /// The directions x and y, and the unit normal from the partner to the sphere.
     pub(super) axes: [Vec3<Expr<'g>>; 3],
-    /// c, the contact point.
-    pub(super) point: Vec3<Expr<'g>>,
+    /// The centre of the sphere.
+    pub(super) centre: Vec3<Expr<'g>>,
+    /// How far the contact point is from the centre, against the normal, m.
+    pub(super) depth: Expr<'g>,
 }
 
 impl<'g> PairFrame<'g> {
@@ -41,7 +43,8 @@ impl<'g> PairFrame<'g> {
                 PairFrame {
                     gap: normal.dot(centre - origin) - radius,
                     axes,
-                    point: centre - normal.scale(radius),
+                    centre,
+                    depth: radius,
                 }
             }
             ContactPartner::Sphere(other) => {
@@ -53,17 +56,37 @@ impl<'g> PairFrame<'g> {
                 PairFrame {
                     gap,
                     axes: [x, y, normal],
-                    point: centre - normal.scale(radius + gap * Dd::from_f64(0.5)),
+                    centre,
+                    depth: radius + gap * Dd::from_f64(0.5),
                 }
             }
         }
+    }
+
+    /// Returns the velocity at the contact point along x, y and n, of a body that turns with ω and whose point at the centre
+    /// moves with this velocity.
+    ///
+    /// The contact point is c − d n from the centre c: x·(ω × n) = y·ω and y·(ω × n) = −x·ω. A turn about the centre has no
+    /// part along n, and its columns are exactly zero there.
+    pub(super) fn velocity(
+        &self,
+        angular: Vec3<Expr<'g>>,
+        of_centre: Vec3<Expr<'g>>,
+    ) -> [Expr<'g>; 3] {
+        let [x, y, n] = self.axes;
+        [
+            x.dot(of_centre) - self.depth * y.dot(angular),
+            y.dot(of_centre) + self.depth * x.dot(angular),
+            n.dot(of_centre),
+        ]
     }
 
     /// Returns its rotation, with the axes as columns, row by row, and the contact point.
     pub(super) fn pose(&self) -> Vec<Expr<'g>> {
         let rotation = Mat3(self.axes.map(|axis| axis.0)).transpose();
         let rotation = rotation.0.into_iter().flatten();
-        rotation.chain(self.point.0).collect()
+        let point = self.centre - self.axes[2].scale(self.depth);
+        rotation.chain(point.0).collect()
     }
 }
 

@@ -1,6 +1,6 @@
 //! γ = v_a(c) − v_b(c), the velocity of the sphere's link at the contact point less that of its partner's.
 //!
-//! Joints that carry both links move both alike, and have no part in γ: the paths of both links begin at the last link that
+//! Both velocities are taken at the centre of the sphere, and moved from there to c. Joints that carry both links move both alike, and have no part in γ: the paths of both links begin at the last link that
 //! carries both.
 
 use std::collections::BTreeMap;
@@ -10,7 +10,9 @@ use crate::bond_graph::Multibody;
 use crate::expr::{Builder, Expr};
 use crate::formulation::placement::Placement;
 use crate::math::Vec3;
+use crate::mechanism::joint::Column;
 use crate::mechanism::{ContactPair, CoordinateId, LinkId};
+use crate::method::CONTACT_DIRECTIONS;
 
 /// The relative motion of a pair.
 pub(super) struct PairMotion<'a, 'g> {
@@ -45,62 +47,82 @@ impl<'a, 'g> PairMotion<'a, 'g> {
 
     /// Returns γ along the axes of the contact.
     pub(super) fn velocity(&self, v: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let [a, b] = [0, 1].map(|k| self.velocity_of(&self.paths[k], v));
-        self.frame.axes.map(|axis| axis.dot(a - b)).to_vec()
+        let [a, b] = [0, 1].map(|k| self.twist(&self.paths[k], v));
+        let relative = self
+            .frame
+            .velocity(a.angular - b.angular, a.linear - b.linear);
+        relative.to_vec()
     }
 
-    /// Returns the velocity at the contact point of the link at the end of a path, relative to the link before it.
-    fn velocity_of(&self, path: &[LinkId], v: &[Expr<'g>]) -> Vec3<Expr<'g>> {
+    /// Returns the velocity of the link at the end of a path, at the centre of the sphere, relative to the link before the path.
+    fn twist(&self, path: &[LinkId], v: &[Expr<'g>]) -> Column<Expr<'g>> {
         let zero = Vec3([self.b.zero(); 3]);
         let (mut angular, mut linear) = (zero, zero);
-        let mut origin = None;
-        for &LinkId(i) in path {
+        let mut at = self.frame.centre;
+        for (k, &LinkId(i)) in path.iter().enumerate() {
             let own = self.placement.origins[i];
-            if let Some(before) = origin {
-                linear = linear + angular.cross(own - before);
+            if k > 0 {
+                linear = linear + angular.cross(own - at);
             }
             let frame = &self.graph.frames[i];
             for (j, column) in self.placement.columns(self.b, i, frame) {
                 angular = angular + column.angular.scale(v[j.0]);
                 linear = linear + column.linear.scale(v[j.0]);
             }
-            origin = Some(own);
+            at = own;
         }
-        let lever = origin.map(|origin| self.frame.point - origin);
-        lever.map_or(linear, |lever| linear + angular.cross(lever))
+        let lever = self.frame.centre - at;
+        Column {
+            angular,
+            linear: linear + angular.cross(lever),
+        }
     }
 
     /// Returns the rows of J, one after the other: zero for coordinates that do not move one link relative to the other.
     pub(super) fn jacobian(&self) -> Vec<Expr<'g>> {
         let columns = self.columns();
         let n = self.graph.coordinates.len();
-        let entry = |axis: Vec3<Expr<'g>>, j: usize| {
+        let entry = |row: usize, j: usize| {
             let column = columns.get(&CoordinateId(j));
-            column.map_or(self.b.zero(), |column| axis.dot(*column))
+            column.map_or(self.b.zero(), |column| column[row])
         };
-        let rows = self.frame.axes.into_iter();
-        rows.flat_map(|axis| (0..n).map(move |j| (axis, j)))
-            .map(|(axis, j)| entry(axis, j))
+        let rows = 0..CONTACT_DIRECTIONS;
+        rows.flat_map(|row| (0..n).map(move |j| (row, j)))
+            .map(|(row, j)| entry(row, j))
             .collect()
     }
 
-    /// Returns the columns of γ by v, fixed axes. A coordinate may move a link through its own joint and through joints that
-    /// follow it.
-    fn columns(&self) -> BTreeMap<CoordinateId, Vec3<Expr<'g>>> {
-        let mut columns: BTreeMap<CoordinateId, Vec3<Expr<'g>>> = BTreeMap::new();
+    /// Returns the columns of γ by v, along the axes of the contact. A coordinate may move a link through its own joint and
+    /// through joints that follow it.
+    fn columns(&self) -> BTreeMap<CoordinateId, [Expr<'g>; CONTACT_DIRECTIONS]> {
+        let mut moved: BTreeMap<CoordinateId, Column<Expr<'g>>> = BTreeMap::new();
         for (path, partner) in self.paths.iter().zip([false, true]) {
             for &LinkId(i) in path {
-                let lever = self.frame.point - self.placement.origins[i];
+                let lever = self.frame.centre - self.placement.origins[i];
                 let frame = &self.graph.frames[i];
                 for (j, column) in self.placement.columns(self.b, i, frame) {
-                    let moved = column.linear + column.angular.cross(lever);
-                    let moved = if partner { -moved } else { moved };
-                    let sum = columns.entry(j);
-                    sum.and_modify(|sum| *sum = *sum + moved).or_insert(moved);
+                    let (angular, linear) =
+                        (column.angular, column.linear + column.angular.cross(lever));
+                    let own = match partner {
+                        false => Column { angular, linear },
+                        true => Column {
+                            angular: -angular,
+                            linear: -linear,
+                        },
+                    };
+                    let sum = moved.get(&j).map_or(own, |sum| Column {
+                        angular: sum.angular + own.angular,
+                        linear: sum.linear + own.linear,
+                    });
+                    moved.insert(j, sum);
                 }
             }
         }
-        columns
+        let along = |column: Column<Expr<'g>>| self.frame.velocity(column.angular, column.linear);
+        moved
+            .into_iter()
+            .map(|(j, column)| (j, along(column)))
+            .collect()
     }
 }
 
