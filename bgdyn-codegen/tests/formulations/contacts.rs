@@ -88,6 +88,17 @@ fn loops_equal_the_literal_sum() {
     }
 }
 
+/// A cart on two wheels runs into a wall.
+#[test]
+fn wheels_equal_the_literal_sum() {
+    let specs = of_folder("specs/constraints");
+    let cart = specs.iter().find(|(name, _)| name == "differential_drive");
+    let (name, text) = cart.expect("a cart on wheels");
+    let contacts = "\ncontacts:\n  bumper: { link: cart, at: [0.3, 0.1, 0.05], radius: 60 mm, on: wall }\n\
+                    planes:\n  wall: { normal: [-1, 0.2, 0.1], offset: -2 }\n";
+    passes(&format!("{text}{contacts}"), name);
+}
+
 #[test]
 fn turned_signs_are_refused() {
     for text in [BRANCHES, TURNTABLE] {
