@@ -2,7 +2,9 @@
 
 use bgdyn_codegen::bond_graph::Site;
 use bgdyn_codegen::choice::Choice;
-use bgdyn_codegen::method::{Argument, CONTACT_DIRECTIONS, Entries, Method, ParameterSet, Regressor, Shape};
+use bgdyn_codegen::method::{
+    Argument, CONTACT_DIRECTIONS, Entries, Method, ParameterSet, Regressor, Shape,
+};
 
 use crate::spec::Spec;
 
