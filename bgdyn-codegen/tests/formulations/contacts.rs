@@ -108,8 +108,12 @@ fn turned_signs_are_refused() {
         let at = state(&robot, &mut Rng::new(83));
         every_turned_sign_is_refused(&model, |function, k| {
             let values: Vec<Dd> = function.evaluate(at.clone()).0;
-            let only_checked = function.shape().checked() && k < robot.nv();
-            !only_checked && values[k].to_f64().abs() > 1e-9
+            // Of the large matrices every fifth entry.
+            let is_read = match function.shape().checked() {
+                true => k >= robot.nv() && k % 5 == 0,
+                false => true,
+            };
+            is_read && values[k].to_f64().abs() > 1e-9
         });
     }
 }
