@@ -1,11 +1,12 @@
 //! The gap, the axes and the contact point of a pair, fixed axes.
 
+use bgdyn_runtime::Dd;
+
 use super::tangents::across;
 use crate::expr::{Builder, Expr};
 use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId};
-use bgdyn_runtime::Dd;
 
 /// The least square of a distance of two centres, m²: where they meet there is no normal, and the root has a derivative
 /// even there.
@@ -25,7 +26,7 @@ pub(super) struct PairFrame<'g> {
 }
 
 impl<'g> PairFrame<'g> {
-    /// Returns where a pair touches: c is on the line of the normal through the centre of the sphere; against a plane it is
+    /// Returns where a pair touches. The contact point is on the line of the normal through the centre of the sphere; against a plane it is
     /// on the sphere, of two spheres in the middle of the gap.
     pub(super) fn new(b: &'g Builder, placement: &Placement<'g>, pair: &ContactPair) -> Self {
         let centre = centre(b, placement, &pair.sphere);
@@ -66,8 +67,8 @@ impl<'g> PairFrame<'g> {
     /// Returns the velocity at the contact point along x, y and n, of a body that turns with ω and whose point at the centre
     /// moves with this velocity.
     ///
-    /// The contact point is c − d n from the centre c: x·(ω × n) = y·ω and y·(ω × n) = −x·ω. A turn about the centre has no
-    /// part along n, and its columns are exactly zero there.
+    /// The contact point is the depth d below the centre, against n: x·(ω × n) = y·ω and y·(ω × n) = −x·ω. A turn about the
+    /// centre has no part along n, and its columns are exactly zero there.
     pub(super) fn velocity(
         &self,
         angular: Vec3<Expr<'g>>,

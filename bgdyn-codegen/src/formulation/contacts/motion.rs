@@ -1,7 +1,7 @@
 //! γ = v_a(c) − v_b(c), the velocity of the sphere's link at the contact point less that of its partner's.
 //!
-//! Both velocities are taken at the centre of the sphere, and moved from there to c. Joints that carry both links move both alike, and have no part in γ: the paths of both links begin at the last link that
-//! carries both.
+//! Both are computed at the centre of the sphere, and moved from there to c. Joints that carry both links move both alike,
+//! and have no part in γ: the paths to both links begin behind the last link that carries both.
 
 use std::collections::BTreeMap;
 
@@ -33,15 +33,15 @@ impl<'a, 'g> PairMotion<'a, 'g> {
         (pair, frame): (&ContactPair, PairFrame<'g>),
     ) -> Self {
         let links = [pair.sphere.link, pair.partner.link()];
-        let [a, b_links] = links.map(|link| path(graph, link));
-        let pairs = a.iter().zip(&b_links);
+        let paths = links.map(|link| path(graph, link));
+        let pairs = paths[0].iter().zip(&paths[1]);
         let common = pairs.take_while(|(x, y)| x == y).count();
         PairMotion {
             b,
             graph,
             placement,
             frame,
-            paths: [a, b_links].map(|path| path[common..].to_vec()),
+            paths: paths.map(|path| path[common..].to_vec()),
         }
     }
 
@@ -54,7 +54,8 @@ impl<'a, 'g> PairMotion<'a, 'g> {
         relative.to_vec()
     }
 
-    /// Returns the velocity of the link at the end of a path, at the centre of the sphere, relative to the link before the path.
+    /// Returns the velocity of the link at the end of a path, at the centre of the sphere, relative to the link before the
+    /// path.
     fn twist(&self, path: &[LinkId], v: &[Expr<'g>]) -> Column<Expr<'g>> {
         let zero = Vec3([self.b.zero(); 3]);
         let (mut angular, mut linear) = (zero, zero);
