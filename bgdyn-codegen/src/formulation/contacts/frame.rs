@@ -26,8 +26,8 @@ pub(super) struct PairFrame<'g> {
 }
 
 impl<'g> PairFrame<'g> {
-    /// Returns where a pair touches. The contact point is on the line of the normal through the centre of the sphere; against a plane it is
-    /// on the sphere, of two spheres in the middle of the gap.
+    /// Returns where a pair touches. The contact point is on the line of the normal through the centre of the sphere: on the
+    /// sphere against a plane, in the middle of the gap of two spheres.
     pub(super) fn new(b: &'g Builder, placement: &Placement<'g>, pair: &ContactPair) -> Self {
         let centre = centre(b, placement, &pair.sphere);
         let radius = b.constant(pair.sphere.radius);
