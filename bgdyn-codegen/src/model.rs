@@ -72,6 +72,13 @@ impl Model {
         methods.chain(parts.map(|part| part.method))
     }
 
+    /// Returns the names of the contacts, if it has a method of them; else none.
+    pub fn contact_names(&self) -> Vec<&str> {
+        let has = self.all_methods().any(|m| matches!(m, Method::Contact(_)));
+        let pairs = self.mechanism.contact_pairs().iter().filter(|_| has);
+        pairs.map(|pair| pair.name.as_str()).collect()
+    }
+
     /// Returns the names of the bodies whose parameters regressors have.
     pub fn body_names(&self) -> Vec<&str> {
         let links = self.bond_graph.moving_links().into_iter();

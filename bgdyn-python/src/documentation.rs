@@ -2,7 +2,9 @@
 
 use bgdyn_codegen::bond_graph::Site;
 use bgdyn_codegen::choice::Choice;
-use bgdyn_codegen::method::{Argument, Entries, Method, ParameterSet, Regressor, Shape};
+use bgdyn_codegen::method::{
+    Argument, CONTACT_DIRECTIONS, Entries, Method, ParameterSet, Regressor, Shape,
+};
 
 use crate::spec::Spec;
 
@@ -15,10 +17,11 @@ const OPTIONS: &str = "out, threads, on_singular: as in bgdyn.Method";
 /// Returns what a method of a mechanism returns, in a sentence.
 pub fn summary(method: Method, sites: &[Site]) -> String {
     // Names of Rust's constants; a model has them in lower case.
-    const NAMES: [(&str, &str); 6] = [
+    const NAMES: [(&str, &str); 7] = [
         ("[`CONSTRAINT_NAMES`]", "`constraint_names`"),
         ("[`REACTION_NAMES`]", "`reaction_names`"),
         ("[`LINK_NAMES`]", "`link_names`"),
+        ("[`CONTACT_NAMES`]", "`contact_names`"),
         (" as in [`BODY_NAMES`]", ""),
         (", as in [`BASE_PARAMETERS`]", ""),
         ("[`ACTUATED`]", "`actuated_names`"),
@@ -37,6 +40,9 @@ pub fn of(spec: &Spec, method: Method) -> String {
         ("nc", _) => sizes.nc,
         ("na", _) => spec.mechanism.actuated_names().len(),
         ("np", Method::DriveEfforts(number)) => number,
+        ("numbers", _) => method.shape().len(sizes.nv),
+        ("contacts", _) => spec.graph.contacts.len(),
+        ("3 contacts", _) => CONTACT_DIRECTIONS * spec.graph.contacts.len(),
         ("nbp", _) => Choice::new(&spec.graph, None)
             .base_parameter_formulas()
             .len(),
@@ -81,6 +87,7 @@ fn condition(method: Method) -> Option<&'static str> {
     }
     match method {
         Method::DriveEfforts(_) => Some("A method of mechanisms with prescribed joints."),
+        Method::Contact(_) => Some("A method of mechanisms with `contacts`."),
         Method::JointReactions => Some(
             "With `actuated` in the file it takes `tau` after `a`: the efforts of these joints, N·m, N.",
         ),
@@ -175,6 +182,16 @@ fn arrays(shape: Shape) -> Arrays {
         Shape::Jacobian => one(&["6", "nv"]),
         Shape::Point => one(&["3"]),
         Shape::PointJacobian => one(&["3", "nv"]),
+        // Those of contacts: a number for each, or one for each of three directions.
+        Shape::Numbers(_) => one(&["numbers"]),
+        Shape::Rows(_) => one(&["3 contacts", "nv"]),
+        Shape::Poses(_) => (
+            Some("Pose"),
+            vec![
+                ("rotation", vec!["contacts", "3", "3"]),
+                ("translation", vec!["contacts", "3"]),
+            ],
+        ),
         Shape::TreeMatrix => one(&["nt", "nv"]),
         Shape::TreeVector | Shape::CheckedTree => one(&["nt"]),
         Shape::RowMatrix => one(&["nc", "nt"]),
@@ -194,6 +211,8 @@ fn arrays(shape: Shape) -> Arrays {
             Entries::TaskColumns => one(&["nv", "6"]),
             Entries::TaskVector => one(&["6"]),
             Entries::VectorTriple => one(&["3", "nv"]),
+            Entries::Symmetric(_) => one(&["3 contacts", "3 contacts"]),
+            Entries::Columns(_) => one(&["nv", "3 contacts"]),
             Entries::ParameterColumns(ParameterSet::Bodies) => one(&["nv", "10 nb"]),
             Entries::ParameterColumns(ParameterSet::Base) => one(&["nv", "nbp"]),
             Entries::ParameterColumns(ParameterSet::Payload) => one(&["nv", "10"]),

@@ -117,6 +117,12 @@ impl Model {
         PyTuple::new(py, rows.collect::<Vec<_>>())
     }
 
+    /// The pairs that may touch, in the order of the methods of contacts.
+    #[getter]
+    fn contact_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.data.spec.contact_names())
+    }
+
     /// The links, parents before children: the order of `joint_reactions`.
     #[getter]
     fn link_names<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

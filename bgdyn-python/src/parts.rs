@@ -59,12 +59,25 @@ impl Part {
             Entries::TaskColumns => vec![nv, 6],
             Entries::TaskVector => vec![6],
             Entries::VectorTriple => vec![3, nv],
+            Entries::Symmetric(rows) => vec![rows, rows],
+            Entries::Columns(columns) => vec![nv, columns],
             Entries::ParameterColumns(_) => vec![nv, (results - nv) / nv.max(1)],
         };
         let all: Vec<usize> = (nv..results).collect();
         Part {
             shape,
             source: entries.spread(&all, nv),
+        }
+    }
+
+    /// Returns so many entries of this shape (from `at` on) in each of `number` poses.
+    fn of_poses(number: usize, at: usize, shape: &[usize]) -> Self {
+        let each = Shape::Pose.len(0);
+        let len: usize = shape.iter().product();
+        let entries = (0..number).flat_map(|k| (0..len).map(move |i| each * k + at + i));
+        Part {
+            shape: [&[number], shape].concat(),
+            source: entries.collect(),
         }
     }
 
@@ -100,6 +113,14 @@ impl Parts {
             Shape::Square => (None, vec![Part::run(0, &[nv, nv])]),
             Shape::Jacobian => (None, vec![Part::run(0, &[6, nv])]),
             Shape::PointJacobian => (None, vec![Part::run(0, &[3, nv])]),
+            Shape::Rows(rows) => (None, vec![Part::run(0, &[rows, nv])]),
+            Shape::Poses(number) => (
+                Some("Pose"),
+                vec![
+                    Part::of_poses(number, 0, &[3, 3]),
+                    Part::of_poses(number, 9, &[3]),
+                ],
+            ),
             Shape::TreeMatrix => (None, vec![Part::run(0, &[nt, nv])]),
             Shape::RowMatrix => (None, vec![Part::run(0, &[nc, nt])]),
             Shape::VectorTriple => (None, vec![Part::run(0, &[3, nv])]),
@@ -147,6 +168,7 @@ impl Parts {
             | Shape::RowVector
             | Shape::CheckedTree
             | Shape::Drives(_)
+            | Shape::Numbers(_)
             | Shape::Parts
             | Shape::CheckedParts
             | Shape::Bundle

@@ -180,6 +180,12 @@ impl Spec {
         shown.map(|link| link.name.as_str()).collect()
     }
 
+    /// Returns the names of the pairs that may touch.
+    pub fn contact_names(&self) -> Vec<&str> {
+        let pairs = self.mechanism.contact_pairs().iter();
+        pairs.map(|pair| pair.name.as_str()).collect()
+    }
+
     /// Returns the names of the loops and contacts.
     pub fn reaction_names(&self) -> Vec<&str> {
         let closed = self.graph.closed.iter();

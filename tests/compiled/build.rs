@@ -78,6 +78,7 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::Symmetric | Shape::Square | Shape::Jacobian => "matrix",
             Shape::TreeVector | Shape::TreeMatrix => "matrix",
             Shape::Point | Shape::PointJacobian => "matrix",
+            Shape::Numbers(_) | Shape::Rows(_) => "matrix",
             Shape::ParameterColumns(_) | Shape::ParameterVector(_) => "matrix",
             Shape::RowVector | Shape::RowMatrix => "matrix",
             Shape::SquarePair | Shape::FourSquares | Shape::VectorTriple => "matrices",
@@ -87,6 +88,7 @@ fn calls(name: &str, derivatives: bool, functions: &[Function]) -> String {
             Shape::CheckedSquares => "checked_matrices",
             Shape::Pose => "pose",
             Shape::FourCubes
+            | Shape::Poses(_)
             | Shape::CheckedActuated(_)
             | Shape::CheckedTree
             | Shape::CheckedTreeAndRows

@@ -1,9 +1,10 @@
 //! Compliant contact against closed forms: impacts, creep and hold on an incline, a ball that slides until it rolls,
-//! two balls that collide.
+//! two balls that collide; methods of contacts, compiled.
 
 mod balls;
 mod block;
 mod impact;
+mod methods;
 
 bgdyn::bgdyn!("damped.scene.yaml");
 bgdyn::bgdyn!("linear.scene.yaml");

@@ -225,6 +225,13 @@ fn wrenches(values: &[f64]) -> Value {
     json!(each.collect::<Vec<_>>())
 }
 
+/// Returns a rotation, row by row, and a point.
+fn pose(values: &[f64]) -> Value {
+    let (rotation, translation) = values.split_at(9);
+    let rows: Vec<&[f64]> = rotation.chunks(3).collect();
+    json!({ "rotation": rows, "translation": translation })
+}
+
 fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
     let rows = |values: &[f64], columns: usize| {
         json!(
@@ -272,11 +279,13 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
                 Entries::Joints | Entries::VectorTriple => rows(&all, nv),
                 Entries::Task | Entries::TaskColumns => rows(&all, 6),
                 Entries::TaskVector => json!(all),
+                Entries::Symmetric(columns) | Entries::Columns(columns) => rows(&all, columns),
                 Entries::ParameterColumns(_) => rows(&all, all.len() / nv.max(1)),
             }
         }
         Shape::Point => json!(values),
-        Shape::PointJacobian => rows(values, nv),
+        Shape::PointJacobian | Shape::Rows(_) => rows(values, nv),
+        Shape::Numbers(_) => json!(values),
         Shape::RowMatrix => rows(values, nt),
         Shape::ParameterColumns(_) => rows(values, values.len() / nv.max(1)),
         Shape::ParameterVector(_) => json!(values),
@@ -288,9 +297,10 @@ fn shaped(shape: Shape, (nv, nt): (usize, usize), values: &[f64]) -> Value {
         Shape::CheckedSquares => json!(squares(&values[nv..])),
         Shape::SlopesByTree => slopes(values),
         Shape::CheckedSlopesByTree => slopes(&values[nv..]),
-        Shape::Pose => json!({
-            "rotation": rows(&values[..9], 3),
-            "translation": values[9..].to_vec(),
-        }),
+        Shape::Pose => pose(values),
+        Shape::Poses(_) => {
+            let each = values.chunks(Shape::Pose.len(nv)).map(pose);
+            json!(each.collect::<Vec<_>>())
+        }
     }
 }

@@ -102,6 +102,35 @@ fn shapes_of_the_results() {
     assert!(result("potential_energy").is_number());
 }
 
+/// A sphere above the ground, on a platform of 2 kg that moves up and down.
+#[test]
+fn contacts_are_poses_and_matrices() {
+    let spec = format!(
+        "{SLIDE}contacts:\n  foot: {{ link: platform, at: [0.3, 0, 0], radius: 100 mm, on: ground }}\nplanes:\n  ground: {{ normal: z }}\n"
+    );
+    let result = |method: &str| {
+        let text = at("eval_contacts", &spec, method, r#"{"q": [0.5], "v": [2]}"#).good();
+        parsed(&text)["results"][0].clone()
+    };
+    let zeros = [0.0; 3];
+    let expected = [
+        ("contact_gaps", json!([0.4])),
+        ("contact_velocity", json!([0.0, 0.0, 2.0])),
+        ("contact_jacobian", json!([[0.0], [0.0], [1.0]])),
+        ("contact_bias", json!(zeros)),
+        ("contact_delassus", json!([zeros, zeros, [0.0, 0.0, 0.5]])),
+        ("contact_response", json!([[0.0, 0.0, 0.5]])),
+    ];
+    for (method, expected) in expected {
+        assert!(difference(&result(method), &expected) < 1e-15, "{method}");
+    }
+    let frames = result("contact_frames");
+    assert_eq!(frames.as_array().map(Vec::len), Some(1));
+    let at = json!([0.3, 0.0, 0.4]);
+    assert!(difference(&frames[0]["translation"], &at) < 1e-15);
+    assert!(frames[0]["rotation"][0].is_array());
+}
+
 /// Four lists of matrices, one for each effort.
 #[test]
 fn second_derivatives_are_nested_lists() {

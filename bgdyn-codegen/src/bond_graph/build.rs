@@ -35,6 +35,7 @@ fn without_loops(mechanism: &Mechanism) -> BondGraph {
         velocity_products: true,
         parameters: mechanism.parameters().to_vec(),
         sites: sites(mechanism),
+        contacts: mechanism.contact_pairs().to_vec(),
     });
     graph.released = released(mechanism).map(Box::new);
     graph.parallel = (mechanism.parallel_loops().iter())

@@ -7,7 +7,8 @@ use bgdyn_runtime::{Dd, Scalar};
 use crate::math::{Mat3, Vec3};
 use crate::mechanism::joint::{Column, DoubleDouble, JointConstants};
 use crate::mechanism::{
-    BaseMotion, CoordinateId, Degrees, Inertial, LinkId, Motion, Parameter, Pose, Value,
+    BaseMotion, ContactPair, CoordinateId, Degrees, Inertial, LinkId, Motion, Parameter, Pose,
+    Value,
 };
 
 /// An index into [`Multibody::sites`].
@@ -143,6 +144,8 @@ pub struct Multibody {
     pub parameters: Vec<Parameter>,
     /// The sites: the frames of the links, then the named frames.
     pub sites: Vec<Site>,
+    /// The pairs that may touch, in the file's order.
+    pub contacts: Vec<ContactPair>,
 }
 
 impl Multibody {

@@ -269,6 +269,7 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 Entries::Task | Entries::TaskColumns => matrix(6, &values),
                 Entries::TaskVector => vector(&values),
                 Entries::VectorTriple => vectors(nv, &values),
+                Entries::Symmetric(columns) | Entries::Columns(columns) => matrix(columns, &values),
                 Entries::ParameterColumns(_) => matrix(values.len() / nv.max(1), &values),
             };
             quote! {
@@ -294,12 +295,10 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
                 ::core::result::Result::Ok((#by_q, #(#squares),*))
             }
         }
-        Shape::Pose => {
-            let rotation = matrix(3, &values[..9]);
-            let translation = &values[9..];
-            quote! {
-                __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
-            }
+        Shape::Pose => pose(values),
+        Shape::Poses(_) => {
+            let each = values.chunks(Shape::Pose.len(nv)).map(pose);
+            quote! { [#(#each),*] }
         }
         Shape::CheckedTree => checked(method, &vector(values), &quote! { &TREE_PIVOT_NAMES }),
         Shape::CheckedTreeAndRows => {
@@ -321,10 +320,10 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
             }
         }
         Shape::LinkWrenches => wrenches(values),
-        Shape::Spatial | Shape::Drives(_) => vector(values),
+        Shape::Spatial | Shape::Drives(_) | Shape::Numbers(_) => vector(values),
         Shape::Jacobian => matrix(nv, values),
         Shape::Point => vector(values),
-        Shape::PointJacobian => matrix(nv, values),
+        Shape::PointJacobian | Shape::Rows(_) => matrix(nv, values),
         Shape::TreeVector | Shape::RowVector => vector(values),
         Shape::TreeMatrix => matrix(nv, values),
         Shape::RowMatrix => matrix(sizes.of_tree.unwrap_or(nv), values),
@@ -337,6 +336,15 @@ pub(super) fn result(method: Method, sizes: Sizes, values: &[TokenStream]) -> To
 
 pub(super) fn vector(values: &[TokenStream]) -> TokenStream {
     quote! { __rt::vector([#(#values),*]) }
+}
+
+/// Returns a pose from the entries of its rotation, row by row, and its point.
+fn pose(values: &[TokenStream]) -> TokenStream {
+    let (rotation, translation) = values.split_at(9);
+    let rotation = matrix(3, rotation);
+    quote! {
+        __rt::Pose { rotation: #rotation, translation: __na::Vector3::new(#(#translation),*) }
+    }
 }
 
 /// Returns an array of vectors of this length.

@@ -39,6 +39,7 @@ pub(super) fn constants(model: &Model) -> TokenStream {
     let prescribed = prescribed_constants(&mechanism.prescribed_names());
     let regressors = regressor_constants(model);
     let operational = operational_constants(model);
+    let contacts = contact_constants(model);
     let limits = (0..mechanism.nv()).map(|j| limits(&mechanism.joint(CoordinateId(j)).limits));
     quote! {
         /// Number of positions.
@@ -60,6 +61,7 @@ pub(super) fn constants(model: &Model) -> TokenStream {
         #prescribed
         #regressors
         #operational
+        #contacts
     }
 }
 
@@ -74,6 +76,18 @@ fn operational_constants(model: &Model) -> Option<TokenStream> {
             /// Names of the joints, of loops and contacts after them, and of the directions of a frame after these: the causes
             /// of missing operational inertias.
             pub const OPERATIONAL_PIVOT_NAMES: [&str; #count] = [#(#names),*];
+        }
+    })
+}
+
+/// Returns the names of the contacts, for a model with methods of them.
+fn contact_constants(model: &Model) -> Option<TokenStream> {
+    let names = model.contact_names();
+    let count = size(names.len());
+    (!names.is_empty()).then(|| {
+        quote! {
+            /// Names of the contacts, in the order of the file; a capsule has two, a box eight.
+            pub const CONTACT_NAMES: [&str; #count] = [#(#names),*];
         }
     })
 }

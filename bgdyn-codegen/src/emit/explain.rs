@@ -63,7 +63,7 @@ fn name(method: Method) -> &'static str {
         Method::ActuatedInverse(_) => "explain_inverse",
         Method::ActuatedForward(_) | Method::ActuatedReactions(_) => "explain_actuated",
         Method::Operational(Operational::Bias(_)) => "explain_motion",
-        Method::Operational(_) => "explain_position",
+        Method::Operational(_) | Method::Contact(_) => "explain_position",
         Method::Directional(Directional::ForwardAlong) => "explain_direction",
         Method::Directional(_) => "explain_adjoint",
         _ => "explain",

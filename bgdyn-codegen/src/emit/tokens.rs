@@ -147,6 +147,14 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
             Entries::TaskColumns => quote! { __na::SMatrix<T, NV, 6> },
             Entries::TaskVector => quote! { __na::SVector<T, 6> },
             Entries::VectorTriple => quote! { [__na::SVector<T, NV>; 3] },
+            Entries::Symmetric(rows) => {
+                let rows = Literal::usize_unsuffixed(rows);
+                quote! { __na::SMatrix<T, #rows, #rows> }
+            }
+            Entries::Columns(columns) => {
+                let columns = Literal::usize_unsuffixed(columns);
+                quote! { __na::SMatrix<T, NV, #columns> }
+            }
             Entries::ParameterColumns(set) => {
                 let columns = number_of(set);
                 quote! { __na::SMatrix<T, NV, #columns> }
@@ -154,6 +162,18 @@ pub(super) fn value_type(shape: Shape) -> TokenStream {
         },
         Shape::VectorTriple => quote! { [__na::SVector<T, NV>; 3] },
         Shape::Pose => quote! { __rt::Pose<T> },
+        Shape::Poses(count) => {
+            let count = Literal::usize_unsuffixed(count);
+            quote! { [__rt::Pose<T>; #count] }
+        }
+        Shape::Numbers(count) => {
+            let count = Literal::usize_unsuffixed(count);
+            quote! { __na::SVector<T, #count> }
+        }
+        Shape::Rows(rows) => {
+            let rows = Literal::usize_unsuffixed(rows);
+            quote! { __na::SMatrix<T, #rows, NV> }
+        }
         Shape::Spatial => quote! { __na::SVector<T, 6> },
         Shape::Drives(_) => quote! { __na::SVector<T, NP> },
         Shape::Jacobian => quote! { __na::SMatrix<T, 6, NV> },

@@ -55,6 +55,7 @@ impl<'g> Arguments<'g> {
                 Method::KineticEnergy
                     | Method::ProjectVelocity
                     | Method::Centroidal(_)
+                    | Method::Contact(_)
                     | Method::MassMatrixRate
                     | Method::Regressor(
                         Regressor::Momentum | Regressor::BaseMomentum | Regressor::KineticEnergy

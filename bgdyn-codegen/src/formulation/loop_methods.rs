@@ -10,7 +10,7 @@ use crate::formulation::joint_motion::{along, tangents};
 use crate::formulation::solve;
 use crate::formulation::velocity_map::VelocityMap;
 use crate::function::{Function, in_triangle};
-use crate::method::{Centroidal, Method};
+use crate::method::{Centroidal, ContactMethod, Method};
 use crate::passes::cheapest_after_factoring;
 
 /// The motion of the open tree for the independent velocities and accelerations.
@@ -48,6 +48,11 @@ pub(super) fn reads(method: Method) -> Vec<Method> {
         Method::JacobianDotV(site) => vec![method, Method::Jacobian(site)],
         Method::Centroidal(Centroidal::Bias) => vec![method, Method::Centroidal(Centroidal::Map)],
         Method::Centroidal(_) => vec![method],
+        Method::Contact(ContactMethod::Bias(contacts)) => {
+            let jacobian = ContactMethod::Jacobian(contacts);
+            vec![method, Method::Contact(jacobian)]
+        }
+        Method::Contact(of) if !of.is_dynamic() => vec![method],
         _ => vec![],
     }
 }
@@ -138,6 +143,17 @@ pub(super) fn compose<'g>(
                 product(&tree.read(method, None)?, &map.map, n, b)
             }
             Centroidal::Bias => tree.rate(method, Method::Centroidal(Centroidal::Map))?,
+        },
+        Method::Contact(of) => match of {
+            ContactMethod::Gaps(_) | ContactMethod::Frames(_) | ContactMethod::Velocity(_) => {
+                tree.read(method, None)?
+            }
+            ContactMethod::Jacobian(_) => product(&tree.read(method, None)?, &map.map, n, b),
+            ContactMethod::Bias(contacts) => {
+                let jacobian = ContactMethod::Jacobian(contacts);
+                tree.rate(method, Method::Contact(jacobian))?
+            }
+            ContactMethod::Delassus(_) | ContactMethod::Response(_) => return None,
         },
         Method::VelocityMap => entries(&map.map),
         Method::TreeVelocity => motion.velocities.clone(),

@@ -10,6 +10,7 @@ mod arguments;
 mod base_twist;
 mod closed_loops;
 mod closing_loads;
+mod contacts;
 mod definition;
 mod derivatives;
 mod elimination;
@@ -64,7 +65,7 @@ pub static FORMULATIONS: [&dyn Formulation; 7] = [
 /// Formulations that use functions chosen for other methods, or for the open tree of a mechanism with loops. They
 /// make offers for any selected formulation, because those functions belong to it; or the only formulations of methods, as
 /// that of regressors.
-pub(crate) static DERIVED: [&dyn Formulation; 13] = [
+pub(crate) static DERIVED: [&dyn Formulation; 14] = [
     &loops::Elimination,
     &base_twist::BaseTwist(0),
     &base_twist::BaseTwist(1),
@@ -74,6 +75,7 @@ pub(crate) static DERIVED: [&dyn Formulation; 13] = [
     &derivatives::ForwardDynamicsDerivatives,
     &derivatives::AlongDirections,
     &derivatives::ByParameters,
+    &contacts::PlacedContacts,
     &operational::ByDrives,
     &operational::Factored,
     &recursion::ParameterColumns,

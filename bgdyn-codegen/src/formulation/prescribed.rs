@@ -12,7 +12,7 @@
 //! | energies, poses, velocities | the same, with the whole motion |
 //! | loads through joints | the same, with the whole motion |
 //! | Jacobians | columns |
-//! | centroidal methods | as poses, velocities, Jacobians and J̇ v |
+//! | centroidal methods, those of contacts | as poses, velocities, Jacobians and J̇ v |
 //! | J̇ v | the acceleration where a is 0: J̇ v, and the other columns times the accelerations there |
 //! | Coriolis matrix | that of v alone, and the derivative of the bias along v where v is 0 |
 //!
@@ -28,7 +28,7 @@ use crate::bond_graph::{FreeArgument, Multibody, Released};
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, Tangent, copy_into};
 use crate::function::{Function, in_triangle};
 use crate::mechanism::{BaseMotion, ParameterId};
-use crate::method::{Argument, Centroidal, Method};
+use crate::method::{Argument, Centroidal, ContactMethod, Method};
 
 /// Returns the method's function by a formulation, also for a mechanism with prescribed joints: then from the
 /// functions for the mechanism in which they are free. A formulation that uses functions of other methods uses those
@@ -111,22 +111,19 @@ impl FreeFunctions<'_, '_> {
                 let blocks = [self.block(0, n), self.block(n * n, n)].concat();
                 self.copied(b, method, method, &blocks)
             }
-            Method::Jacobian(_) => {
-                let own = self.released.own_velocities();
-                let columns = (0..6).flat_map(|row| own.iter().map(move |j| row * n + j));
-                self.copied(b, method, method, &columns.collect::<Vec<_>>())
-            }
+            Method::Jacobian(_)
+            | Method::Contact(ContactMethod::Jacobian(_))
+            | Method::Centroidal(Centroidal::Jacobian | Centroidal::Map) => self.columns(b, method),
             Method::JacobianDotV(site) => self.rate(b, method, Method::Jacobian(site)),
-            Method::Centroidal(of @ (Centroidal::Jacobian | Centroidal::Map)) => {
-                let own = self.released.own_velocities();
-                let rows = 0..of.shape().len(1);
-                let columns = rows.flat_map(|row| own.iter().map(move |j| row * n + j));
-                self.copied(b, method, method, &columns.collect::<Vec<_>>())
-            }
             Method::Centroidal(Centroidal::Bias) => {
                 self.rate(b, method, Method::Centroidal(Centroidal::Map))
             }
-            Method::Centroidal(_) => {
+            Method::Contact(ContactMethod::Bias(contacts)) => {
+                let jacobian = ContactMethod::Jacobian(contacts);
+                self.rate(b, method, Method::Contact(jacobian))
+            }
+            Method::Contact(of) if of.is_dynamic() => None,
+            Method::Centroidal(_) | Method::Contact(_) => {
                 let all: Vec<usize> = (0..method.shape().len(n)).collect();
                 self.copied(b, method, method, &all)
             }
@@ -169,14 +166,27 @@ impl FreeFunctions<'_, '_> {
         self.copied(b, Method::MassMatrix, Method::MassMatrix, &entries)
     }
 
-    /// Returns the acceleration of a site, or the rate of the momentum, where a is 0; `map` is the matrix to which it
-    /// belongs.
+    /// Returns the columns of v of a matrix that has a column for each velocity.
+    fn columns(&self, b: &Builder, method: Method) -> Option<Made> {
+        let (n, own) = (
+            self.released.velocities.len(),
+            self.released.own_velocities(),
+        );
+        let rows = 0..method.shape().len(1);
+        let columns = rows.flat_map(|row| own.iter().map(move |j| row * n + j));
+        self.copied(b, method, method, &columns.collect::<Vec<_>>())
+    }
+
+    /// Returns the acceleration of a site, the rate of the momentum or of the velocities at contacts, where a is 0; `map` is
+    /// the matrix to which it belongs.
     fn rate(&self, b: &Builder, method: Method, map: Method) -> Option<Made> {
         let n = self.released.velocities.len();
-        let (mut sums, from) = self.copied(b, method, method, &[0, 1, 2, 3, 4, 5])?;
+        let rows = method.shape().len(n);
+        let all: Vec<usize> = (0..rows).collect();
+        let (mut sums, from) = self.copied(b, method, method, &all)?;
         let jacobian = self.made(map)?;
         for prescribed in &self.released.prescribed {
-            let column: Vec<usize> = (0..6).map(|i| i * n + prescribed.coordinate.0).collect();
+            let column: Vec<usize> = (0..rows).map(|i| i * n + prescribed.coordinate.0).collect();
             let column = self.copied_from(b, method, &jacobian, &column, |_| false);
             let acceleration = b.leaf(Leaf::Parameter(prescribed.motion[2].0));
             for (sum, entry) in sums.iter_mut().zip(column) {

@@ -79,7 +79,12 @@ impl<'g> SiteMotion<'g> {
 }
 
 /// Returns rates of change along the motion, at constant velocities.
-fn rates<'g>(b: &'g Builder, graph: &Multibody, x: &[Expr<'g>], v: &[Expr<'g>]) -> Vec<Expr<'g>> {
+pub(super) fn rates<'g>(
+    b: &'g Builder,
+    graph: &Multibody,
+    x: &[Expr<'g>],
+    v: &[Expr<'g>],
+) -> Vec<Expr<'g>> {
     let mut rate = Tangent::new(along(tangents(b, graph, v)));
     let x: Vec<_> = x.iter().map(|e| e.signed()).collect();
     x.into_iter()

@@ -6,6 +6,7 @@ mod actuated;
 mod argument;
 mod bundled;
 mod centroidal;
+mod contact;
 mod derivatives;
 mod directional;
 mod loads;
@@ -21,6 +22,7 @@ mod words;
 use crate::bond_graph::{ClosedTree, Site, SiteId};
 pub use argument::Argument;
 pub use centroidal::Centroidal;
+pub use contact::{CONTACT_DIRECTIONS, ContactMethod};
 pub use directional::Directional;
 pub use operational::{Operational, TASK_DIRECTIONS};
 pub use parameter_derivatives::ParameterDerivatives;
@@ -112,6 +114,8 @@ pub enum Method {
     ParameterDerivatives(ParameterDerivatives),
     /// The centre of mass, or the momentum about it.
     Centroidal(Centroidal),
+    /// A method of the contacts.
+    Contact(ContactMethod),
     /// Ṁ(q, v).
     MassMatrixRate,
     /// A function of a scene.
@@ -158,6 +162,7 @@ impl Method {
             .chain(Directional::ALL.map(Method::Directional))
             .chain(Centroidal::ALL.map(Method::Centroidal))
             .chain([Method::MassMatrixRate])
+            .chain(ContactMethod::all(0).map(Method::Contact))
             .chain(ParameterDerivatives::all(0).map(Method::ParameterDerivatives))
     }
 
@@ -235,6 +240,7 @@ impl Method {
             Method::Regressor(_)
                 | Method::Payload(_)
                 | Method::Operational(_)
+                | Method::Contact(_)
                 | Method::Directional(_)
                 | Method::ParameterDerivatives(_)
         )
@@ -282,6 +288,7 @@ impl Method {
             Method::Directional(of) => of.name().into(),
             Method::ParameterDerivatives(of) => of.name().into(),
             Method::Centroidal(of) => of.name().into(),
+            Method::Contact(of) => of.name().into(),
             Method::MassMatrixRate => "mass_matrix_rate".into(),
             Method::Scene(role) => role.name().into(),
             Method::Bundle { .. } => "bundle".into(),
@@ -319,6 +326,7 @@ impl Method {
             Method::Directional(of) => of.arguments(),
             Method::ParameterDerivatives(of) => of.arguments(),
             Method::Centroidal(of) => of.arguments(),
+            Method::Contact(of) => of.arguments(),
             Method::MassMatrixRate => &[Q, V],
             Method::Scene(SceneFunction::Inverse) => &[
                 Argument::State,
@@ -381,6 +389,7 @@ impl Method {
             Method::Directional(of) => of.shape(),
             Method::ParameterDerivatives(of) => of.shape(),
             Method::Centroidal(of) => of.shape(),
+            Method::Contact(of) => of.shape(),
             Method::MassMatrixRate => Shape::Symmetric,
             Method::Scene(
                 SceneFunction::Energy

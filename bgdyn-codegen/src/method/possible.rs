@@ -1,8 +1,8 @@
 //! Which methods a mechanism can have, and why it does not have others.
 
 use super::{
-    Centroidal, Directional, Method, Operational, ParameterDerivatives, PayloadRegressor,
-    Regressor, TASK_DIRECTIONS,
+    Centroidal, ContactMethod, Directional, Method, Operational, ParameterDerivatives,
+    PayloadRegressor, Regressor, TASK_DIRECTIONS,
 };
 use crate::bond_graph::{BondGraph, Site, SiteId};
 use crate::fault::unknown_name;
@@ -23,6 +23,7 @@ impl Method {
         let own = own.chain(Method::parameter_derivatives_of(graph));
         let own = own.chain(Method::centroidal_of(graph).unwrap_or_default());
         let own = own.chain(Method::mass_matrix_rate_of(graph).ok());
+        let own = own.chain(Method::contact_of(graph).unwrap_or_default());
         let mut all: Vec<Method> = own.chain(of_sites).collect();
         let [inverse, forward] = Method::derivatives_of(graph);
         for method in &mut all {
@@ -118,6 +119,7 @@ impl Method {
             .or_else(|| Method::without_direction(graph, name))
             .or_else(|| Method::without_parameters(graph, name))
             .or_else(|| Method::without_momentum(graph, name))
+            .or_else(|| Method::without_contacts(graph, name))
             .or_else(|| Method::lacking(closed?, name))
     }
 
@@ -263,6 +265,26 @@ impl Method {
                 "the mass matrix also changes along the motion of the prescribed joints; `coriolis_matrix` returns C with C + Cᵀ = Ṁ + ∂M/∂t",
             ),
         }
+    }
+
+    /// Returns the methods of the contacts of a mechanism.
+    ///
+    /// # Errors
+    /// Why it has none.
+    pub fn contact_of(graph: &BondGraph) -> Result<Vec<Method>, &'static str> {
+        match graph.contacts.len() {
+            0 => Err(
+                "the mechanism has no contacts; write under `contacts` which spheres may touch planes or spheres",
+            ),
+            contacts => Ok(ContactMethod::all(contacts).map(Method::Contact).to_vec()),
+        }
+    }
+
+    /// Returns why a mechanism does not have the method with this name, if it is one of contacts.
+    fn without_contacts(graph: &BondGraph, name: &str) -> Option<String> {
+        let known = ContactMethod::all(0).iter().any(|of| of.name() == name);
+        let why = Method::contact_of(graph).err().filter(|_| known)?;
+        Some(format!("`{name}`: {why}"))
     }
 
     /// Returns why a mechanism does not have the method with this name, if it is one of this file.

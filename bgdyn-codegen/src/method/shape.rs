@@ -60,6 +60,12 @@ pub enum Shape {
     /// NV numbers that are finite exactly if the result is, and the entries of the result, or an error with a joint; only
     /// the entries are returned.
     Checked(Entries),
+    /// So many numbers.
+    Numbers(usize),
+    /// A matrix with so many rows and NV columns, row by row.
+    Rows(usize),
+    /// So many poses, each a rotation matrix, row by row, and a point.
+    Poses(usize),
     /// As many numbers as the mechanism has prescribed joints.
     Drives(usize),
     /// A matrix with a row for each velocity and a column for each parameter, row by row.
@@ -100,6 +106,9 @@ impl Shape {
             Shape::CheckedTree | Shape::CheckedTreeAndRows => 0,
             Shape::CheckedWrenches | Shape::LinkWrenches => 0,
             Shape::SlopesByTree | Shape::CheckedSlopesByTree => 0,
+            Shape::Numbers(count) => count,
+            Shape::Rows(rows) => rows * nv,
+            Shape::Poses(count) => Shape::Pose.len(nv) * count,
             Shape::Drives(np) => np,
             Shape::CheckedActuated(na) => na,
             Shape::ParameterColumns(_) | Shape::ParameterVector(_) => 0,
@@ -138,6 +147,10 @@ pub enum Entries {
     TaskVector,
     /// Three times NV numbers.
     VectorTriple,
+    /// A symmetric matrix with so many rows; the expressions are its lower triangle, row by row.
+    Symmetric(usize),
+    /// A matrix with NV rows and so many columns, row by row.
+    Columns(usize),
     /// A matrix with a row for each velocity and a column for each parameter, row by row.
     ParameterColumns(ParameterSet),
 }
@@ -151,6 +164,8 @@ impl Entries {
             Entries::TaskColumns => 6 * nv,
             Entries::TaskVector => 6,
             Entries::VectorTriple => 3 * nv,
+            Entries::Symmetric(rows) => rows * (rows + 1) / 2,
+            Entries::Columns(columns) => nv * columns,
             Entries::ParameterColumns(_) => 0,
         }
     }
@@ -160,6 +175,7 @@ impl Entries {
         match self {
             Entries::Joints => Some(nv),
             Entries::Task => Some(6),
+            Entries::Symmetric(rows) => Some(rows),
             _ => None,
         }
     }

@@ -114,6 +114,7 @@ impl Method {
             Method::Directional(of) => of.summary().into(),
             Method::ParameterDerivatives(of) => of.summary().into(),
             Method::Centroidal(of) => of.summary().into(),
+            Method::Contact(of) => of.summary().into(),
             Method::MassMatrixRate => {
                 "Rate Ṁ(q, v) of the mass matrix along the velocities `v`, exactly symmetric.".into()
             }
@@ -166,6 +167,7 @@ impl Method {
             Method::Directional(of) => of.units(),
             Method::ParameterDerivatives(of) => of.units(),
             Method::Centroidal(of) => of.units(),
+            Method::Contact(of) => of.units(),
             Method::MassMatrixRate => "units of the mass matrix per second",
             Method::Scene(_) | Method::Bundle { .. } => "as its parts say",
         }

@@ -51,6 +51,7 @@ pub fn matrix_destinations(shape: Shape, nv: usize) -> Option<Vec<Vec<Destinatio
         Shape::Square => full(0, nv).collect(),
         Shape::Jacobian => full(0, 6).collect(),
         Shape::PointJacobian => full(0, 3).collect(),
+        Shape::Rows(rows) => full(0, rows).collect(),
         Shape::SquarePair => full(0, nv).chain(full(1, nv)).collect(),
         Shape::FourSquares => (0..4).flat_map(|matrix| full(matrix, nv)).collect(),
         Shape::FourCubes => {

@@ -44,7 +44,8 @@ pub(super) fn inline(graph: &Graph, needed: &[bool], uses: &[u32]) -> Vec<bool> 
 /// Returns how often the result reads an output: entries off the diagonal of a symmetric matrix are written twice.
 pub(super) fn reads_per_output(shape: Shape) -> u32 {
     match shape {
-        Shape::Symmetric | Shape::Checked(Entries::Joints | Entries::Task) => 2,
+        Shape::Symmetric => 2,
+        Shape::Checked(Entries::Joints | Entries::Task | Entries::Symmetric(_)) => 2,
         _ => 1,
     }
 }

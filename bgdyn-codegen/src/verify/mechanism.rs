@@ -7,6 +7,7 @@ use bgdyn_runtime::Dd;
 use super::Difference;
 use super::actuated;
 use super::compare::{EXACT, Law, SOLVED, SizedLaw, differs, dot, largest, minus, plus, times};
+use super::contacts;
 use super::directional;
 use super::literal_values::{LiteralValues, State};
 use super::open_tree;
@@ -110,7 +111,7 @@ impl Subject<'_> {
             Method::Velocity(_) => speed,
             Method::JacobianDotV(_) | Method::ConstraintBias => speed * speed,
             method if method.of_tree() => 0.0,
-            Method::Operational(_) => 0.0,
+            Method::Operational(_) | Method::Contact(_) => 0.0,
             _ => state.size,
         };
         let sides = |laws: Vec<SizedLaw>, allowed: f64| -> Vec<Sides> {
@@ -134,6 +135,11 @@ impl Subject<'_> {
             (_, Method::Operational(of)) => {
                 let law = operational::law(&form, of, (at, &found));
                 sides(law.into_iter().collect(), SOLVED)
+            }
+            (_, Method::Contact(of)) => {
+                let laws = contacts::laws(graph, &form, of, (at, &found));
+                let allowed = if of.is_dynamic() { SOLVED } else { EXACT };
+                sides(laws.unwrap_or_default(), allowed)
             }
             (_, Method::Directional(of)) => {
                 let law = directional::law(self.literal, of, (state, &found));

@@ -8,6 +8,7 @@
 
 mod actuated;
 mod compare;
+mod contacts;
 mod directional;
 mod dual;
 mod literal_values;

@@ -1,4 +1,4 @@
-//! Generated C of mechanisms with loops, wheels, couplings and prescribed motions has the bits of the evaluator, in every
+//! Generated C of mechanisms with loops, wheels, couplings, prescribed motions and contacts has the bits of the evaluator, in every
 //! method that they can have.
 
 use std::fs;
@@ -18,12 +18,15 @@ use crate::same_bits::{check, model_of, name, text_of};
 const SMALL: [usize; 2] = [4, 8];
 
 /// Mechanisms beside those of the specs: actuated joints that are not the independent ones, planar loops of every form on
-/// a moving deck, a robot on wheels.
-const OTHERS: [&str; 5] = [
+/// a moving deck, a robot on wheels; spheres and boxes that may touch.
+const OTHERS: [&str; 8] = [
+    "specs/contact/ball.yaml",
     "tests/actuated/crank_and_rod.yaml",
     "tests/actuated/one_drive.yaml",
     "tests/actuated/three_drives.yaml",
     "tests/closed_loops/linkages.yaml",
+    "tests/contact/branches.yaml",
+    "tests/contact/turntable.yaml",
     "tests/rolling/robot.yaml",
 ];
 
@@ -49,7 +52,8 @@ fn whole_model(path: &str) -> Model {
     let size = closed.map_or(graph.coordinates.len(), |c| c.tree.coordinates.len());
     // The functions of other frames are alike.
     let repeats = |m: &Method| m.is_derived() && m.site() > Some(SiteId(0));
-    let is_slow = |m: &Method| m.differentiates_dynamics() || m.is_derived();
+    let of_contacts = |m: &Method| matches!(m, Method::Contact(_));
+    let is_slow = |m: &Method| m.differentiates_dynamics() || (m.is_derived() && !of_contacts(m));
     let few = SMALL[usize::from(everything())];
     let fits = |m: &Method| size <= few || !is_slow(m);
     let wanted = |m: &Method| fits(m) && !repeats(m);

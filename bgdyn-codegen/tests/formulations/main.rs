@@ -8,6 +8,7 @@ mod centroidal;
 mod checked;
 #[path = "../common/mod.rs"]
 mod common;
+mod contacts;
 mod derivatives_vs_literal;
 mod laws;
 mod long_chains;

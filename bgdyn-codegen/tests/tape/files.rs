@@ -11,10 +11,11 @@ use bgdyn_codegen::system::SceneEquations;
 const ONE_OF: usize = 3;
 
 /// Folders with sound files, relative to the root.
-const FOLDERS: [&str; 13] = [
+const FOLDERS: [&str; 14] = [
     "specs",
     "specs/loops",
     "specs/constraints",
+    "specs/contact",
     "specs/scenes",
     "examples/closed_machines",
     "examples/controllers/plants",
@@ -26,9 +27,6 @@ const FOLDERS: [&str; 13] = [
     "tests/golden/specs",
     "tests/rotors",
 ];
-
-/// A folder of which only the scenes are compared: contacts change no method of their mechanisms.
-const CONTACT: &str = "specs/contact";
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -42,7 +40,7 @@ pub fn text(path: &str) -> String {
 /// Returns the files of all folders: scenes, or mechanisms.
 fn files(scenes: bool) -> Vec<PathBuf> {
     let mut all = Vec::new();
-    for folder in FOLDERS.into_iter().chain(scenes.then_some(CONTACT)) {
+    for folder in FOLDERS {
         let entries = fs::read_dir(root().join(folder)).expect("a folder of the repository");
         all.extend(entries.map(|entry| entry.expect("an entry").path()));
     }

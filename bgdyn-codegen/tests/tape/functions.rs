@@ -29,7 +29,8 @@ pub fn functions(mechanism: &Mechanism, formulation: Option<&str>) -> Vec<Functi
     let methods = Method::possible_of(&graph).into_iter().filter(|method| {
         let sites = if method.is_derived() { 1 } else { SITES };
         let first = method.site().is_none_or(|site| site.0 < sites);
-        let is_slow = slow.contains(method) || matches!(method, Method::Operational(_));
+        let is_slow =
+            slow.contains(method) || matches!(method, Method::Operational(_) | Method::Contact(_));
         let is_long = method.is_derived() && !is_slow;
         // They have formulations of their own.
         let chosen = formulation.is_none() || !method.is_derived();

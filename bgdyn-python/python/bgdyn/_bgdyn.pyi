@@ -28,6 +28,7 @@ from ._results import (
     Curvature,
     ForwardDerivatives,
     InverseDerivatives,
+    Pose,
     SecondDerivatives,
     Wrenches,
 )
@@ -134,6 +135,9 @@ class Model:
     @property
     def constraint_names(self) -> tuple[str, ...]:
         """A name for each row of loops, wheels and knife edges."""
+    @property
+    def contact_names(self) -> tuple[str, ...]:
+        """The names of the pairs that may touch, in the order of the methods of contacts."""
     @property
     def link_names(self) -> tuple[str, ...]:
         """The links, parents before children: the order of ``joint_reactions``."""
@@ -350,6 +354,20 @@ class Model:
     """The rate of the mass matrix along v, (..., nv, nv)."""
     inverse_mass_matrix: MethodOfClass[_Q[Array, Array]]
     """M⁻¹, (..., nv, nv), exactly symmetric: accelerations by efforts."""
+    contact_gaps: MethodOfClass[_Q[Array, Array]]
+    """With contacts: the distances of the surfaces, (..., contacts), negative where they overlap: m."""
+    contact_frames: MethodOfClass[_Q[Pose, tuple[Array, Array]]]
+    """With contacts: axes x, y, n as columns, (..., contacts, 3, 3), and contact points, (..., contacts, 3)."""
+    contact_velocity: MethodOfClass[_QV[Array, Array]]
+    """With contacts: velocities along x, y and n of each, (..., 3 contacts): m/s."""
+    contact_jacobian: MethodOfClass[_Q[Array, Array]]
+    """With contacts: J, (..., 3 contacts, nv); the velocities are J v."""
+    contact_bias: MethodOfClass[_QV[Array, Array]]
+    """With contacts: J̇ v, (..., 3 contacts): m/s²."""
+    contact_delassus: MethodOfClass[_Q[Array, Array]]
+    """With contacts: G = J M⁻¹ Jᵀ, (..., 3 contacts, 3 contacts), exactly symmetric: 1/kg."""
+    contact_response: MethodOfClass[_Q[Array, Array]]
+    """With contacts: M⁻¹ Jᵀ, (..., nv, 3 contacts)."""
     inverse_dynamics_along: MethodOfClass[_QVAAlong[Array, Array]]
     """∂τ/∂q dq + ∂τ/∂v dv + M da, (..., nv)."""
     forward_dynamics_along: MethodOfClass[_QVTauAlong[Array, Array]]

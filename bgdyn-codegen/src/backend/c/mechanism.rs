@@ -80,13 +80,14 @@ fn documentation(function: &Function, context: &ModelContext<'_>) -> Vec<String>
 
 /// Returns a sentence with the tables of C in place of the constants of Rust.
 fn with_tables(sentence: &str, style: &Style) -> String {
-    const TABLES: [(&str, &str); 6] = [
+    const TABLES: [(&str, &str); 7] = [
         ("[`CONSTRAINT_NAMES`]", "constraint_names"),
         ("[`REACTION_NAMES`]", "reaction_names"),
         ("[`LINK_NAMES`]", "link_names"),
         ("[`BODY_NAMES`]", "body_names"),
         ("[`BASE_PARAMETERS`]", "base_parameter_names"),
         ("[`ACTUATED`]", "actuated_names"),
+        ("[`CONTACT_NAMES`]", "contact_names"),
     ];
     let replaced = |text: String, (constant, table): &(&str, &str)| {
         text.replace(constant, &format!("`{}`", style.global(table)))
@@ -107,6 +108,13 @@ fn result_order(shape: Shape) -> Option<&'static str> {
             "Result: NV numbers by positions, NV by v, NV by the third argument."
         }
         Shape::Checked(Entries::TaskColumns) => "Result: NV x 6, row by row.",
+        Shape::Checked(Entries::Columns(_)) => {
+            "Result: NV rows, columns for x, y and n of each contact, row by row."
+        }
+        Shape::Rows(_) => "Result: rows for x, y and n of each contact, row by row; NV columns.",
+        Shape::Poses(_) => {
+            "Result: for each contact the rotation, row by row, then the contact point."
+        }
         Shape::CheckedTreeAndRows => "Result: NT accelerations, then NC multipliers.",
         Shape::TreeMatrix => "Result: NT x NV.",
         Shape::RowMatrix => "Result: NC x NT.",

@@ -42,6 +42,8 @@ pub(super) fn sizes(context: &ModelContext<'_>) -> Vec<Size> {
         sizes.push(("NB", "bodies of regressors", model.body_names().len()));
         sizes.push(("NBP", "base parameters", model.base_parameters.len()));
     }
+    let contacts = model.contact_names().len();
+    sizes.extend((contacts > 0).then_some(("NK", "contacts", contacts)));
     sizes
 }
 
@@ -114,6 +116,9 @@ pub(super) fn tables(context: &ModelContext<'_>) -> Vec<Table> {
         };
         tables.push(names(context, about, "operational_pivot_names", size, &all));
     }
+    let about = "Names of the contacts, in the order of the file; a capsule has two, a box eight.";
+    let contacts = model.contact_names();
+    tables.push(names(context, about, "contact_names", "NK", &contacts));
     tables.extend(limits(context));
     tables.retain(|table| !table.elements.is_empty());
     tables

@@ -18,7 +18,7 @@ use super::{Formulation, Offer, Prepared};
 use crate::bond_graph::{BondGraph, ClosedTree, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr, Graph, Signed};
 use crate::function::Function;
-use crate::method::{Centroidal, Method};
+use crate::method::{Centroidal, ContactMethod, Method};
 
 /// Elimination of the dependent velocities, on the functions chosen for the open tree.
 pub(super) struct Elimination;
@@ -86,6 +86,7 @@ fn forms(graph: &BondGraph, method: Method) -> Vec<LoopForm> {
             | Method::Velocity(_)
             | Method::JacobianDotV(_)
             | Method::Centroidal(Centroidal::Momentum | Centroidal::Bias)
+            | Method::Contact(ContactMethod::Velocity(_) | ContactMethod::Bias(_))
             | Method::TreeVelocity
             | Method::TreeAcceleration
             | Method::Multipliers

@@ -1,18 +1,21 @@
-//! Operational space from forward dynamics: q̈ = M⁻¹ (τ − h) is linear in τ, so that its derivative along the efforts
+//! Operational space, and the Delassus matrix of contacts, from forward dynamics: q̈ = M⁻¹ (τ − h) is linear in τ, so that its derivative along the efforts
 //! Jᵀ e_r is a column of M⁻¹ Jᵀ.
 //!
 //! Any formulation of forward dynamics that keeps its digits does; one by articulated bodies where own inertias are small.
 
 use bgdyn_runtime::Dd;
 
-use super::task::{ROWS, Task, copied, dot, results};
+use super::task::{Task, copied, dot, jacobian_of, rate_of, results};
 use crate::bond_graph::BondGraph;
 use crate::expr::{Builder, Expr, Graph, Leaf, Signed, copy_into};
 use crate::formulation::slopes::{along_efforts, derivatives};
-use crate::formulation::{Formulation, Prepared};
+use crate::formulation::{Formulation, Offer, Prepared};
 use crate::function::Function;
 use crate::method::{Method, Operational};
 use crate::passes::cheapest;
+
+/// The only method without a task.
+const INVERSE: Method = Method::Operational(Operational::InverseMassMatrix);
 
 /// Operational space from forward dynamics.
 pub(in crate::formulation) struct ByDrives;
@@ -31,37 +34,39 @@ impl Formulation for ByDrives {
     }
 
     fn reads(&self, method: Method) -> Vec<Method> {
-        let mut all = vec![Method::ForwardDynamics];
-        let Method::Operational(of) = method else {
+        let jacobian = jacobian_of(method);
+        if jacobian.is_none() && method != INVERSE {
             return Vec::new();
-        };
-        all.extend(of.site().map(Method::Jacobian));
-        if let Operational::Bias(site) = of {
-            all.push(Method::JacobianDotV(site));
         }
-        all
+        let all = [Method::ForwardDynamics].into_iter();
+        all.chain(jacobian).chain(rate_of(method)).collect()
+    }
+
+    /// There are many contacts: the derivatives along their efforts are a long function, and the factors cost less.
+    fn offer(&self, _: &Prepared<'_>, method: Method) -> Offer {
+        match method {
+            Method::Contact(_) => Offer::Reserve,
+            _ => Offer::Candidate,
+        }
     }
 
     fn function(&self, prepared: &Prepared<'_>, method: Method) -> Option<Function> {
-        let Method::Operational(of) = method else {
-            return None;
-        };
         let forward = prepared.candidates(Method::ForwardDynamics);
         let forward = forward.accepted.iter().chain(&forward.borderline);
-        cheapest(forward.filter_map(|forward| from(prepared, of, &forward.plain)))
+        cheapest(forward.filter_map(|forward| from(prepared, method, &forward.plain)))
     }
 }
 
 /// Returns the function from one of forward dynamics.
-fn from(prepared: &Prepared<'_>, of: Operational, forward: &Function) -> Option<Function> {
+fn from(prepared: &Prepared<'_>, method: Method, forward: &Function) -> Option<Function> {
     let graph = prepared.graph;
     let b = Builder::new();
     let accelerations: Vec<Signed> = copied(&b, forward).into_iter().map(Expr::signed).collect();
-    let outputs = match of.site() {
+    let outputs = match jacobian_of(method) {
         None => inverse_mass_matrix(&b, &accelerations),
-        Some(site) => {
-            let jacobian = copied(&b, &*prepared.function(Method::Jacobian(site))?);
-            let bias = prepared.function(Method::JacobianDotV(site));
+        Some(jacobian) => {
+            let jacobian = copied(&b, &*prepared.function(jacobian)?);
+            let bias = rate_of(method).and_then(|rate| prepared.function(rate));
             let of_task = OfForward {
                 b: &b,
                 graph,
@@ -69,10 +74,9 @@ fn from(prepared: &Prepared<'_>, of: Operational, forward: &Function) -> Option<
                 accelerations: &accelerations,
                 jacobian: &jacobian,
             };
-            of_task.outputs(of, bias.as_deref())?
+            of_task.outputs(method, bias.as_deref())?
         }
     };
-    let method = Method::Operational(of);
     let name = format!("{}; driven", forward.formulation);
     let made = Function::flat(graph, method, name, b.into_graph(), outputs);
     Some(Function {
@@ -102,19 +106,17 @@ struct OfForward<'a, 'g> {
 }
 
 impl<'g> OfForward<'_, 'g> {
-    fn outputs(&self, of: Operational, bias: Option<&Function>) -> Option<Vec<Signed>> {
+    fn outputs(&self, method: Method, bias: Option<&Function>) -> Option<Vec<Signed>> {
         let b = self.b;
-        let columns: Vec<Vec<Expr<'g>>> = (0..ROWS).map(|r| self.column(r)).collect();
-        let triangle = (0..ROWS).flat_map(|i| (0..=i).map(move |j| (i, j)));
-        let inverse = triangle
-            .map(|(i, j)| dot(b, self.row(i), &columns[j]))
-            .collect();
+        let directions = jacobian_of(method)?.shape().len(1);
+        let rows: Vec<&[Expr<'g>]> = (0..directions).map(|r| self.row(r)).collect();
+        let columns: Vec<Vec<Expr<'g>>> = rows.iter().map(|row| self.column(row)).collect();
         let task = Task {
-            inverse,
+            inverse: Task::inverse(b, &rows, &columns),
             columns: &|| Some(columns.clone()),
             acceleration: &|| Some(self.acceleration(bias?)),
         };
-        let outputs = results(b, self.graph, of, &task)?;
+        let outputs = results(b, self.graph, method, &task)?;
         Some(outputs.into_iter().map(Expr::signed).collect())
     }
 
@@ -124,9 +126,9 @@ impl<'g> OfForward<'_, 'g> {
         &self.jacobian[r * n..(r + 1) * n]
     }
 
-    /// Returns a column of M⁻¹ Jᵀ.
-    fn column(&self, r: usize) -> Vec<Expr<'g>> {
-        let drive: Vec<Signed> = self.row(r).iter().map(|x| x.signed()).collect();
+    /// Returns the column of M⁻¹ Jᵀ of a row of J.
+    fn column(&self, row: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let drive: Vec<Signed> = row.iter().map(|x| x.signed()).collect();
         let found = along_efforts(self.b, self.accelerations, &drive);
         found.into_iter().map(|e| self.b.expr(e)).collect()
     }
