@@ -4,9 +4,9 @@ use core::fmt::Debug;
 
 use bgdyn_runtime::{Scalar as _, StateVector};
 
+use crate::contact_step::ContactStep;
 use crate::dense::Dense;
 use crate::failure::Reason;
-use crate::moreau::ContactStep;
 use crate::ode::{Ode, ScalarOf};
 use crate::real::Of;
 

@@ -30,8 +30,7 @@ pub(crate) use attitude::angular_velocity;
 pub use contact_motion::ContactMotion;
 pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
-pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading};
-pub use rigid_contacts::RigidRows;
+pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading, RigidRows};
 
 /// The sums to which the laws of a scene's effects add.
 pub struct EffortSums<'g, 'a> {

@@ -3,6 +3,7 @@
 use bgdyn_runtime::Dd;
 
 use crate::expr::Expr;
+use crate::math::Vec3;
 
 /// The port of an effort: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
 #[derive(Clone, Debug)]
@@ -130,4 +131,25 @@ pub enum ActuatorEfforts {
     /// One per coordinate, in place of its acceleration among the leaves; no drive has a limit. Inverse of
     /// [`ActuatorEfforts::Unknown`].
     Each,
+}
+
+/// A rigid contact: its state and the rows of its Jacobian, along (x, y, normal).
+#[derive(Clone, Debug)]
+pub struct RigidRows<'g> {
+    /// The index of its element.
+    pub element: usize,
+    /// g, m.
+    pub gap: Expr<'g>,
+    /// γ, m/s.
+    pub velocity: [Expr<'g>; 3],
+    /// μ
+    pub friction: Expr<'g>,
+    /// e
+    pub restitution: Expr<'g>,
+    /// The contact point, world axes.
+    pub point: Vec3<Expr<'g>>,
+    /// The directions x, y and normal, world axes.
+    pub axes: [Vec3<Expr<'g>>; 3],
+    /// ∂γ/∂v, for each coordinate of the links.
+    pub rows: [Vec<Expr<'g>>; 3],
 }

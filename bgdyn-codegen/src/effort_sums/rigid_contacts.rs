@@ -2,29 +2,8 @@
 
 use super::EffortSums;
 use super::contact_motion::ContactMotion;
+use super::parts::RigidRows;
 use crate::expr::Expr;
-use crate::math::Vec3;
-
-/// A rigid contact: its state and the rows of its Jacobian, along (x, y, normal).
-#[derive(Clone, Debug)]
-pub struct RigidRows<'g> {
-    /// The index of its element.
-    pub element: usize,
-    /// g, m.
-    pub gap: Expr<'g>,
-    /// γ, m/s.
-    pub velocity: [Expr<'g>; 3],
-    /// μ
-    pub friction: Expr<'g>,
-    /// e
-    pub restitution: Expr<'g>,
-    /// The contact point, world axes.
-    pub point: Vec3<Expr<'g>>,
-    /// The directions x, y and normal, world axes.
-    pub axes: [Vec3<Expr<'g>>; 3],
-    /// ∂γ/∂v, for each coordinate of the links.
-    pub rows: [Vec<Expr<'g>>; 3],
-}
 
 impl<'g> EffortSums<'g, '_> {
     /// Adds a rigid contact with these coefficients of friction and restitution.

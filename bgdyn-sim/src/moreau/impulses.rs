@@ -2,9 +2,9 @@
 
 use bgdyn_runtime::{ContactMap, MOST_CONTACTS, RigidContact, Scalar as _, StateVector};
 
-use super::ContactStep;
 use super::middle::Middle;
 use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, solve};
+use crate::contact_step::ContactStep;
 use crate::failure::Reason;
 use crate::integrator::Start;
 use crate::ode::Ode;

@@ -6,10 +6,10 @@
 
 use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 
-use super::ContactStep;
 use super::impulses::{Contacts, Impulses, contacts_at};
 use super::middle::moved;
 use crate::cone::{ContactOptions, ContactProblem, solve};
+use crate::contact_step::ContactStep;
 use crate::failure::Reason;
 use crate::ode::Ode;
 use crate::real::{Of, Real};

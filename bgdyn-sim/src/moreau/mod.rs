@@ -4,12 +4,13 @@ mod impulses;
 mod lift;
 mod middle;
 
-use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
+use bgdyn_runtime::{Scalar as _, StateVector};
 
 use self::impulses::Impulses;
 use self::lift::lifted;
 use self::middle::Middle;
 use crate::cone::ContactOptions;
+use crate::contact_step::ContactStep;
 use crate::dense::Dense;
 use crate::failure::Reason;
 use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
@@ -47,21 +48,6 @@ impl<T: Real> Default for Moreau<T> {
     fn default() -> Self {
         Self::new()
     }
-}
-
-/// The rigid contacts in a step.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ContactStep<T> {
-    /// p, N·s along (x, y, normal) of each contact; 0 for those that are open. p/h is the mean force in the step.
-    pub impulses: [[T; 3]; MOST_CONTACTS],
-    /// The energy that each contact takes, J: −p·(γ⁻ + γ⁺)/2.
-    pub losses: [T; MOST_CONTACTS],
-    /// The residual of the impulses, N·s, as [`crate::cone::ContactOutcome::residual`].
-    pub residual: T,
-    /// Whether it meets the tolerance.
-    pub solved: bool,
-    /// The deepest overlap of a contact at the end of the step, m; 0 without overlap.
-    pub depth: T,
 }
 
 /// So many changes that do not fall any more end the iteration: impulses of redundant contacts have rounding errors of

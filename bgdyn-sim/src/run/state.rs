@@ -3,10 +3,10 @@
 use bgdyn_runtime::{HybridSystem, Scalar, StateVector};
 
 use crate::audit::{Audit, Ledger};
+use crate::contact_step::ContactStep;
 use crate::control::Tolerance;
 use crate::failure::{Failure, Reason};
 use crate::integrator::Integrator;
-use crate::moreau::ContactStep;
 use crate::plant::{FixedModes, Plant, Time};
 use crate::real::{Of, Real};
 use crate::rk4::Rk4;
