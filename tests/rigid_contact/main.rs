@@ -1,6 +1,7 @@
 //! Rigid contact by time stepping, against closed forms: bouncing, sliding, sticking, rolling, rocking, collision, rest.
 
 mod balls;
+mod drops;
 mod planar;
 mod rest;
 mod sliding;
@@ -14,6 +15,7 @@ bgdyn::bgdyn!("slips.scene.yaml");
 bgdyn::bgdyn!("rocks.scene.yaml");
 bgdyn::bgdyn!("collides.scene.yaml");
 bgdyn::bgdyn!("tumbles.scene.yaml");
+bgdyn::bgdyn!("falls.scene.yaml");
 bgdyn::bgdyn!("jams.scene.yaml");
 
 use bgdyn_sim::{Moreau, Run, ScenePlant};

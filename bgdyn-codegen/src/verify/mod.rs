@@ -18,6 +18,7 @@ mod operational;
 mod parameters;
 mod payload;
 mod regressor;
+mod rigid_contacts;
 mod scene;
 mod states;
 

@@ -6,6 +6,7 @@ use bgdyn_runtime::{Dd, QuasiJointKind};
 use super::Difference;
 use super::compare::{EXACT, Law, SOLVED, differs, largest, minus, plus, turned};
 use super::dual::{Direction, Dual, along, rates, values, with_rates};
+use super::rigid_contacts;
 use super::states::{direction, of_scene, signed};
 use crate::expr::Inputs;
 use crate::function::Function;
@@ -86,8 +87,6 @@ impl CheckedScene<'_> {
             SceneFunction::Inputs
             | SceneFunction::Events
             | SceneFunction::Contacts
-            | SceneFunction::ContactStates
-            | SceneFunction::ContactMaps
             | SceneFunction::Energy
             | SceneFunction::Outputs => None,
             SceneFunction::PositionRates => {
@@ -96,6 +95,12 @@ impl CheckedScene<'_> {
                 self.compare(function, law, (&found[..rates.len()], &rates), 0.0, at)
             }
             SceneFunction::ClosingStep => self.closing_step(function, at),
+            SceneFunction::ContactStates => {
+                let (normal, rate) = rigid_contacts::gap_rates(function, self.system, at);
+                let law = ("γ_n = rate of the gap", EXACT);
+                self.compare(function, law, (&normal, &rate), 0.0, at)
+            }
+            SceneFunction::ContactMaps => self.contact_maps(function, at, &found),
         }
     }
 
@@ -184,6 +189,27 @@ impl CheckedScene<'_> {
         let closed = vec![Dd::ZERO; left.len()];
         let law = ("loops closed after a step, to its square", OPENING);
         self.compare(function, law, (&left, &closed), OPENING, at)
+    }
+
+    /// Checks the rows of J against velocities, and the columns of M⁻¹ Jᵀ against the literal sum.
+    fn contact_maps(
+        &self,
+        function: &Function,
+        at: &Inputs<Dd>,
+        maps: &[Dd],
+    ) -> Option<Difference> {
+        let states = self.function(SceneFunction::ContactStates)?;
+        let (by_rows, velocities) = rigid_contacts::relative_velocities(states, maps, at);
+        let law = ("J v = γ(v) − γ(0)", EXACT);
+        let differs = self.compare(function, law, (&by_rows, &velocities), 0.0, at);
+        differs.or_else(|| {
+            let nv = at.v.len();
+            let inertial = |a: &[Dd]| self.sides_at(a, at)[..nv].to_vec();
+            let (products, rows) = rigid_contacts::mass_times_columns(maps, nv, inertial);
+            let size = largest(&inertial(&vec![Dd::ONE; nv]));
+            let law = ("M (M⁻¹ Jᵀ) = Jᵀ", SOLVED);
+            self.compare(function, law, (&products, &rows), size, at)
+        })
     }
 
     /// Returns P, E and ẋ at these accelerations.

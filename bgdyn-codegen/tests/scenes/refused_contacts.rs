@@ -280,3 +280,86 @@ contacts:
     assert_eq!(system.scene.layout.nv(), 1, "the wrist moves");
     assert!(system.idle().is_empty());
 }
+
+/// Returns the message about a scene with a rigid contact, with these keys and these other lines.
+fn rigid(keys: &str, more: &str) -> String {
+    let scene = format!(
+        "scene: 1\nmechanism: m.yaml\neffects:\n  - inertia\n  - touch: {{ type: rigid_contact, {keys} }}\n{more}"
+    );
+    match try_scene(&scene, BALL) {
+        Ok(_) => "sound".into(),
+        Err(refusal) => told(&refusal, &scene),
+    }
+}
+
+#[test]
+fn what_rigid_contacts_refuse() {
+    let floor = "contact: floor";
+    assert_eq!(rigid(floor, "initial: { fall: 10 mm }\n"), "sound");
+    for (keys, more, rule, words) in [
+        (
+            "contact: floor",
+            "initial: { fall: 10 mm }\nintegration: { method: rk4 }\n",
+            "integration",
+            "`rk4` does not solve for its impulses",
+        ),
+        (
+            "contact: floor",
+            "initial: { fall: 9 mm }\n",
+            "start-overlaps",
+            "`floor` overlap by 0.001 m",
+        ),
+        (
+            "contact: floor",
+            "  - rub: { type: coulomb, joint: slide, kinetic: 1 N }\ninitial: { fall: 1 m }\n",
+            "effect-contacts",
+            "`rub`",
+        ),
+        (
+            "contact: floor, friction: -0.1",
+            "",
+            "effect-sign",
+            "`friction`",
+        ),
+        (
+            "contact: floor, restitution: -0.1",
+            "",
+            "effect-sign",
+            "`restitution`",
+        ),
+        (
+            "contact: floor, restitution: 1.1",
+            "",
+            "effect-sign",
+            "`restitution`",
+        ),
+        (
+            "contact: floor, stiffness: 1e5",
+            "",
+            "unknown-key",
+            "`stiffness`",
+        ),
+        ("contact: flor", "", "unknown-name", "`floor`"),
+    ] {
+        let text = rigid(keys, more);
+        assert!(
+            text.contains(&format!("[{rule}]")) && text.contains(words),
+            "{keys} {more}: {text}"
+        );
+    }
+}
+
+#[test]
+fn a_scene_has_at_most_32_rigid_contacts() {
+    let cubes: String = (0..5)
+        .map(|k| format!("  cube{k}: {{ link: ball, size: [0.1, 0.1, 0.1] }}\n"))
+        .collect();
+    let mechanism = BALL.replace("contacts:\n", &format!("contacts:\n{cubes}"));
+    let scene = "scene: 1\nmechanism: m.yaml\neffects:\n  - inertia\n  - touch: { type: rigid_contact, contacts: [cube0, cube1, cube2, cube3, cube4] }\ninitial: { fall: 1 m }\n";
+    let refusal = try_scene(scene, &mechanism).expect_err("forty");
+    let text = told(&refusal, scene);
+    assert!(
+        text.contains("40 rigid contacts; the solver takes 32"),
+        "{text}"
+    );
+}

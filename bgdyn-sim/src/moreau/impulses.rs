@@ -78,6 +78,14 @@ where
         }
     }
 
+    /// Marks the impulses as not solved. Returns whether there are active contacts.
+    pub(super) fn give_up(&mut self) -> bool {
+        if let Some(outcome) = &mut self.outcome {
+            outcome.solved = false;
+        }
+        self.outcome.is_some()
+    }
+
     /// Returns velocities with the impulses that their contacts then need. `free` are those without impulses.
     ///
     /// The velocities γ⁺ at the contacts are those at the end of the step, where the axes of bodies have turned on. They are

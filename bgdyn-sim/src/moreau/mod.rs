@@ -37,9 +37,14 @@ pub struct Moreau<T> {
 }
 
 impl<T: Real> Moreau<T> {
-    /// Returns the integrator with the default options of [`crate::cone::solve`].
+    /// Returns the integrator with impulses to 4096 ε of the largest (1e-12 in `f64`), which takes at most 200 sweeps and 50
+    /// Newton steps of [`crate::cone::solve`] from one start.
     pub fn new() -> Self {
-        let options = ContactOptions::default();
+        let options = ContactOptions {
+            tolerance: T::EPSILON * T::from_f64(4096.0),
+            most_sweeps: 200,
+            most_newton_steps: 50,
+        };
         Moreau { options }
     }
 }
@@ -111,6 +116,10 @@ where
                 break;
             }
             if iteration == MOST_ITERATIONS {
+                // Contacts of which no impulses were found end the step as they are: the residual tells.
+                if change.is_finite() && impulses.give_up() {
+                    break;
+                }
                 let iterations = iteration;
                 return Err(Reason::NoConvergence { iterations, change });
             }
