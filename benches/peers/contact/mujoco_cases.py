@@ -11,17 +11,18 @@ Settings, with the sections of MuJoCo's documentation ("Modeling") that recommen
 
 import json
 import math
+import os
 import sys
 import time
 
 import mujoco
-import numpy as np
 
 import cases
 
 # How many steps a contact of the ball that bounces lasts.
 BOUNCE = 20
-PATIENCE, REPEATS = 0.1, (3, 2000)
+# Repetitions of a run go on for this time, s, but are at least and at most so many.
+PATIENCE, REPEATS = float(os.environ.get("PEERS_PATIENCE", 0.1)), (int(os.environ.get("PEERS_REPEATS", 3)), 2000)
 
 
 def damping_ratio(restitution):

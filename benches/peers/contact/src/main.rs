@@ -1,15 +1,16 @@
 //! Runs of closed forms of contact, as lines of JSON: `contact CASE END MORE STEPS|TOLERANCE ...`.
 //!
 //! Each run goes to END in so many steps; then, where MORE is not 0, on by MORE s with the same step. A line has the numbers
-//! by which `cases.py` compares systems, at END and behind it, and the shortest time to END, s. Scenes are those of
-//! `tests/rigid_contact`. Times are without account of energy.
+//! by which `cases.py` compares systems, at END and behind it, and the shortest time to END, s, of repetitions
+//! for PEERS_PATIENCE seconds, at least PEERS_REPEATS. Scenes are those of `tests/rigid_contact`, without account of energy.
+//! `compliant` is a scene of its own, by `dopri5`.
 #![forbid(unsafe_code)]
 
 use std::hint::black_box;
 use std::time::Instant;
 
 use bgdyn::nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
-use bgdyn_runtime::{HybridSystem, StateVector};
+use bgdyn_runtime::{HybridSystem, Slope, StateVector};
 use bgdyn_sim::{Dopri5, HybridState, Integrator, Moreau, Run, ScenePlant, Tolerance};
 
 bgdyn::bgdyn!("../../../tests/rigid_contact/bounces.scene.yaml");
@@ -21,9 +22,8 @@ bgdyn::bgdyn!("../../../tests/rigid_contact/slips.scene.yaml");
 bgdyn::bgdyn!("../../../tests/rigid_contact/rocks.scene.yaml");
 bgdyn::bgdyn!("bounces_compliant.scene.yaml");
 
-/// Repetitions of a run go on for this time, s, but are at least and at most so many.
-const PATIENCE: f64 = 0.1;
-const REPEATS: (usize, usize) = (3, 2000);
+/// Repetitions of a run at the most.
+const MOST: usize = 2000;
 
 /// What a run does.
 struct Order {
@@ -31,6 +31,9 @@ struct Order {
     more: f64,
     /// The number of steps to the end.
     steps: usize,
+    /// Repetitions go on for this time, s, but are at least so many.
+    patience: f64,
+    repeats: usize,
 }
 
 /// Runs a plant as ordered, and prints a line. `begin` makes the run; `values` are the numbers of a state.
@@ -55,8 +58,8 @@ fn measure<P, M>(
     let mut seconds = f64::INFINITY;
     let all = Instant::now();
     let mut run = begin();
-    for repeat in 0..REPEATS.1 {
-        if repeat >= REPEATS.0 && all.elapsed().as_secs_f64() > PATIENCE {
+    for repeat in 0..MOST {
+        if repeat >= order.repeats && all.elapsed().as_secs_f64() > order.patience {
             break;
         }
         run = black_box(begin());
@@ -77,7 +80,7 @@ fn measure<P, M>(
 }
 
 /// Runs a scene with rigid contacts from a changed start.
-fn rigid<S: HybridSystem<f64>>(
+fn rigid<S: HybridSystem<f64> + Slope<f64>>(
     scene: &S,
     order: &Order,
     change: impl Fn(&mut S::State),
@@ -98,14 +101,10 @@ fn rigid<S: HybridSystem<f64>>(
 /// Runs a scene by `dopri5`, with a tolerance in place of a number of steps.
 fn compliant<S: HybridSystem<f64>>(
     scene: &S,
-    (end, tolerance): (f64, f64),
+    order: &Order,
+    tolerance: f64,
     values: impl Fn(&S::State) -> Vec<f64>,
 ) {
-    let order = Order {
-        end,
-        more: 0.0,
-        steps: 1,
-    };
     let what = format!("\"setting\": \"dopri5\", \"steps\": null, \"tolerance\": {tolerance:e}");
     let begin = || {
         Run::by(Dopri5, ScenePlant::new(scene), Run::begin(scene))
@@ -115,7 +114,7 @@ fn compliant<S: HybridSystem<f64>>(
             })
             .unaudited()
     };
-    measure(&order, &what, begin, values);
+    measure(order, &what, begin, values);
 }
 
 /// Position x, y and velocity x, y of a ball, in axes of the world.
@@ -140,6 +139,12 @@ fn tilt(y: &mut SVector<f64, 6>) {
     y[2] = -tilt;
 }
 
+/// A number that the environment may set.
+fn setting(name: &str, otherwise: f64) -> f64 {
+    let given = std::env::var(name).ok();
+    given.and_then(|x| x.parse().ok()).unwrap_or(otherwise)
+}
+
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |k: usize| arguments.get(k).and_then(|x| x.parse::<f64>().ok());
@@ -148,8 +153,14 @@ fn main() {
         std::process::exit(2);
     };
     for given in (3..arguments.len()).filter_map(number) {
-        let steps = given as usize;
-        let order = &Order { end, more, steps };
+        let steps = (given as usize).max(1);
+        let order = &Order {
+            end,
+            more,
+            steps,
+            patience: setting("PEERS_PATIENCE", 0.1),
+            repeats: setting("PEERS_REPEATS", 3.0) as usize,
+        };
         let as_it_is = |_: &mut SVector<f64, 6>| {};
         let place = |y: &SVector<f64, 6>| y.as_slice()[..3].to_vec();
         let velocity = |y: &SVector<f64, 6>| y.as_slice()[3..].to_vec();
@@ -168,7 +179,7 @@ fn main() {
             "rocks" => rigid(&rocks::Rocks::<f64>::default(), order, tilt, |y| vec![y[2]]),
             "compliant" => {
                 let scene = bounces_compliant::BouncesCompliant::<f64>::default();
-                compliant(&scene, (end, given), |y| vec![y[2]]);
+                compliant(&scene, order, given, |y| vec![y[2]]);
             }
             other => {
                 eprintln!("no case {other}");
