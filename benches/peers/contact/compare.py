@@ -95,6 +95,14 @@ def measured(case, system, setting):
     return rows
 
 
+def lifts():
+    """How the slipping disc leaves the slope in steps of 1 ms, by system and setting."""
+    for system, setting in SETTINGS[1:]:
+        command = [*PROGRAMS[system], "lift", setting, str(CASES["slips"].steps(1e-3)[0])]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        yield {"system": system, "setting": setting, **json.loads(done.stdout)}
+
+
 def main():
     target = ROOT / "docs" if "--docs" in sys.argv else DIR
     kept = DIR / "contact.json"
@@ -112,7 +120,7 @@ def main():
             loads.append(os.getloadavg()[0])
             print(f"round {k + 1} of {ROUNDS}", flush=True)
         result = {"rows": sum(rows.values(), []), "loads": loads, "rounds": ROUNDS, "priority": bool(PREFIX), "quick": QUICK}
-        result |= report.circumstances(ROOT)
+        result |= {"lifts": list(lifts()), **report.circumstances(ROOT)}
         kept.write_text(json.dumps(result, indent=1, ensure_ascii=False))
     (target / "peers_contact.md").write_text(report.text(result))
     figures.write(result["rows"], DIR / "bin/plots", target)

@@ -1,4 +1,5 @@
 """The cases in Drake: `drake_cases.py CASE SETTING MORE STEPS|ACCURACY ...`, lines of JSON as bgdyn's program prints them.
+`drake_cases.py lift SETTING STEPS`: how the slipping disc leaves the slope.
 
 Point contact. Settings, with the parts of Drake's documentation that recommend them:
 
@@ -153,7 +154,24 @@ def run(name, setting, more, given):
     return {"setting": setting, "steps": steps, "tolerance": tolerance, "values": result, "seconds": seconds}
 
 
+def lift(setting, steps):
+    """How the slipping disc leaves the slope."""
+    h = cases.CASES["slips"].end / steps
+    simulator, plant = build("slips", setting, h)
+    context = plant.GetMyContextFromRoot(simulator.get_mutable_context())
+    plant.SetPositions(context, MODELS["slips"][3])
+    simulator.Initialize()
+    gaps = []
+    for k in range(steps):
+        simulator.AdvanceTo((k + 0.5) * h)
+        gaps.append(cases.gap(*plant.GetPositions(context)[:2]))
+    return cases.lifted(gaps)
+
+
 if __name__ == "__main__":
+    if sys.argv[1] == "lift":
+        print(json.dumps(lift(sys.argv[2], int(sys.argv[3]))))
+        sys.exit()
     name, setting, more = sys.argv[1:4]
     for count in sys.argv[4:]:
         number = float(count) if setting == "continuous" else int(count)

@@ -1,4 +1,5 @@
-"""The cases in MuJoCo: `mujoco_cases.py CASE SETTING MORE STEPS ...`, lines of JSON as bgdyn's program prints them.
+"""The cases in MuJoCo: `mujoco_cases.py CASE SETTING MORE STEPS ...`, lines of JSON as bgdyn's program prints them. `mujoco_cases.py lift SETTING STEPS`: how the
+slipping disc leaves the slope.
 
 Settings, with the sections of MuJoCo's documentation ("Modeling") that recommend them:
 
@@ -117,6 +118,21 @@ def run(name, setting, more, steps):
     return {"setting": setting, "steps": steps, "tolerance": None, "values": found, "seconds": seconds}
 
 
+def lift(setting, steps):
+    """How the slipping disc leaves the slope."""
+    model = mujoco.MjModel.from_xml_string(xml("slips", setting, cases.CASES["slips"].end / steps))
+    data = mujoco.MjData(model)
+    data.qpos[:], data.qvel[:] = MODELS["slips"][3:5]
+    gaps = []
+    for _ in range(steps):
+        mujoco.mj_step(model, data)
+        gaps.append(cases.gap(*data.qpos[:2]))
+    return cases.lifted(gaps)
+
+
 if __name__ == "__main__":
+    if sys.argv[1] == "lift":
+        print(json.dumps(lift(sys.argv[2], int(sys.argv[3]))))
+        sys.exit()
     for count in sys.argv[4:]:
         print(json.dumps(run(sys.argv[1], sys.argv[2], float(sys.argv[3]), int(count))), flush=True)

@@ -148,6 +148,13 @@ def summary(rows):
     return table(heads, lines)
 
 
+def lifts(found):
+    """How the slipping disc leaves the slope, in words."""
+    where = lambda r: NAMES[r["system"], r["setting"]]
+    of = lambda r: f"{where(r)}: it touches in {100 * r['touches']:.0f} % of the steps, and rises by {1e3 * max(r['highest'], 0):.1f} mm"
+    return "; ".join(map(of, found))
+
+
 def text(result):
     rows = result["rows"]
     quiet = "with priority on one core (`chrt -f`, `taskset`)" if result["priority"] else "without priority"
@@ -171,5 +178,6 @@ The errors at 1 ms (the ball on a spring: at a tolerance of 1e-6), of a system's
 {summary(rows)}
 {"".join(section(name, rows) for name in CASES).rstrip()}
 
-{notes.split("<!-- tables -->")[1].strip()}
+## What stands out
+{notes.split("<!-- tables -->")[1].strip().replace("LIFTS", lifts(result["lifts"]))}
 """

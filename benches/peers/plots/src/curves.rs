@@ -29,6 +29,14 @@ const COLUMNS: usize = 3;
 const SIZE: (u32, u32) = (330, 290);
 const HEAD: u32 = 36;
 
+/// Returns a logarithmic axis over values, with a margin at both ends.
+fn around(values: impl Iterator<Item = f64>, most: usize) -> Axis {
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    Axis::log(0.7 * low, 1.4 * high, most)
+}
+
 /// Draws a panel for each case.
 pub(crate) fn curves(curves: &Curves) -> String {
     let rows = curves.panels.len().div_ceil(COLUMNS);
@@ -51,8 +59,8 @@ pub(crate) fn curves(curves: &Curves) -> String {
         let parts = rest.split_evenly((rows, COLUMNS));
         for (panel, part) in curves.panels.iter().zip(&parts) {
             let points = || panel.series.iter().flat_map(|s| &s.1);
-            let x = Axis::decades(points().map(|p| p.0), 7).label(panel.x.as_str());
-            let y = Axis::decades(points().map(|p| p.1), 9).label(panel.y.as_str());
+            let x = around(points().map(|p| p.0), 7).label(panel.x.as_str());
+            let y = around(points().map(|p| p.1), 9).label(panel.y.as_str());
             let chart = Panel::new(&panel.title, x, y)
                 .sides([72, 14, 32, 46])
                 .draw(part)?;
