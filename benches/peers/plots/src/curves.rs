@@ -59,7 +59,7 @@ pub(crate) fn curves(curves: &Curves) -> String {
         let parts = rest.split_evenly((rows, COLUMNS));
         for (panel, part) in curves.panels.iter().zip(&parts) {
             let points = || panel.series.iter().flat_map(|s| &s.1);
-            let x = around(points().map(|p| p.0), 7).label(panel.x.as_str());
+            let x = around(points().map(|p| p.0), 6).label(panel.x.as_str());
             let y = around(points().map(|p| p.1), 9).label(panel.y.as_str());
             let chart = Panel::new(&panel.title, x, y)
                 .sides([72, 14, 32, 46])
