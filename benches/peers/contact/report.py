@@ -4,7 +4,7 @@ import datetime
 import math
 import os
 import platform
-import subprocess
+import statistics
 import sys
 from importlib.metadata import version
 from pathlib import Path
@@ -155,6 +155,18 @@ def lifts(found):
     return "; ".join(map(of, found))
 
 
+def per_step(rows):
+    """Times of steps over those of bgdyn of the same length, in words: from the least to the largest of all cases."""
+    own = {(r["case"], r["given"]): r["seconds"] for r in rows if r["system"] == "bgdyn"}
+    found = {}
+    for r in rows:
+        if r["system"] != "bgdyn" and (r["case"], r["given"]) in own and not r["controlled"]:
+            over = r["seconds"] / own[r["case"], r["given"]]
+            found.setdefault(r["system"], {}).setdefault((r["case"], r["setting"]), []).append(over)
+    middle = {system: [statistics.median(x) for x in cases.values()] for system, cases in found.items()}
+    return "; ".join(f"{system} {short(min(x))} to {short(max(x))}" for system, x in middle.items())
+
+
 def text(result):
     rows = result["rows"]
     quiet = "with priority on one core (`chrt -f`, `taskset`)" if result["priority"] else "without priority"
@@ -179,5 +191,5 @@ The errors at 1 ms (the ball on a spring: at a tolerance of 1e-6), of a system's
 {"".join(section(name, rows) for name in CASES).rstrip()}
 
 ## What stands out
-{notes.split("<!-- tables -->")[1].strip().replace("LIFTS", lifts(result["lifts"]))}
+{notes.split("<!-- tables -->")[1].strip().replace("LIFTS", lifts(result["lifts"])).replace("PER_STEP", per_step(rows))}
 """
