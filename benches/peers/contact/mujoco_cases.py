@@ -1,5 +1,5 @@
-"""The cases in MuJoCo: `mujoco_cases.py CASE SETTING MORE STEPS ...`, lines of JSON as bgdyn's program prints them. `mujoco_cases.py lift SETTING STEPS`: how the
-slipping disc leaves the slope.
+"""The cases in MuJoCo: `mujoco_cases.py CASE SETTING MORE STEPS ...`, lines of JSON as bgdyn's program prints them.
+`mujoco_cases.py lift SETTING STEPS`: how the slipping disc leaves the slope.
 
 Settings, with the sections of MuJoCo's documentation ("Modeling") that recommend them:
 
