@@ -1,5 +1,7 @@
-//! Draws the plots of docs/peers.md and docs/peers_loops.md: `plots ratios|errors FILE.svg`, with the numbers as JSON on
-//! stdin, from `plot.py` beside the measurements.
+//! Draws the plots of docs/peers.md, docs/peers_loops.md and docs/peers_contact.md: `plots ratios|errors|curves FILE.svg`,
+//! with the numbers as JSON on stdin, from Python beside the measurements.
+
+mod curves;
 
 use std::error::Error;
 
@@ -15,12 +17,15 @@ const COLOURS: [RGBColor; 5] = [VERMILION, BLUE, GREEN, PURPLE, SKY];
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [what, path] = &arguments[..] else {
-        return Err("usage: plots ratios|errors FILE.svg <NUMBERS.json".into());
+        return Err("usage: plots ratios|errors|curves FILE.svg <NUMBERS.json".into());
     };
     let svg = match what.as_str() {
         "ratios" => ratios(&serde_json::from_reader(std::io::stdin())?),
         "errors" => errors(&serde_json::from_reader(std::io::stdin())?),
-        what => return Err(format!("unknown plot `{what}`: there are ratios, errors").into()),
+        "curves" => curves::curves(&serde_json::from_reader(std::io::stdin())?),
+        what => {
+            return Err(format!("unknown plot `{what}`: there are ratios, errors, curves").into());
+        }
     };
     std::fs::write(path, svg).map_err(|e| format!("{path} cannot be written: {e}"))?;
     Ok(())
