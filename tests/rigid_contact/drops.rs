@@ -130,7 +130,7 @@ fn drops<T: Real + Send, S: HybridSystem<T> + Slope<T> + Sync>(
 const CRATE: Fall = Fall {
     bend: 0.0,
     height: 0.6,
-    time: 2.5,
+    time: 6.0,
     step: 1e-3,
 };
 const CHAIN: Fall = Fall {

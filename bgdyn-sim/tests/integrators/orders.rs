@@ -133,5 +133,5 @@ fn orders_hold_in_single_and_double_precision() {
 fn names_that_are_not_listed_are_none() {
     let none = with_integrator::<Y, _>("rk5", Errors { slopes: true });
     assert!(none.is_none());
-    assert_eq!(INTEGRATORS.len(), 10);
+    assert_eq!(INTEGRATORS.len(), 11);
 }
