@@ -181,7 +181,7 @@ pub trait HybridSystem<T: Scalar> {
     }
 
     /// Writes the state of each rigid contact, in the order of their names.
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         y: &Self::State,
         input: &Self::Inputs,
@@ -195,7 +195,7 @@ pub trait HybridSystem<T: Scalar> {
     ///
     /// # Errors
     /// As [`HybridSystem::derivative`].
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         y: &Self::State,
         input: &Self::Inputs,

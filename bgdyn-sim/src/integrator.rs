@@ -65,7 +65,7 @@ pub trait Integrator<Y: StateVector> {
         false
     }
 
-    /// Returns whether it solves for the impulses of rigid contacts ([`Ode::contacts`]). Others refuse equations with some.
+    /// Returns whether it solves for the impulses of rigid contacts ([`Ode::rigid_contacts`]). Others refuse equations with some.
     fn solves_contacts(&self) -> bool {
         false
     }

@@ -112,7 +112,7 @@ pub trait Ode {
 
     /// Returns the number of rigid contacts, at most [`MOST_CONTACTS`](bgdyn_runtime::MOST_CONTACTS). The rates do not know
     /// them: only integrators that solve for their impulses ([`crate::Integrator::solves_contacts`]) accept equations with some.
-    fn contacts(&self) -> usize {
+    fn rigid_contacts(&self) -> usize {
         0
     }
 
@@ -120,7 +120,7 @@ pub trait Ode {
     ///
     /// # Errors
     /// As [`Ode::rates`].
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         t: ScalarOf<Self>,
         y: &Self::State,
@@ -134,7 +134,7 @@ pub trait Ode {
     ///
     /// # Errors
     /// As [`Ode::rates`].
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         t: ScalarOf<Self>,
         y: &Self::State,
@@ -190,25 +190,25 @@ impl<O: Ode> Ode for &O {
         (**self).strays(y)
     }
 
-    fn contacts(&self) -> usize {
-        (**self).contacts()
+    fn rigid_contacts(&self) -> usize {
+        (**self).rigid_contacts()
     }
 
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         t: ScalarOf<O>,
         y: &O::State,
         contacts: &mut [RigidContact<ScalarOf<O>>],
     ) -> Result<(), O::Error> {
-        (**self).contact_states(t, y, contacts)
+        (**self).rigid_contact_states(t, y, contacts)
     }
 
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         t: ScalarOf<O>,
         y: &O::State,
         maps: &mut [Option<ContactMap<O::State>>],
     ) -> Result<(), O::Error> {
-        (**self).contact_maps(t, y, maps)
+        (**self).rigid_contact_maps(t, y, maps)
     }
 }

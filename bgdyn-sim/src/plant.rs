@@ -117,21 +117,21 @@ pub trait Plant {
         true
     }
 
-    /// The number of rigid contacts, as [`Ode::contacts`].
-    fn contacts(&self) -> usize {
+    /// The number of rigid contacts, as [`Ode::rigid_contacts`].
+    fn rigid_contacts(&self) -> usize {
         0
     }
 
     /// The entry of the balance of power to which each rigid contact belongs.
-    fn contact_entry(&self, contact: usize) -> usize {
+    fn rigid_contact_entry(&self, contact: usize) -> usize {
         contact
     }
 
-    /// The state of each rigid contact, as [`Ode::contact_states`].
+    /// The state of each rigid contact, as [`Ode::rigid_contact_states`].
     ///
     /// # Errors
     /// As [`Plant::rates`].
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         t: Time<Self>,
         y: &Self::State,
@@ -142,11 +142,11 @@ pub trait Plant {
         Ok(())
     }
 
-    /// How rigid contacts and velocities act on each other, as [`Ode::contact_maps`].
+    /// How rigid contacts and velocities act on each other, as [`Ode::rigid_contact_maps`].
     ///
     /// # Errors
     /// As [`Plant::rates`].
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         t: Time<Self>,
         y: &Self::State,
@@ -289,25 +289,25 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
         self.plant.strays(y)
     }
 
-    fn contacts(&self) -> usize {
-        self.plant.contacts()
+    fn rigid_contacts(&self) -> usize {
+        self.plant.rigid_contacts()
     }
 
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         t: Time<P>,
         y: &P::State,
         contacts: &mut [RigidContact<Time<P>>],
     ) -> Result<(), P::Error> {
-        self.plant.contact_states(t, y, self.modes, contacts)
+        self.plant.rigid_contact_states(t, y, self.modes, contacts)
     }
 
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         t: Time<P>,
         y: &P::State,
         maps: &mut [Option<ContactMap<P::State>>],
     ) -> Result<(), P::Error> {
-        self.plant.contact_maps(t, y, self.modes, maps)
+        self.plant.rigid_contact_maps(t, y, self.modes, maps)
     }
 }

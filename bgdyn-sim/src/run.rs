@@ -152,9 +152,9 @@ where
                 .losses
                 .iter()
                 .enumerate()
-                .take(self.plant.contacts())
+                .take(self.plant.rigid_contacts())
             {
-                ledger.lose(self.plant.contact_entry(c), loss);
+                ledger.lose(self.plant.rigid_contact_entry(c), loss);
             }
         }
         let (y, modes) = match after {

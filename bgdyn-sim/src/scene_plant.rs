@@ -205,15 +205,15 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         scene_positions::strays(self.scene, y)
     }
 
-    fn contacts(&self) -> usize {
+    fn rigid_contacts(&self) -> usize {
         self.scene.rigid_contact_names().len()
     }
 
-    fn contact_entry(&self, contact: usize) -> usize {
+    fn rigid_contact_entry(&self, contact: usize) -> usize {
         self.scene.rigid_contact_entries()[contact]
     }
 
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         t: T,
         y: &S::State,
@@ -221,11 +221,11 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         contacts: &mut [RigidContact<T>],
     ) -> Result<(), S::Singular> {
         let input = self.input(t, y, modes);
-        self.scene.contact_states(y, &input, t, contacts);
+        self.scene.rigid_contact_states(y, &input, t, contacts);
         Ok(())
     }
 
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         t: T,
         y: &S::State,
@@ -233,7 +233,7 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         maps: &mut [Option<ContactMap<S::State>>],
     ) -> Result<(), S::Singular> {
         self.scene
-            .contact_maps(y, &self.input(t, y, modes), t, maps)
+            .rigid_contact_maps(y, &self.input(t, y, modes), t, maps)
     }
 
     fn events(&self, t: T, y: &S::State, modes: &S::Modes) -> Result<S::Events, S::Singular> {

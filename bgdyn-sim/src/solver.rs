@@ -254,7 +254,7 @@ where
         } else {
             0
         };
-        if ode.contacts() > most {
+        if ode.rigid_contacts() > most {
             return Err(Reason::RigidContacts);
         }
         let step = self.integrator.step(ode, &self.start(), h)?;

@@ -75,7 +75,7 @@ fn dropped<T: Real, S: HybridSystem<T> + Slope<T>>(
         let now = energy(&run);
         drop.gain = drop.gain.max(now - least);
         least = least.min(now);
-        let contacts = run.contacts()?;
+        let contacts = run.contact_step()?;
         drop.deepest = drop.deepest.max(contacts.depth.to_f64());
         if k + 500 > steps {
             drop.depth = drop.depth.max(contacts.depth.to_f64());

@@ -46,7 +46,7 @@ fn advance<S: bgdyn::runtime::HybridSystem<f64>>(
 ) {
     for _ in 0..steps {
         run.step(time / steps as f64).expect("it goes on");
-        let contacts = run.contacts().expect("rigid contacts");
+        let contacts = run.contact_step().expect("rigid contacts");
         assert!(
             contacts.solved,
             "at {} s: residual {}",

@@ -43,7 +43,7 @@ fn rests(steps: usize) {
             run.t()
         );
         most = most.min(now);
-        let depth = run.contacts().expect("contacts").depth;
+        let depth = run.contact_step().expect("contacts").depth;
         assert!(depth < 3e-3, "at {} s: {depth} m", run.t());
     }
     let rested = *run.y();

@@ -269,16 +269,16 @@ impl Plant for Evaluated<'_> {
             || quasi_joints::strays(&self.functions.quasi_joints, y.as_slice())
     }
 
-    fn contacts(&self) -> usize {
+    fn rigid_contacts(&self) -> usize {
         self.system.scene.layout.rigid_contacts.len()
     }
 
-    fn contact_entry(&self, contact: usize) -> usize {
+    fn rigid_contact_entry(&self, contact: usize) -> usize {
         let rigid = self.functions.rigid.as_ref();
         rigid.map_or(0, |rigid| rigid.entries[contact])
     }
 
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         t: f64,
         state: &Numbers,
@@ -289,7 +289,7 @@ impl Plant for Evaluated<'_> {
         Ok(())
     }
 
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         t: f64,
         state: &Numbers,

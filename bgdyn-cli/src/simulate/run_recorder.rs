@@ -124,7 +124,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         way: &'a Way,
         watch: &'a mut dyn FnMut(f64),
     ) -> Self {
-        let forces = vec![[0.0; 3]; run.plant().contacts()];
+        let forces = vec![[0.0; 3]; run.plant().rigid_contacts()];
         RunRecorder {
             run,
             outputs,
@@ -232,7 +232,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
 
     /// Records the rigid contacts in a step of this length.
     fn take_contacts(&mut self, h: f64) {
-        let Some(contacts) = self.run.contacts() else {
+        let Some(contacts) = self.run.contact_step() else {
             return;
         };
         if self.forces.is_empty() {

@@ -91,9 +91,9 @@ impl SceneFunctions {
             inputs: if_there(SceneFunction::Inputs),
             events: if_there(SceneFunction::Events),
             contacts: if_there(SceneFunction::Contacts),
-            rigid: if_there(SceneFunction::ContactStates).map(|states| RigidContacts {
+            rigid: if_there(SceneFunction::RigidContactStates).map(|states| RigidContacts {
                 states,
-                maps: prepare(SceneFunction::ContactMaps),
+                maps: prepare(SceneFunction::RigidContactMaps),
                 entries: rigid_entries(system),
             }),
             outputs: if_there(SceneFunction::Outputs),

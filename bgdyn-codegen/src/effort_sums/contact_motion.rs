@@ -5,17 +5,13 @@
 //! a sphere. A force F on the sphere's link at c, and −F on the partner's, are wrenches at the origins of the links.
 //! They are summed for each link before τ = Jᵀ w.
 
-use bgdyn_runtime::Dd;
-
 use super::EffortSums;
 use crate::bond_graph::SiteId;
 use crate::declaration::{Element, undeclared};
-use crate::expr::{Builder, Expr};
+use crate::expr::Expr;
+use crate::formulation::PairFrame;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId};
-
-/// The least square of a distance of two centres, m².
-const LEAST: f64 = 1e-30;
+use crate::mechanism::{ContactPair, ContactPartner, LinkId};
 
 /// The relative motion at a contact, world axes.
 #[derive(Clone, Copy, Debug)]
@@ -36,22 +32,6 @@ pub struct ContactMotion<'g> {
     bodies: [Option<(SiteId, Vec3<Expr<'g>>)>; 2],
 }
 
-impl<'g> ContactMotion<'g> {
-    /// Returns two unit vectors that make a right-handed system with the normal, as functions of the normal alone (Duff,
-    /// Burgess, Christensen, Hery, Kensler, Liani, Villemin 2017). They jump where the normal crosses the plane z = 0.
-    pub(crate) fn tangents(&self, b: &'g Builder) -> [Vec3<Expr<'g>>; 2] {
-        let [x, y, z] = self.normal.0;
-        let one = b.number(1.0);
-        let sign = z.if_less(b.zero(), -one, one);
-        let scale = -(one / (sign + z));
-        let product = x * y * scale;
-        [
-            Vec3([one + sign * x * x * scale, sign * product, -(sign * x)]),
-            Vec3([product, sign + y * y * scale, -y]),
-        ]
-    }
-}
-
 impl<'g> EffortSums<'g, '_> {
     /// Returns the motion at the contact of the element.
     ///
@@ -59,28 +39,13 @@ impl<'g> EffortSums<'g, '_> {
     /// If the element's effect acts at no contact, or the mechanism does not have it.
     pub fn contact_motion(&mut self, element: &Element) -> ContactMotion<'g> {
         let pair = self.contact_pair(element);
-        let centre = self.centre(&pair.sphere);
-        let constant = |x: Dd| self.b.constant(x);
-        let radius = constant(pair.sphere.radius);
-        let (gap, normal, along, depth) = match &pair.partner {
-            ContactPartner::Plane { link, pose } => {
-                let rotation = self.carried(*link).0 * pose.rotation.map(|x| self.b.constant(x));
-                let origin = self.place(*link, pose.translation);
-                let [x, y, normal] = [0, 1, 2].map(|k| rotation.column(k));
-                let gap = normal.dot(centre - origin) - radius;
-                (gap, normal, Some([x, y]), radius)
-            }
-            ContactPartner::Sphere(other) => {
-                let apart = centre - self.centre(other);
-                // Where the centres meet there is no normal; the root has a derivative even there.
-                let distance = apart.dot(apart).max(self.b.number(LEAST)).sqrt();
-                let one = self.b.number(1.0);
-                let normal = apart.scale(one / distance);
-                let gap = distance - self.b.constant(pair.sphere.radius + other.radius);
-                (gap, normal, None, radius + gap * Dd::from_f64(0.5))
-            }
+        let frame = PairFrame::new(self.b, |link| self.carried(link), &pair);
+        let [x, y, normal] = frame.axes;
+        let along = match &pair.partner {
+            ContactPartner::Plane { .. } => Some([x, y]),
+            ContactPartner::Sphere(_) => None,
         };
-        let point = centre - normal.scale(depth);
+        let point = frame.point();
         let bodies = [pair.sphere.link, pair.partner.link()].map(|link| {
             let site = self.site_of(link?);
             Some((site, point - self.pose(site).1))
@@ -89,7 +54,7 @@ impl<'g> EffortSums<'g, '_> {
         let velocity = a - b;
         let rate = normal.dot(velocity);
         ContactMotion {
-            gap,
+            gap: frame.gap,
             normal,
             along,
             rate,
@@ -129,21 +94,6 @@ impl<'g> EffortSums<'g, '_> {
         }
     }
 
-    /// Returns ∂(v_a(c) − v_b(c))/∂v for each coordinate of the links, world axes.
-    pub(super) fn columns_of_contact(&mut self, motion: &ContactMotion<'g>) -> Vec<Vec3<Expr<'g>>> {
-        let zero = Vec3([self.b.zero(); 3]);
-        let mut all = vec![zero; self.graph.coordinates.len()];
-        for (body, first) in motion.bodies.into_iter().zip([true, false]) {
-            let Some((site, lever)) = body else { continue };
-            for (sum, column) in all.iter_mut().zip(self.columns(site)) {
-                let [wx, wy, wz, vx, vy, vz] = column;
-                let own = Vec3([vx, vy, vz]) + Vec3([wx, wy, wz]).cross(lever);
-                *sum = if first { *sum + own } else { *sum - own };
-            }
-        }
-        all
-    }
-
     /// Returns the pair of the element.
     fn contact_pair(&self, element: &Element) -> ContactPair {
         let name = element.contact();
@@ -152,17 +102,6 @@ impl<'g> EffortSums<'g, '_> {
         found
             .unwrap_or_else(|| undeclared(element, "contact", name))
             .clone()
-    }
-
-    /// Returns the centre of a sphere in the world.
-    fn centre(&mut self, sphere: &ContactSphere) -> Vec3<Expr<'g>> {
-        self.place(sphere.link, sphere.centre)
-    }
-
-    /// Returns a place on a link in the world.
-    fn place(&mut self, link: Option<LinkId>, at: Vec3<Dd>) -> Vec3<Expr<'g>> {
-        let (axes, origin) = self.carried(link);
-        origin + axes * at.map(|x| self.b.constant(x))
     }
 
     /// Returns axes and origin of a link in the world.

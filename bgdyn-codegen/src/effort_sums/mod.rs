@@ -30,7 +30,7 @@ pub(crate) use attitude::angular_velocity;
 pub use contact_motion::ContactMotion;
 pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
-pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading, RigidRows};
+pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading, RigidLaw};
 
 /// The sums to which the laws of a scene's effects add.
 pub struct EffortSums<'g, 'a> {
@@ -73,7 +73,7 @@ pub struct EffortSums<'g, 'a> {
     /// Contact points and forces on spheres.
     contact_forces: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)>,
     /// Rigid contacts.
-    rigid: Vec<RigidRows<'g>>,
+    rigid: Vec<RigidLaw<'g>>,
     /// Moment and force of contacts at the origins of links, world axes.
     wrenches: BTreeMap<SiteId, [Expr<'g>; 6]>,
 }

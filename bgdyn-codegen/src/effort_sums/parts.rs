@@ -3,7 +3,6 @@
 use bgdyn_runtime::Dd;
 
 use crate::expr::Expr;
-use crate::math::Vec3;
 
 /// The port of an effort: a displacement s(q), its rate, and the transformers ∂s/∂q_j.
 #[derive(Clone, Debug)]
@@ -133,23 +132,15 @@ pub enum ActuatorEfforts {
     Each,
 }
 
-/// A rigid contact: its state and the rows of its Jacobian, along (x, y, normal).
-#[derive(Clone, Debug)]
-pub struct RigidRows<'g> {
+/// The law of a rigid contact.
+#[derive(Clone, Copy, Debug)]
+pub struct RigidLaw<'g> {
     /// The index of its element.
     pub element: usize,
-    /// g, m.
-    pub gap: Expr<'g>,
-    /// γ, m/s.
-    pub velocity: [Expr<'g>; 3],
+    /// The index of its contact among those of the mechanism.
+    pub contact: usize,
     /// μ
     pub friction: Expr<'g>,
     /// e
     pub restitution: Expr<'g>,
-    /// The contact point, world axes.
-    pub point: Vec3<Expr<'g>>,
-    /// The directions x, y and normal, world axes.
-    pub axes: [Vec3<Expr<'g>>; 3],
-    /// ∂γ/∂v, for each coordinate of the links.
-    pub rows: [Vec<Expr<'g>>; 3],
 }

@@ -35,6 +35,7 @@ pub(crate) use actuators::solve_square;
 
 use crate::bond_graph::BondGraph;
 use crate::expr::{Graph, Signed};
+pub(crate) use contacts::PairFrame;
 pub use definition::{Formulation, Offer};
 pub(crate) use derivatives::rates_along;
 pub(crate) use joint_motion::{pose_in_joint, position_rates, unit_tangents};

@@ -56,6 +56,21 @@ impl<'g> Placement<'g> {
         placed
     }
 
+    /// Returns axes and origin of a link; those of the world for `None`.
+    pub(super) fn pose(
+        &self,
+        b: &'g Builder,
+        link: Option<LinkId>,
+    ) -> (Mat3<Expr<'g>>, Vec3<Expr<'g>>) {
+        match link {
+            Some(LinkId(i)) => (self.rotations[i], self.origins[i]),
+            None => {
+                let identity = |i, j| b.number(if i == j { 1.0 } else { 0.0 });
+                (Mat3::from_fn(identity), Vec3([b.zero(); 3]))
+            }
+        }
+    }
+
     /// Returns the columns of the motion subspace of link i's joint in fixed axes, at the link's origin.
     pub(super) fn columns(
         &self,

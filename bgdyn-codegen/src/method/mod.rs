@@ -393,7 +393,7 @@ impl Method {
             Method::MassMatrixRate => Shape::Symmetric,
             Method::Scene(
                 SceneFunction::Energy
-                | SceneFunction::ContactStates
+                | SceneFunction::RigidContactStates
                 | SceneFunction::Inverse
                 | SceneFunction::Inputs
                 | SceneFunction::Outputs

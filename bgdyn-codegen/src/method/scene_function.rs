@@ -14,9 +14,9 @@ pub enum SceneFunction {
     /// Slip, its acceleration, holding effort and margin of each mode.
     Contacts,
     /// Gap, velocity, friction and restitution of each rigid contact.
-    ContactStates,
+    RigidContactStates,
     /// The Jacobian of each rigid contact, and M⁻¹ Jᵀ.
-    ContactMaps,
+    RigidContactMaps,
     /// Power supplied, stored and dissipated by each effect.
     Power,
     /// Energy stored by each effect.
@@ -48,8 +48,8 @@ impl SceneFunction {
         SceneFunction::Inputs,
         SceneFunction::Events,
         SceneFunction::Contacts,
-        SceneFunction::ContactStates,
-        SceneFunction::ContactMaps,
+        SceneFunction::RigidContactStates,
+        SceneFunction::RigidContactMaps,
         SceneFunction::Power,
         SceneFunction::Energy,
         SceneFunction::Outputs,
@@ -77,8 +77,8 @@ impl SceneFunction {
             SceneFunction::Inputs => "input",
             SceneFunction::Events => "events",
             SceneFunction::Contacts => "contacts",
-            SceneFunction::ContactStates => "contact_states",
-            SceneFunction::ContactMaps => "contact_maps",
+            SceneFunction::RigidContactStates => "rigid_contact_states",
+            SceneFunction::RigidContactMaps => "rigid_contact_maps",
             SceneFunction::Power => "power",
             SceneFunction::Energy => "energy",
             SceneFunction::Outputs => "output",
@@ -108,10 +108,10 @@ impl SceneFunction {
             SceneFunction::Contacts => {
                 "For each mode: slip, its acceleration, the effort that holds, the most that can hold."
             }
-            SceneFunction::ContactStates => {
+            SceneFunction::RigidContactStates => {
                 "For each rigid contact: gap, velocity along x, y and normal, coefficient of friction, restitution."
             }
-            SceneFunction::ContactMaps => {
+            SceneFunction::RigidContactMaps => {
                 "For each rigid contact: the rows of its Jacobian along x, y and normal, and the columns of M⁻¹ Jᵀ."
             }
             SceneFunction::Power => {

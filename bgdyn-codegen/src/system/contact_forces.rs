@@ -2,7 +2,7 @@
 
 use super::SceneEquations;
 use crate::function::Function;
-use crate::method::SceneFunction;
+use crate::method::{ContactMethod, SceneFunction};
 
 impl SceneEquations {
     /// Returns the elements with a compliant law at a contact, and a function with six numbers for each: the contact
@@ -27,20 +27,17 @@ impl SceneEquations {
         Some((names, function))
     }
 
-    /// Returns a function with twelve numbers for each rigid contact: the contact point, m, and the directions x, y and
-    /// normal in which its impulses are, world axes. `None` without rigid contacts.
-    pub fn rigid_contact_places(&self) -> Option<Function> {
+    /// Returns a function with the frame of each rigid contact, twelve numbers: the rotation row by row, whose columns are the
+    /// directions x, y and normal in which its impulses are, and the contact point, m. `None` without rigid contacts.
+    pub fn rigid_contact_frames(&self) -> Option<Function> {
         if self.scene.layout.rigid_contacts.is_empty() {
             return None;
         }
         Some(self.one(SceneFunction::Outputs, |system, b| {
             let sums = system.effort_sums(b);
-            let contacts = sums.rigid_contacts().iter();
-            contacts
-                .flat_map(|contact| {
-                    let [x, y, normal] = contact.axes;
-                    [contact.point.0, x.0, y.0, normal.0].concat()
-                })
+            let frames = sums.of_contacts(ContactMethod::Frames);
+            let laws = sums.rigid_contacts().iter();
+            laws.flat_map(|law| frames[12 * law.contact..][..12].to_vec())
                 .collect()
         }))
     }

@@ -35,7 +35,7 @@ use crate::bond_graph::{self, BondGraph, BondNetwork};
 use crate::choice::GraphMethods;
 use crate::effect;
 pub use crate::effort_sums::{
-    ActuatorEfforts, Balance, Contact, EffortSums, Hold, LossyGear, Port, Reading, RigidRows,
+    ActuatorEfforts, Balance, Contact, EffortSums, Hold, LossyGear, Port, Reading, RigidLaw,
 };
 use crate::expr::Builder;
 use crate::fault::Faults;
@@ -186,7 +186,7 @@ impl SceneEquations {
             SceneFunction::Inputs => !layout.inputs.is_empty(),
             SceneFunction::Events => !layout.events.is_empty(),
             SceneFunction::Contacts => !layout.modes.is_empty(),
-            SceneFunction::ContactStates | SceneFunction::ContactMaps => {
+            SceneFunction::RigidContactStates | SceneFunction::RigidContactMaps => {
                 !layout.rigid_contacts.is_empty()
             }
             SceneFunction::Outputs => !self.outputs.is_empty(),
@@ -241,8 +241,8 @@ impl SceneEquations {
             SceneFunction::Inputs => vec![self.one(role, signals::inputs)],
             SceneFunction::Events => vec![self.one(role, events::events)],
             SceneFunction::Contacts => vec![self.one(role, holds::contacts)],
-            SceneFunction::ContactStates => vec![self.one(role, rigid_contacts::states)],
-            SceneFunction::ContactMaps => vec![self.one(role, rigid_contacts::maps)],
+            SceneFunction::RigidContactStates => vec![self.one(role, rigid_contacts::states)],
+            SceneFunction::RigidContactMaps => vec![self.one(role, rigid_contacts::maps)],
             SceneFunction::Power => vec![self.one(role, balance::power)],
             SceneFunction::Energy => vec![self.one(role, balance::energy)],
             SceneFunction::Outputs => vec![self.one(role, |system, b| {

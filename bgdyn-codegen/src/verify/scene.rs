@@ -95,12 +95,12 @@ impl CheckedScene<'_> {
                 self.compare(function, law, (&found[..rates.len()], &rates), 0.0, at)
             }
             SceneFunction::ClosingStep => self.closing_step(function, at),
-            SceneFunction::ContactStates => {
+            SceneFunction::RigidContactStates => {
                 let (normal, rate) = rigid_contacts::gap_rates(function, self.system, at);
                 let law = ("γ_n = rate of the gap", EXACT);
                 self.compare(function, law, (&normal, &rate), 0.0, at)
             }
-            SceneFunction::ContactMaps => self.contact_maps(function, at, &found),
+            SceneFunction::RigidContactMaps => self.rigid_contact_maps(function, at, &found),
         }
     }
 
@@ -192,13 +192,13 @@ impl CheckedScene<'_> {
     }
 
     /// Checks the rows of J against velocities, and the columns of M⁻¹ Jᵀ against the literal sum.
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         function: &Function,
         at: &Inputs<Dd>,
         maps: &[Dd],
     ) -> Option<Difference> {
-        let states = self.function(SceneFunction::ContactStates)?;
+        let states = self.function(SceneFunction::RigidContactStates)?;
         let (by_rows, velocities) = rigid_contacts::relative_velocities(states, maps, at);
         let law = ("J v = γ(v) − γ(0)", EXACT);
         let differs = self.compare(function, law, (&by_rows, &velocities), 0.0, at);

@@ -44,7 +44,7 @@ where
         (from, middle): (&Start<'_, Y, ContactStep<Of<Y>>>, &Middle<Y>),
         options: ContactOptions<Of<Y>>,
     ) -> Result<Self, Reason<O::Error>> {
-        let number = ode.contacts();
+        let number = ode.rigid_contacts();
         let zero = Of::<Y>::from_f64(0.0);
         let impulses = match from.before {
             Some(step) => {
@@ -108,19 +108,14 @@ where
         let mut end = known.clone();
         middle.advance(ode, &mut end)?;
         let ahead = contacts_at(ode, middle.end(), &end)?;
-        self.find_active(&ahead);
+        self.find_active(&ahead, first);
         if first {
             for (c, slow) in self.slow.iter_mut().enumerate() {
                 let approach = self.before[c].velocity[2];
                 *slow = approach.abs() <= (ahead[c].velocity[2] - approach).abs();
             }
         }
-        let mut at = [0; MOST_CONTACTS];
-        let mut n = 0;
-        for c in (0..self.number).filter(|&c| self.active[c]) {
-            at[n] = c;
-            n += 1;
-        }
+        let (at, n) = listed(&self.active);
         if n == 0 {
             return Ok(known);
         }
@@ -151,10 +146,15 @@ where
         end
     }
 
-    /// Finds the contacts whose gap would be closed at the end of the step. A contact stays active in its step.
-    fn find_active(&mut self, ahead: &Contacts<Of<Y>>) {
-        for (active, contact) in self.active.iter_mut().zip(&ahead[..self.number]) {
-            *active = *active || contact.gap <= Of::<Y>::from_f64(0.0);
+    /// Finds the contacts whose gap would be closed at the end of the step. A contact stays active in its step; one that
+    /// is found later begins without an impulse, as `ahead` is without it.
+    fn find_active(&mut self, ahead: &Contacts<Of<Y>>, first: bool) {
+        let zero = Of::<Y>::from_f64(0.0);
+        for c in (0..self.number).filter(|&c| ahead[c].gap <= zero) {
+            if !first && !self.active[c] {
+                self.impulses[c] = [zero; 3];
+            }
+            self.active[c] = true;
         }
     }
 
@@ -173,7 +173,7 @@ where
         ode: &O,
         middle: &Middle<Y>,
     ) -> Result<(), Reason<O::Error>> {
-        ode.contact_maps(middle.t, &middle.y, &mut self.maps[..self.number])
+        ode.rigid_contact_maps(middle.t, &middle.y, &mut self.maps[..self.number])
             .map_err(Reason::Singular)?;
         for column in self
             .maps
@@ -194,26 +194,16 @@ where
         at: &[usize],
     ) {
         let zero = Of::<Y>::from_f64(0.0);
-        let mut delassus = [[[[zero; 3]; 3]; K]; K];
+        let delassus = self.delassus::<K>(middle.positions, at);
         let mut velocities = [[zero; 3]; K];
         let (mut friction, mut active) = ([zero; K], [false; K]);
         let mut impulses = [[zero; 3]; K];
         for (i, &c) in at.iter().enumerate() {
-            let (now, before) = (&ahead[c], &self.before[c]);
-            velocities[i] = now.velocity;
+            velocities[i] = ahead[c].velocity;
             velocities[i][2] = velocities[i][2] + self.returned(c, middle.h);
-            (friction[i], active[i]) = (before.friction, true);
+            (friction[i], active[i]) = (self.before[c].friction, true);
             impulses[i] = self.impulses[c];
-            for (j, &d) in at.iter().enumerate() {
-                if let (Some(map), Some(other)) = (&self.maps[c], &self.maps[d]) {
-                    delassus[i][j] = core::array::from_fn(|k| {
-                        let row = &map.rows[k];
-                        core::array::from_fn(|l| dot(middle.positions, row, &other.columns[l]))
-                    });
-                }
-            }
         }
-        symmetrise(&mut delassus);
         if !first {
             for (c, velocity) in velocities.iter_mut().enumerate() {
                 for (d, p) in impulses.iter().enumerate() {
@@ -235,6 +225,32 @@ where
         for (&c, p) in at.iter().zip(impulses) {
             self.impulses[c] = p;
         }
+    }
+
+    /// Returns the symmetric part of G = J B⁻¹ M⁻¹ Jᵀ for the contacts `at`: B has a small other one, due to gyroscopic terms.
+    pub(super) fn delassus<const K: usize>(
+        &self,
+        positions: usize,
+        at: &[usize],
+    ) -> [[[[Of<Y>; 3]; 3]; K]; K] {
+        let zero = Of::<Y>::from_f64(0.0);
+        let half = Of::<Y>::from_f64(0.5);
+        let mut all = [[[[zero; 3]; 3]; K]; K];
+        for (i, &c) in at.iter().enumerate() {
+            for (j, &d) in at.iter().enumerate() {
+                let (Some(map), Some(other)) = (&self.maps[c], &self.maps[d]) else {
+                    continue;
+                };
+                for (k, row) in map.rows.iter().enumerate() {
+                    for (l, column) in other.columns.iter().enumerate() {
+                        let part = half * dot(positions, row, column);
+                        all[i][j][k][l] = all[i][j][k][l] + part;
+                        all[j][i][l][k] = all[j][i][l][k] + part;
+                    }
+                }
+            }
+        }
+        all
     }
 
     /// Returns impulses and losses, with the velocities at the end.
@@ -262,19 +278,14 @@ where
     }
 }
 
-/// Replaces G by its symmetric part: B has a small other one, due to gyroscopic terms.
-fn symmetrise<T: Real, const K: usize>(delassus: &mut [[[[T; 3]; 3]; K]; K]) {
-    let half = T::from_f64(0.5);
-    let all = *delassus;
-    for (c, row) in delassus.iter_mut().enumerate() {
-        for (d, block) in row.iter_mut().enumerate() {
-            for (i, row) in block.iter_mut().enumerate() {
-                for (j, entry) in row.iter_mut().enumerate() {
-                    *entry = half * (all[c][d][i][j] + all[d][c][j][i]);
-                }
-            }
-        }
+/// Returns the marked contacts, first ones in the list, and their number.
+pub(super) fn listed(marked: &[bool; MOST_CONTACTS]) -> ([usize; MOST_CONTACTS], usize) {
+    let (mut list, mut n) = ([0; MOST_CONTACTS], 0);
+    for c in (0..MOST_CONTACTS).filter(|&c| marked[c]) {
+        list[n] = c;
+        n += 1;
     }
+    (list, n)
 }
 
 /// Returns the scalar product of the velocities of two states.
@@ -298,9 +309,9 @@ pub(super) fn contacts_at<O: Ode>(
         friction: zero,
         restitution: zero,
     }; MOST_CONTACTS];
-    let number = ode.contacts();
+    let number = ode.rigid_contacts();
     if number > 0 {
-        ode.contact_states(t, y, &mut contacts[..number])
+        ode.rigid_contact_states(t, y, &mut contacts[..number])
             .map_err(Reason::Singular)?;
     }
     Ok(contacts)

@@ -6,7 +6,7 @@
 
 use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 
-use super::impulses::{Contacts, Impulses, contacts_at};
+use super::impulses::{Contacts, Impulses, contacts_at, listed};
 use super::middle::moved;
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::contact_step::ContactStep;
@@ -25,7 +25,7 @@ pub(super) fn lifted<O: Ode>(
 where
     Of<O::State>: Real,
 {
-    let number = ode.contacts();
+    let number = ode.rigid_contacts();
     if number == 0 {
         return Ok(());
     }
@@ -41,8 +41,15 @@ where
     };
     let resting: [bool; MOST_CONTACTS] = core::array::from_fn(|c| c < number && rests(c));
     if deepest(&contacts, &resting) > negligible {
-        let gaps = contacts.map(|contact| contact.gap);
-        shift(ode, t, end, &resting, &gaps, impulses)?;
+        let (at, n) = listed(&resting);
+        let given = (impulses, &contacts, &at[..n]);
+        match n {
+            1 => shift::<O, 1>(ode, t, end, given)?,
+            2..=4 => shift::<O, 4>(ode, t, end, given)?,
+            5..=8 => shift::<O, 8>(ode, t, end, given)?,
+            9..=16 => shift::<O, 16>(ode, t, end, given)?,
+            _ => shift::<O, MOST_CONTACTS>(ode, t, end, given)?,
+        }
         contacts = contacts_at(ode, t, end)?;
     }
     step.depth = deepest(&contacts, &[true; MOST_CONTACTS]);
@@ -57,55 +64,40 @@ fn deepest<T: Real>(contacts: &Contacts<T>, among: &[bool; MOST_CONTACTS]) -> T 
     })
 }
 
-/// Moves the positions so that the gaps of these contacts are 0 or more.
-fn shift<O: Ode>(
+/// What moves positions: the maps, the contacts, and the list of those that overlap.
+type Overlaps<'a, Y> = (&'a Impulses<Y>, &'a Contacts<Of<Y>>, &'a [usize]);
+
+/// Moves the positions so that the gaps of these contacts, at most K, are 0 or more: contacts without friction, with gaps in
+/// place of velocities.
+fn shift<O: Ode, const K: usize>(
     ode: &O,
     t: Of<O::State>,
     end: &mut O::State,
-    resting: &[bool; MOST_CONTACTS],
-    gaps: &[Of<O::State>; MOST_CONTACTS],
-    impulses: &Impulses<O::State>,
+    (impulses, contacts, at): Overlaps<'_, O::State>,
 ) -> Result<(), Reason<O::Error>>
 where
     Of<O::State>: Real,
 {
     let zero = Of::<O::State>::from_f64(0.0);
-    let mut delassus = [[[[zero; 3]; 3]; MOST_CONTACTS]; MOST_CONTACTS];
     let positions = ode.positions();
-    for (c, map) in impulses
-        .maps
-        .iter()
-        .enumerate()
-        .filter(|&(c, _)| resting[c])
-    {
-        for (d, other) in impulses
-            .maps
-            .iter()
-            .enumerate()
-            .filter(|&(d, _)| resting[d])
-        {
-            let (Some(map), Some(other)) = (map, other) else {
-                continue;
-            };
-            let pairs = map.rows[2].entries().iter().zip(other.columns[2].entries());
-            let pairs = pairs.skip(positions);
-            delassus[c][d][2][2] = pairs.fold(zero, |sum, (&a, &b)| sum + a * b);
-        }
+    let (mut gaps, mut active) = ([[zero; 3]; K], [false; K]);
+    for (i, &c) in at.iter().enumerate() {
+        (gaps[i][2], active[i]) = (contacts[c].gap, true);
     }
-    let mut lambda = [[zero; 3]; MOST_CONTACTS];
+    let mut lambda = [[zero; 3]; K];
     let problem = ContactProblem {
-        delassus: &delassus,
-        velocities: &gaps.map(|gap| [zero, zero, gap]),
-        friction: &[zero; MOST_CONTACTS],
-        active: resting,
+        delassus: &impulses.delassus::<K>(positions, at),
+        velocities: &gaps,
+        friction: &[zero; K],
+        active: &active,
     };
     solve(&problem, &ContactOptions::default(), &mut lambda);
     let mut change = end.clone();
     for x in &mut change.entries_mut()[positions..] {
         *x = zero;
     }
-    for (map, lambda) in impulses.maps.iter().zip(&lambda) {
-        if let Some(map) = map.as_ref().filter(|_| lambda[2] != zero) {
+    for (&c, lambda) in at.iter().zip(&lambda) {
+        if let Some(map) = &impulses.maps[c] {
             change.add(lambda[2], &map.columns[2]);
         }
     }

@@ -7,6 +7,9 @@ use crate::lu::{factor, solve};
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
+/// So many ε of the largest velocity are neglected.
+pub(super) const NEGLIGIBLE: f64 = 256.0;
+
 /// The middle of a step. Components that are not positions are called velocities here; first-order states are among them.
 pub(super) struct Middle<Y: StateVector> {
     /// t + h/2
@@ -125,7 +128,7 @@ where
         self.t + self.h * Of::<Y>::from_f64(0.5)
     }
 
-    /// Returns the change of velocities in units of what is neglected.
+    /// Returns the largest change of a velocity in units of what is neglected: of 256 ε of the largest velocity.
     pub(super) fn change(&self, next: &Y, end: &Y, free: &Y) -> f64 {
         let (mut change, mut size) = (0.0_f64, f64::MIN_POSITIVE);
         for i in self.positions..next.entries().len() {
@@ -137,7 +140,7 @@ where
                 return f64::INFINITY;
             }
         }
-        change / (size * 256.0 * Of::<Y>::EPSILON.to_f64())
+        change / (size * NEGLIGIBLE * Of::<Y>::EPSILON.to_f64())
     }
 
     /// Moves the positions of the middle to the end of the step, with the velocities there.

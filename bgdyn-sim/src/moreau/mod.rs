@@ -24,7 +24,8 @@ use crate::real::{Of, Real};
 ///
 /// where the impulses p are the solution of Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's
 /// law of restitution and γ_t⁺, at the end of the step. J and M are those in the middle. A contact that approaches by less
-/// than forces add in a step does not bounce. A contact is active if its gap would be closed at the end of the step without impulses.
+/// than forces add in a step does not bounce. A contact is active if its gap would be closed at the end of the step without
+/// impulses.
 /// Where a closed contact overlaps afterwards, the positions are put right in the metric of M, without a spring.
 ///
 /// Order 2 between impacts, order 1 with impacts: an impact is anywhere within its step. Without contacts it is a symmetric
@@ -56,9 +57,8 @@ impl<T: Real> Default for Moreau<T> {
 }
 
 /// So many changes that do not fall any more end the iteration: impulses of redundant contacts have rounding errors of
-/// their own, which levers and small inertias multiply. They may be this many times as large as those of the velocities.
+/// their own, which levers and small inertias multiply. They may be up to √ε of the velocities.
 const STALLS: usize = 2;
-const ROUGH: f64 = 1e5;
 
 /// Changes that fall by less than this factor are reason for Newton's method.
 const SLOW: f64 = 0.25;
@@ -104,6 +104,8 @@ where
         let mut impulses = Impulses::new(ode, (from, &middle), self.options)?;
         let mut end = middle.y.clone();
         let (mut before, mut stalls) = (f64::INFINITY, 0);
+        let rough =
+            Of::<Y>::EPSILON.to_f64().sqrt() / middle::NEGLIGIBLE / Of::<Y>::EPSILON.to_f64();
         for iteration in 1.. {
             let free = middle.free(ode, &end)?;
             let next = impulses.pushed(ode, &middle, &free)?;
@@ -112,7 +114,8 @@ where
             if change > 0.5 * before {
                 stalls += 1;
             }
-            if change <= 1.0 || (stalls >= STALLS && change < ROUGH) {
+            let settled = stalls >= STALLS && change < rough;
+            if change <= 1.0 || settled {
                 break;
             }
             if iteration == MOST_ITERATIONS {

@@ -183,7 +183,7 @@ where
     }
 
     /// The impulses and losses of the rigid contacts in the last step, of a method that solves for them.
-    pub fn contacts(&self) -> Option<&ContactStep<Time<P>>> {
+    pub fn contact_step(&self) -> Option<&ContactStep<Time<P>>> {
         self.contacts.as_ref()
     }
 

@@ -20,7 +20,7 @@ fn ran(sphere: Sphere, y: Y, end: f64, steps: usize) -> Run<Sphere, Moreau<f64>>
     let mut run = run(sphere, y);
     for _ in 0..steps {
         run.step(end / steps as f64).expect("it goes on");
-        assert!(run.contacts().expect("steps of contacts").solved);
+        assert!(run.contact_step().expect("steps of contacts").solved);
     }
     run
 }
@@ -52,7 +52,7 @@ fn a_ball_bounces_and_comes_to_rest() {
 
     let rests = first * (1.0 + e) / (1.0 - e);
     let mut run = ran(ball(), ball().at(height, [0.0; 3]), 1.2 * rests, 20_000);
-    let (y, depth) = (*run.y(), run.contacts().expect("contacts").depth);
+    let (y, depth) = (*run.y(), run.contact_step().expect("contacts").depth);
     assert!(y[8].abs() < 1e-12 && depth < 1e-13, "{y} {depth}");
     for _ in 0..100_000 {
         run.step(1e-3).expect("it rests");

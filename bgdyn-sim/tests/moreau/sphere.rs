@@ -88,15 +88,15 @@ impl Plant for Sphere {
         6
     }
 
-    fn contacts(&self) -> usize {
+    fn rigid_contacts(&self) -> usize {
         1
     }
 
-    fn contact_entry(&self, _: usize) -> usize {
+    fn rigid_contact_entry(&self, _: usize) -> usize {
         2
     }
 
-    fn contact_states(
+    fn rigid_contact_states(
         &self,
         _: f64,
         y: &Y,
@@ -114,7 +114,7 @@ impl Plant for Sphere {
         Ok(())
     }
 
-    fn contact_maps(
+    fn rigid_contact_maps(
         &self,
         _: f64,
         _: &Y,

@@ -112,7 +112,7 @@ impl SceneCall<'_> {
             SceneFunction::Inputs => names.inputs.clone(),
             SceneFunction::Events => parts(&layout.events),
             SceneFunction::Contacts => parts(&layout.modes),
-            SceneFunction::ContactStates | SceneFunction::ContactMaps => {
+            SceneFunction::RigidContactStates | SceneFunction::RigidContactMaps => {
                 layout.rigid_contacts.clone()
             }
             SceneFunction::Power | SceneFunction::Energy => named(&self.system.entries),
@@ -242,8 +242,8 @@ impl SceneCall<'_> {
             }
             SceneFunction::Power => rows(3),
             SceneFunction::Contacts => rows(4),
-            SceneFunction::ContactStates => rows(6),
-            SceneFunction::ContactMaps => rows(6 * self.system.scene.layout.nv()),
+            SceneFunction::RigidContactStates => rows(6),
+            SceneFunction::RigidContactMaps => rows(6 * self.system.scene.layout.nv()),
             SceneFunction::Jacobian => self.jacobian(values),
             SceneFunction::InputJacobian => self.input_jacobian(values),
             _ => json!(values),

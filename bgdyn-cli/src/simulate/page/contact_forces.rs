@@ -21,7 +21,7 @@ pub(super) struct ContactForces {
 /// Returns the forces at these rows; `None` without contacts.
 pub(super) fn forces(system: &SceneEquations, rows: &[&Row]) -> Option<ContactForces> {
     let compliant = system.contact_forces();
-    let rigid = system.rigid_contact_places();
+    let rigid = system.rigid_contact_frames();
     if compliant.is_none() && rigid.is_none() {
         return None;
     }
@@ -42,18 +42,18 @@ pub(super) fn forces(system: &SceneEquations, rows: &[&Row]) -> Option<ContactFo
         all.names.extend(system.scene.layout.rigid_contacts.clone());
         let values = values(system, &function, rows);
         for ((forces, values), row) in all.rows.iter_mut().zip(values).zip(rows) {
-            let places = values.as_chunks::<12>().0.iter();
-            forces.extend(places.zip(&row.contacts).map(in_world));
+            let frames = values.as_chunks::<12>().0.iter();
+            forces.extend(frames.zip(&row.contacts).map(in_world));
         }
     }
     Some(all)
 }
 
-/// Returns a force in world axes, from the contact point and axes of its contact and its components there.
-fn in_world((place, force): (&[f64; 12], &[f64; 3])) -> PlacedForce {
-    let (parts, _) = place.as_chunks::<3>();
-    let component = |i: usize| (0..3).map(|k| parts[k + 1][i] * force[k]).sum();
-    (parts[0], [0, 1, 2].map(component))
+/// Returns a force in world axes, from the frame of its contact and its components there.
+fn in_world((frame, force): (&[f64; 12], &[f64; 3])) -> PlacedForce {
+    let (rows, _) = frame.as_chunks::<3>();
+    let component = |i: usize| (0..3).map(|k| rows[i][k] * force[k]).sum();
+    (rows[3], [0, 1, 2].map(component))
 }
 
 /// Returns the results of a function at the rows.

@@ -83,10 +83,10 @@ fn documentation(function: &Function, style: &Style) -> Vec<String> {
 fn result_order(role: SceneFunction) -> Option<&'static str> {
     Some(match role {
         SceneFunction::Contacts => "Result: for each mode slip, its rate, holding effort, margin.",
-        SceneFunction::ContactStates => {
+        SceneFunction::RigidContactStates => {
             "Result: for each rigid contact its gap, velocity along x, y, normal, friction, restitution."
         }
-        SceneFunction::ContactMaps => {
+        SceneFunction::RigidContactMaps => {
             "Result: for each rigid contact the three rows of its Jacobian, then the three columns of M^-1 J^T."
         }
         SceneFunction::Power => {

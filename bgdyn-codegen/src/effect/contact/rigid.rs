@@ -72,10 +72,9 @@ impl Effect for RigidContact {
     }
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
-        let motion = sums.contact_motion(element);
         let [friction, restitution] = [&FRICTION, &RESTITUTION]
             .map(|key| sums.optional(element, key).unwrap_or(sums.b.zero()));
-        sums.touch(&motion, friction, restitution);
+        let (gap, [x, y, _]) = sums.touch(element, friction, restitution);
         let mut add = |end: &str, value, unit, about: &str| {
             sums.reading(
                 format!("{}_{end}", element.name),
@@ -84,10 +83,10 @@ impl Effect for RigidContact {
                 about.to_owned(),
             );
         };
-        add("gap", motion.gap, "m", "distance of the surfaces");
+        add("gap", gap, "m", "distance of the surfaces");
         add(
             "slip",
-            motion.slip.dot(motion.slip).sqrt(),
+            (x * x + y * y).sqrt(),
             "m/s",
             "speed along the plane of contact",
         );

@@ -33,8 +33,8 @@ fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<
         | SceneFunction::ToCanonical
         | SceneFunction::FromCanonical
         | SceneFunction::CanonicalRates
-        | SceneFunction::ContactStates
-        | SceneFunction::ContactMaps
+        | SceneFunction::RigidContactStates
+        | SceneFunction::RigidContactMaps
         | SceneFunction::PositionRates
         | SceneFunction::ClosingStep => ("", vec![]),
     }
@@ -87,8 +87,8 @@ pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStr
     let types = arguments.iter().map(|a| argument_type(*a));
     let result = match role {
         SceneFunction::Events => quote! { __na::SVector<T, NE> },
-        SceneFunction::ContactStates => rigid_contacts::states_type(&scene.layout),
-        SceneFunction::ContactMaps => rigid_contacts::maps_type(&scene.layout),
+        SceneFunction::RigidContactStates => rigid_contacts::states_type(&scene.layout),
+        SceneFunction::RigidContactMaps => rigid_contacts::maps_type(&scene.layout),
         SceneFunction::PositionRates | SceneFunction::ClosingStep => {
             quote! { __na::SVector<T, NQ> }
         }
@@ -179,8 +179,8 @@ fn finish(
             let all: Vec<TokenStream> = values.chunks(3).map(one).collect();
             ok(literal("Power", parts, &all))
         }
-        SceneFunction::ContactStates => rigid_contacts::states(values),
-        SceneFunction::ContactMaps => ok(rigid_contacts::maps(layout, values)),
+        SceneFunction::RigidContactStates => rigid_contacts::states(values),
+        SceneFunction::RigidContactMaps => ok(rigid_contacts::maps(layout, values)),
         SceneFunction::Inverse => ok(literal("Coordinates", parts, values)),
         SceneFunction::Inputs => ok(literal("Input", parts, values)),
         SceneFunction::Energy => ok(literal("Energy", parts, values)),

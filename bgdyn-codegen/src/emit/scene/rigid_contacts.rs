@@ -67,7 +67,7 @@ pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
     quote! {
         fn rigid_contact_names(&self) -> &'static [&'static str] { &[#(#names),*] }
         fn rigid_contact_entries(&self) -> &'static [usize] { &[#(#entries),*] }
-        fn contact_states(
+        fn rigid_contact_states(
             &self,
             y: &__na::SVector<T, N>,
             input: &__na::SVector<T, NU>,
@@ -75,12 +75,12 @@ pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
             contacts: &mut [__rt::RigidContact<T>],
         ) {
             let state = State::from_vectors(y, &State::<T>::default().modes());
-            let all = self.contact_states(&state, &Input::from_vector(input), t);
+            let all = self.rigid_contact_states(&state, &Input::from_vector(input), t);
             for (to, from) in contacts.iter_mut().zip(all) {
                 *to = from;
             }
         }
-        fn contact_maps(
+        fn rigid_contact_maps(
             &self,
             y: &__na::SVector<T, N>,
             input: &__na::SVector<T, NU>,
@@ -88,7 +88,7 @@ pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
             maps: &mut [::core::option::Option<__rt::ContactMap<__na::SVector<T, N>>>],
         ) -> ::core::result::Result<(), Self::Singular> {
             let state = State::from_vectors(y, &State::<T>::default().modes());
-            let all = self.contact_maps(&state, &Input::from_vector(input), t)?;
+            let all = self.rigid_contact_maps(&state, &Input::from_vector(input), t)?;
             for (to, from) in maps.iter_mut().zip(all) {
                 *to = ::core::option::Option::Some(from);
             }

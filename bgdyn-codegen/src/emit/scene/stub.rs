@@ -26,7 +26,7 @@ pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream
     let layout = &scene.layout;
     let exists = |role: &SceneFunction| match role {
         SceneFunction::Contacts => !layout.modes.is_empty(),
-        SceneFunction::ContactStates | SceneFunction::ContactMaps => {
+        SceneFunction::RigidContactStates | SceneFunction::RigidContactMaps => {
             !layout.rigid_contacts.is_empty()
         }
         _ => true,

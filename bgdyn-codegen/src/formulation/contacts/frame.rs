@@ -4,21 +4,23 @@ use bgdyn_runtime::Dd;
 
 use super::tangents::across;
 use crate::expr::{Builder, Expr};
-use crate::formulation::placement::Placement;
 use crate::math::{Mat3, Vec3};
-use crate::mechanism::{ContactPair, ContactPartner, ContactSphere, LinkId};
+use crate::mechanism::{ContactPair, ContactPartner, LinkId};
 
 /// The least square of a distance of two centres, m²: where they meet there is no normal, and the root has a derivative
 /// even there.
 const LEAST: f64 = 1e-30;
 
+/// Axes and origin of a link.
+type LinkPose<'g> = (Mat3<Expr<'g>>, Vec3<Expr<'g>>);
+
 /// Where a pair touches.
 #[derive(Clone, Copy)]
-pub(super) struct PairFrame<'g> {
+pub(crate) struct PairFrame<'g> {
     /// The distance of the surfaces, m; negative where they overlap.
-    pub(super) gap: Expr<'g>,
+    pub(crate) gap: Expr<'g>,
     /// The directions x and y, and the unit normal from the partner to the sphere.
-    pub(super) axes: [Vec3<Expr<'g>>; 3],
+    pub(crate) axes: [Vec3<Expr<'g>>; 3],
     /// The centre of the sphere.
     pub(super) centre: Vec3<Expr<'g>>,
     /// How far the contact point is from the centre, against the normal, m.
@@ -26,30 +28,34 @@ pub(super) struct PairFrame<'g> {
 }
 
 impl<'g> PairFrame<'g> {
-    /// Returns where a pair touches. The contact point is on the line of the normal through the centre of the sphere: on the
-    /// sphere against a plane, in the middle of the gap of two spheres.
-    pub(super) fn new(b: &'g Builder, placement: &Placement<'g>, pair: &ContactPair) -> Self {
-        let centre = centre(b, placement, &pair.sphere);
+    /// Returns where a pair touches, with the axes and origins of links; those of the world for `None`. The contact point is on
+    /// the line of the normal through the centre of the sphere: on the sphere against a plane, in the middle of the gap of two
+    /// spheres.
+    pub(crate) fn new(
+        b: &'g Builder,
+        mut pose: impl FnMut(Option<LinkId>) -> LinkPose<'g>,
+        pair: &ContactPair,
+    ) -> Self {
+        let mut place = |link: Option<LinkId>, at: Vec3<Dd>| {
+            let (axes, origin) = pose(link);
+            origin + axes * b.vector(at)
+        };
+        let centre = place(pair.sphere.link, pair.sphere.centre);
         let radius = b.constant(pair.sphere.radius);
         match &pair.partner {
-            ContactPartner::Plane { link, pose } => {
-                let rotation = pose.rotation.map(|x| b.constant(x));
-                let rotation = match link {
-                    Some(LinkId(i)) => placement.rotations[*i] * rotation,
-                    None => rotation,
-                };
-                let origin = place(b, placement, *link, pose.translation);
+            ContactPartner::Plane { link, pose: plane } => {
+                let origin = place(*link, plane.translation);
+                let rotation = pose(*link).0 * plane.rotation.map(|x| b.constant(x));
                 let axes = [0, 1, 2].map(|k| rotation.column(k));
-                let normal = axes[2];
                 PairFrame {
-                    gap: normal.dot(centre - origin) - radius,
+                    gap: axes[2].dot(centre - origin) - radius,
                     axes,
                     centre,
                     depth: radius,
                 }
             }
             ContactPartner::Sphere(other) => {
-                let apart = centre - self::centre(b, placement, other);
+                let apart = centre - place(other.link, other.centre);
                 let distance = apart.dot(apart).max(b.number(LEAST)).sqrt();
                 let normal = apart.scale(b.number(1.0) / distance);
                 let gap = distance - b.constant(pair.sphere.radius + other.radius);
@@ -62,6 +68,11 @@ impl<'g> PairFrame<'g> {
                 }
             }
         }
+    }
+
+    /// Returns the contact point.
+    pub(crate) fn point(&self) -> Vec3<Expr<'g>> {
+        self.centre - self.axes[2].scale(self.depth)
     }
 
     /// Returns the velocity at the contact point along x, y and n, of a body that turns with ω and whose point at the centre
@@ -86,26 +97,6 @@ impl<'g> PairFrame<'g> {
     pub(super) fn pose(&self) -> Vec<Expr<'g>> {
         let rotation = Mat3(self.axes.map(|axis| axis.0)).transpose();
         let rotation = rotation.0.into_iter().flatten();
-        let point = self.centre - self.axes[2].scale(self.depth);
-        rotation.chain(point.0).collect()
-    }
-}
-
-/// Returns the centre of a sphere.
-fn centre<'g>(b: &'g Builder, placement: &Placement<'g>, sphere: &ContactSphere) -> Vec3<Expr<'g>> {
-    place(b, placement, sphere.link, sphere.centre)
-}
-
-/// Returns a place on a link.
-fn place<'g>(
-    b: &'g Builder,
-    placement: &Placement<'g>,
-    link: Option<LinkId>,
-    at: Vec3<Dd>,
-) -> Vec3<Expr<'g>> {
-    let at = b.vector(at);
-    match link {
-        Some(LinkId(i)) => placement.point(i, at),
-        None => at,
+        rotation.chain(self.point().0).collect()
     }
 }

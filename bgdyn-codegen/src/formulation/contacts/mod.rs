@@ -6,7 +6,7 @@
 //! | `tangents.rs` | two directions across a unit normal |
 //! | `motion.rs` | the velocities of both links at the contact point, without the joints that carry both |
 //!
-//! Conventions are those of the contacts of scenes (`effort_sums/contact_motion.rs`).
+//! The contacts of scenes have the same frames (`effort_sums/contact_motion.rs`), rigid ones these methods.
 
 mod frame;
 mod motion;
@@ -20,7 +20,7 @@ use crate::bond_graph::{BondGraph, LinkFrame, Multibody};
 use crate::expr::{Builder, Expr};
 use crate::function::Function;
 use crate::method::{ContactMethod, Method};
-use frame::PairFrame;
+pub(crate) use frame::PairFrame;
 use motion::PairMotion;
 
 /// Contacts from the poses of the links.
@@ -72,7 +72,8 @@ fn outputs<'g>(
 ) -> Option<Vec<Expr<'g>>> {
     let placement = Placement::new(b, graph, &x.q);
     let pairs = graph.contacts.iter();
-    let frames = pairs.map(|pair| (pair, PairFrame::new(b, &placement, pair)));
+    let pose = |link| placement.pose(b, link);
+    let frames = pairs.map(|pair| (pair, PairFrame::new(b, pose, pair)));
     let motions = frames
         .clone()
         .map(|(pair, frame)| PairMotion::new(b, graph, &placement, (pair, frame)));
