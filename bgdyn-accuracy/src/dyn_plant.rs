@@ -38,6 +38,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
         rest: Of<Y>,
     ) -> Result<Option<(Y, M)>, String>;
     fn next_corner(&self, t: Of<Y>) -> Option<Of<Y>>;
+    fn rigid_contacts(&self) -> usize;
     fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
 }
 
@@ -129,6 +130,10 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
 
     fn next_corner(&self, t: Of<P::State>) -> Option<Of<P::State>> {
         Plant::next_corner(self, t)
+    }
+
+    fn rigid_contacts(&self) -> usize {
+        Plant::rigid_contacts(self)
     }
 
     fn measured(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Vec<Of<P::State>> {
@@ -224,6 +229,10 @@ where
 
     fn next_corner(&self, t: Of<Y>) -> Option<Of<Y>> {
         self.0.next_corner(t)
+    }
+
+    fn rigid_contacts(&self) -> usize {
+        self.0.rigid_contacts()
     }
 
     fn nothing(&self) -> Self::Entries {

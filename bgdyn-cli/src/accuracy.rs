@@ -134,6 +134,10 @@ impl Plant for Counted {
         self.plant.jacobian(t, y, modes)
     }
 
+    fn rigid_contacts(&self) -> usize {
+        self.plant.rigid_contacts()
+    }
+
     fn positions(&self) -> usize {
         self.plant.positions()
     }

@@ -1,6 +1,6 @@
 //! Jacobians of the rates by finite differences.
 
-use bgdyn_runtime::{Scalar, StateVector};
+use bgdyn_runtime::{ContactMap, RigidContact, Scalar, StateVector};
 
 use crate::ode::{Jacobian, Ode, ScalarOf};
 use crate::real::{Of, Real};
@@ -58,6 +58,28 @@ where
 
     fn strays(&self, y: &O::State) -> bool {
         self.0.strays(y)
+    }
+
+    fn rigid_contacts(&self) -> usize {
+        self.0.rigid_contacts()
+    }
+
+    fn rigid_contact_states(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+        contacts: &mut [RigidContact<ScalarOf<O>>],
+    ) -> Result<(), O::Error> {
+        self.0.rigid_contact_states(t, y, contacts)
+    }
+
+    fn rigid_contact_maps(
+        &self,
+        t: ScalarOf<O>,
+        y: &O::State,
+        maps: &mut [Option<ContactMap<O::State>>],
+    ) -> Result<(), O::Error> {
+        self.0.rigid_contact_maps(t, y, maps)
     }
 }
 

@@ -192,7 +192,7 @@ where
     }
 }
 
-/// A scene without dry friction that can hold, in any scalar. Kinks of its laws and corners of its inputs are
+/// A scene without dry friction that can hold and without rigid contacts, in any scalar. Kinks of its laws and corners of its inputs are
 /// stepped over: there the method loses its order, and [`crate::Run`] would not.
 #[derive(Debug)]
 pub struct SmoothScene<'a, T: Lanes, S: HybridSystem<T>> {
@@ -260,6 +260,10 @@ where
         Ok(scene_positions::position_change(self.scene, y, h))
     }
 
+    fn rigid_contacts(&self) -> usize {
+        self.scene.rigid_contact_names().len()
+    }
+
     fn project(&self, y: &mut S::State) -> Result<bool, Infallible> {
         // In a lane with a loop that does not close, its positions are NaN, and the lane ends.
         Ok(scene_positions::project(self.scene, y).unwrap_or(true))
@@ -307,12 +311,17 @@ where
         Some(self.ended.lane(k)).filter(|t| t.is_finite())
     }
 
-    /// Takes a step of the length `h`, s, in all running lanes.
+    /// Takes a step of the length `h`, s, in all running lanes. Rigid contacts end them all: no explicit integrator knows
+    /// them.
     pub fn step<M, O>(&mut self, method: &M, ode: &O, h: f64)
     where
         M: Integrator<Y>,
         O: Ode<State = Y, Error = Infallible>,
     {
+        if ode.rigid_contacts() > 0 {
+            self.end(|_| true);
+            return;
+        }
         let (h, one) = (Of::<Y>::from_f64(h), Of::<Y>::from_f64(1.0));
         let start = Start {
             t: self.t,

@@ -366,6 +366,11 @@ impl<S: Canonical<T>, T: Real> Plant for CanonicalPlant<'_, S, T> {
             .canonical_rates(z, modes, &self.natural.given, t)
     }
 
+    /// Those of the scene, so that integrators refuse them: in momenta they are not known.
+    fn rigid_contacts(&self) -> usize {
+        self.natural.rigid_contacts()
+    }
+
     fn events(&self, t: T, z: &S::State, modes: &S::Modes) -> Result<S::Events, S::Singular> {
         self.natural
             .events(t, &self.to_natural(t, z, modes)?, modes)

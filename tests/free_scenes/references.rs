@@ -2,7 +2,7 @@
 
 use bgdyn::runtime::{HybridSystem, Slope};
 use bgdyn_sim::{
-    Dop853, Dopri5, Gauss2, Gauss3, HybridState, Integrator, Midpoint, Rk4, Rodas4, Run,
+    Dop853, Dopri5, Gauss2, Gauss3, HybridState, Integrator, Midpoint, Moreau, Rk4, Rodas4, Run,
     ScenePlant, SemiImplicitEuler, Tolerance,
 };
 use serde_json::Value;
@@ -73,6 +73,7 @@ fn explicit_integrators_keep_their_orders() {
 #[test]
 fn implicit_integrators_keep_their_orders() {
     has_order(Midpoint::new(), 2.0, 400);
+    has_order(Moreau::new(), 2.0, 400);
     has_order(Gauss2::new(), 4.0, 150);
     has_order(Gauss3::new(), 6.0, 40);
     has_order(Rodas4, 4.0, 300);

@@ -49,6 +49,16 @@ fn a_ball_comes_to_rest() {
     assert!(audit.drift().abs() < 1e-5 * lost, "{}", audit.drift());
 }
 
+/// Runs in lanes have explicit methods only: a scene with rigid contacts ends at once, and does not fall through the ground.
+#[test]
+fn lanes_end_where_contacts_are_rigid() {
+    let scene = Bounces::<f64>::default();
+    let ode = bgdyn_sim::lanes::SmoothScene::new(&scene);
+    let mut run = bgdyn_sim::lanes::LaneRun::new(bgdyn::runtime::HybridSystem::start(&scene).0);
+    run.step(&bgdyn_sim::Rk4, &ode, 1e-3);
+    assert_eq!(run.ended(0), Some(0.0));
+}
+
 /// Two equal balls: the normal impulse is m (1 + e) v_n/2, the tangential one the lesser of μ times that and m v_t/7.
 #[test]
 fn balls_collide_off_centre_with_spin() {

@@ -3,7 +3,7 @@
 use bgdyn::nalgebra::SVector;
 use bgdyn::runtime::{HybridSystem, StateVector as _};
 use bgdyn_sim::{
-    Dop853, Gauss2, Integrator, Rk4, Rodas4, Run, ScenePlant, SemiImplicitEuler, Tolerance,
+    Dop853, Gauss2, Integrator, Moreau, Rk4, Rodas4, Run, ScenePlant, SemiImplicitEuler, Tolerance,
 };
 
 use crate::bicycle_run::{self, BicycleRun};
@@ -144,6 +144,7 @@ fn methods_keep_their_order_on_a_blade() {
     }
     let orders = [
         ("semi_implicit_euler", 1.0, order(&SemiImplicitEuler, 8e-3)),
+        ("moreau", 2.0, order(&Moreau::default(), 16e-3)),
         ("rk4", 4.0, order(&Rk4, 64e-3)),
         ("gauss2", 4.0, order(&Gauss2::default(), 64e-3)),
         ("rodas4", 4.0, order(&Rodas4, 32e-3)),

@@ -13,12 +13,8 @@ root=$(cd "$here/../../.." && pwd)
 export PEERS_DIR=${PEERS_DIR:-$root/target/peers}
 mkdir -p "$PEERS_DIR/bin"
 PEERS_DIR=$(cd "$PEERS_DIR" && pwd)
-venv=$PEERS_DIR/contact_venv
-if [ ! -e "$venv/installed" ]; then
-  python3 -m venv "$venv"
-  "$venv/bin/pip" install -q mujoco==4.0.0 drake==1.51.1
-  touch "$venv/installed"
-fi
+. "$here/../venv.sh"
+venv contact mujoco==4.0.0 drake==1.51.1
 . "$here/../cargo.sh"
 cargo_release "-C target-cpu=native" -p peers_contact -p peers_plots
 cp "$PEERS_DIR/rust/$host/release"/{contact,plots} "$PEERS_DIR/bin/"

@@ -12,12 +12,8 @@ root=$(cd "$here/../../.." && pwd)
 export PEERS_DIR=${PEERS_DIR:-$root/target/peers}
 mkdir -p "$PEERS_DIR/bin"
 PEERS_DIR=$(cd "$PEERS_DIR" && pwd)
-venv=$PEERS_DIR/loops_venv
-if [ ! -e "$venv/installed" ]; then
-  python3 -m venv "$venv"
-  "$venv/bin/pip" install -q pin==4.1.0 mujoco==4.0.0 drake==1.51.1 numpy
-  touch "$venv/installed"
-fi
+. "$here/../venv.sh"
+venv loops pin==4.1.0 mujoco==4.0.0 drake==1.51.1 numpy
 # The generator runs while compiling, so it need not be fast itself.
 RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$root/Cargo.toml" --target-dir "$PEERS_DIR/rust" \
   --config 'profile.release.package.bgdyn-codegen.opt-level=1' -p peers_loops -p peers_plots

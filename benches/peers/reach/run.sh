@@ -10,12 +10,8 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../../.." && pwd)
 peers=${PEERS_DIR:-$root/target/peers}
 mkdir -p "$peers"
-venv=$peers/reach_venv
-if [ ! -e "$venv/installed" ]; then
-  python3 -m venv "$venv"
-  "$venv/bin/pip" install -q crocoddyl==3.2.1 pin==4.0.0 numpy
-  touch "$venv/installed"
-fi
+. "$here/../venv.sh"
+PEERS_DIR=$peers venv reach crocoddyl==3.2.1 pin==4.0.0 numpy
 RUSTFLAGS="-C target-cpu=native" cargo build --release --manifest-path "$root/Cargo.toml" --target-dir "$peers/rust" \
   -p controllers --example reach
 for _ in $(seq "${ROUNDS:-3}"); do

@@ -29,6 +29,7 @@ mod prescribed;
 mod schema;
 mod schema_scene;
 mod simulate;
+mod simulate_contacts;
 mod simulate_energy;
 mod simulate_many;
 mod simulate_page;

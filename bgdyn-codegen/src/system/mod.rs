@@ -177,8 +177,8 @@ impl SceneEquations {
         self.roles_with(false, false)
     }
 
-    /// Returns the same, with the Jacobian and the canonical form if selected. Scenes with quasi-velocities or
-    /// loops have no canonical form.
+    /// Returns the same, with the Jacobian and the canonical form if selected. Scenes with quasi-velocities, loops or rigid
+    /// contacts have no canonical form.
     pub fn roles_with(&self, jacobian: bool, canonical: bool) -> Vec<SceneFunction> {
         let layout = &self.scene.layout;
         let method = self.scene.integration.method;
@@ -200,7 +200,9 @@ impl SceneEquations {
             SceneFunction::ToCanonical
             | SceneFunction::FromCanonical
             | SceneFunction::CanonicalRates => {
-                let natural = layout.coupled().is_empty() && self.graph.released.is_none();
+                let natural = layout.coupled().is_empty()
+                    && self.graph.released.is_none()
+                    && layout.rigid_contacts.is_empty();
                 natural && (canonical || method.needs_canonical())
             }
             SceneFunction::PositionRates => layout.needs_position_rates(),

@@ -153,18 +153,33 @@ where
     }
 }
 
-/// Moves the positions of a state by its velocities, for a time.
+/// Moves the positions of a state by its velocities, for a time, with an error of its third power: half of the change from
+/// here, and half of that on the way back from there. Where the first is exact, so is the second, and they are the same; with
+/// wheels the change is that of the rates at its beginning.
 pub(super) fn moved<O: Ode>(
     ode: &O,
     t: Of<O::State>,
     y: &mut O::State,
     time: Of<O::State>,
 ) -> Result<(), Reason<O::Error>> {
-    let change = ode.position_change(t, y, time).map_err(Reason::Singular)?;
     let positions = ode.positions();
-    let all = y.entries_mut().iter_mut().zip(change.entries());
-    for (x, &change) in all.take(positions) {
+    let half = Of::<O::State>::from_f64(0.5);
+    let there = ode.position_change(t, y, time).map_err(Reason::Singular)?;
+    let mut end = y.clone();
+    for (x, &change) in end
+        .entries_mut()
+        .iter_mut()
+        .zip(there.entries())
+        .take(positions)
+    {
         *x = *x + change;
+    }
+    let back = ode
+        .position_change(t, &end, -time)
+        .map_err(Reason::Singular)?;
+    let changes = there.entries().iter().zip(back.entries());
+    for (x, (&there, &back)) in y.entries_mut().iter_mut().zip(changes).take(positions) {
+        *x = *x + half * (there - back);
     }
     Ok(())
 }

@@ -25,12 +25,11 @@ use crate::real::{Of, Real};
 /// where the impulses p are the solution of Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's
 /// law of restitution and γ_t⁺, at the end of the step. J and M are those in the middle. A contact that approaches by less
 /// than forces add in a step does not bounce. A contact is active if its gap would be closed at the end of the step without
-/// impulses.
-/// Where a closed contact overlaps afterwards, the positions are put right in the metric of M, without a spring.
+/// impulses. Where a closed contact overlaps afterwards, the positions are put right in the metric of M, without a spring.
 ///
-/// Order 2 between impacts, order 1 with impacts: an impact is anywhere within its step. Without contacts it is a symmetric
-/// method that is implicit in the velocities. Velocities are solved for by substitution; where that is slow, by Newton's
-/// method with the slopes of the rates, if these are available.
+/// Order 2 without impacts, order 1 with them, as an impact is anywhere within its step, and where contacts slip along
+/// curves. Implicit in the velocities, which are solved for by substitution; where that is slow, by Newton's method with the
+/// slopes of the rates, if these are available.
 #[derive(Clone, Copy, Debug)]
 pub struct Moreau<T> {
     /// When the search for impulses ends.
