@@ -56,6 +56,7 @@ def test_stubs_name_what_there_is() -> None:
     root = Path(__file__).parents[2]
     models = [bgdyn.load(root / "specs" / f"{name}.yaml") for name in ("scara", "loops/five_bar", "constraints/carousel")]
     models.append(bgdyn.load(root / "tests" / "numeric" / "specs" / "puma_payload.yaml"))  # run-time parameters
+    models.append(bgdyn.load(root / "specs" / "contact" / "hopper.yaml"))  # contacts
     stub = (Path(bgdyn.__file__).parent / "_bgdyn.pyi").read_text()
     part = stub[stub.index("class Model:") : stub.index("class Scene:")]
     names = set(re.findall(r"^    (?:def )?(\w+)(?:\(|: MethodOfClass)", part, re.MULTILINE)) - {"__getattr__"}
