@@ -18,8 +18,8 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     fn positions(&self) -> usize;
     fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
     fn position_change(&self, t: Of<Y>, y: &Y, modes: &M, h: Of<Y>) -> Result<Y, String>;
-    fn project(&self, y: &mut Y) -> Result<bool, String>;
-    fn project_in_two(&self, y: &mut Y, low: &mut Y) -> Result<bool, String>;
+    fn project(&self, t: Of<Y>, y: &mut Y, modes: &M) -> Result<bool, String>;
+    fn project_in_two(&self, t: Of<Y>, y: (&mut Y, &mut Y), modes: &M) -> Result<bool, String>;
     fn strays(&self, y: &Y) -> bool;
     fn events(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<E, String>;
     fn changes_mode(&self, event: usize) -> bool;
@@ -88,12 +88,17 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         with_text_error(Plant::position_change(self, t, y, modes, h))
     }
 
-    fn project(&self, y: &mut P::State) -> Result<bool, String> {
-        with_text_error(Plant::project(self, y))
+    fn project(&self, t: Of<P::State>, y: &mut P::State, modes: &P::Modes) -> Result<bool, String> {
+        with_text_error(Plant::project(self, t, y, modes))
     }
 
-    fn project_in_two(&self, y: &mut P::State, low: &mut P::State) -> Result<bool, String> {
-        with_text_error(Plant::project_in_two(self, y, low))
+    fn project_in_two(
+        &self,
+        t: Of<P::State>,
+        y: (&mut P::State, &mut P::State),
+        modes: &P::Modes,
+    ) -> Result<bool, String> {
+        with_text_error(Plant::project_in_two(self, t, y, modes))
     }
 
     fn strays(&self, y: &P::State) -> bool {
@@ -183,12 +188,12 @@ where
         self.0.position_change(t, y, modes, h)
     }
 
-    fn project(&self, y: &mut Y) -> Result<bool, String> {
-        self.0.project(y)
+    fn project(&self, t: Of<Y>, y: &mut Y, modes: &M) -> Result<bool, String> {
+        self.0.project(t, y, modes)
     }
 
-    fn project_in_two(&self, y: &mut Y, low: &mut Y) -> Result<bool, String> {
-        self.0.project_in_two(y, low)
+    fn project_in_two(&self, t: Of<Y>, y: (&mut Y, &mut Y), modes: &M) -> Result<bool, String> {
+        self.0.project_in_two(t, y, modes)
     }
 
     fn strays(&self, y: &Y) -> bool {

@@ -48,12 +48,17 @@ where
         self.0.position_change(t, y, h)
     }
 
-    fn project(&self, y: &mut O::State) -> Result<bool, O::Error> {
-        self.0.project(y)
+    fn project(&self, t: ScalarOf<O>, y: &mut O::State) -> Result<bool, O::Error> {
+        self.0.project(t, y)
     }
 
-    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> Result<bool, O::Error> {
-        self.0.project_in_two(y, low)
+    fn project_in_two(
+        &self,
+        t: ScalarOf<O>,
+        y: &mut O::State,
+        low: &mut O::State,
+    ) -> Result<bool, O::Error> {
+        self.0.project_in_two(t, y, low)
     }
 
     fn strays(&self, y: &O::State) -> bool {

@@ -264,7 +264,7 @@ where
         self.scene.rigid_contact_names().len()
     }
 
-    fn project(&self, y: &mut S::State) -> Result<bool, Infallible> {
+    fn project(&self, _: T, y: &mut S::State) -> Result<bool, Infallible> {
         // In a lane with a loop that does not close, its positions are NaN, and the lane ends.
         Ok(scene_positions::project(self.scene, y).unwrap_or(true))
     }
@@ -334,7 +334,7 @@ where
             return;
         };
         let mut y = self.y.plus(one, &step.change);
-        let Ok(_) = ode.project(&mut y);
+        let Ok(_) = ode.project(self.t + h, &mut y);
         let zero = Of::<Y>::from_f64(0.0);
         #[allow(clippy::eq_op, reason = "x − x is 0 for finite numbers only")]
         let rest = y.entries().iter().fold(zero, |sum, &x| sum + (x - x));

@@ -80,12 +80,12 @@ pub trait Ode {
         Ok(self.position_rates(t, y)?.times(h))
     }
 
-    /// Projects a state onto the manifold of valid states. Returns whether that changed it.
+    /// Projects a state at time `t` onto the manifold of valid states. Returns whether that changed it.
     ///
     /// # Errors
     /// If there is no valid state nearby: a loop does not close.
-    fn project(&self, y: &mut Self::State) -> Result<bool, Self::Error> {
-        let _ = y;
+    fn project(&self, t: ScalarOf<Self>, y: &mut Self::State) -> Result<bool, Self::Error> {
+        let _ = (t, y);
         Ok(false)
     }
 
@@ -96,11 +96,12 @@ pub trait Ode {
     /// As [`Ode::project`].
     fn project_in_two(
         &self,
+        t: ScalarOf<Self>,
         y: &mut Self::State,
         low: &mut Self::State,
     ) -> Result<bool, Self::Error> {
         let _ = low;
-        self.project(y)
+        self.project(t, y)
     }
 
     /// Returns whether a state is off the manifold by more than the rounding errors of many steps. Only then
@@ -178,12 +179,17 @@ impl<O: Ode> Ode for &O {
         (**self).position_change(t, y, h)
     }
 
-    fn project(&self, y: &mut O::State) -> Result<bool, Self::Error> {
-        (**self).project(y)
+    fn project(&self, t: ScalarOf<O>, y: &mut O::State) -> Result<bool, Self::Error> {
+        (**self).project(t, y)
     }
 
-    fn project_in_two(&self, y: &mut O::State, low: &mut O::State) -> Result<bool, Self::Error> {
-        (**self).project_in_two(y, low)
+    fn project_in_two(
+        &self,
+        t: ScalarOf<O>,
+        y: &mut O::State,
+        low: &mut O::State,
+    ) -> Result<bool, Self::Error> {
+        (**self).project_in_two(t, y, low)
     }
 
     fn strays(&self, y: &O::State) -> bool {

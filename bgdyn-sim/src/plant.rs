@@ -16,6 +16,25 @@ pub struct Power<E> {
     pub dissipated: E,
 }
 
+/// The values of a plant's events, in a fixed order.
+pub trait EventValues<T>: Clone + Debug {
+    /// Returns the number of events.
+    fn count(&self) -> usize;
+
+    /// Returns the value of an event.
+    fn value(&self, event: usize) -> T;
+}
+
+impl<V: StateVector> EventValues<V::Scalar> for V {
+    fn count(&self) -> usize {
+        self.entries().len()
+    }
+
+    fn value(&self, event: usize) -> V::Scalar {
+        self.entries()[event]
+    }
+}
+
 /// Time, in the scalar of a plant's states.
 pub(crate) type Time<P> = Of<<P as Plant>::State>;
 
@@ -29,7 +48,7 @@ pub trait Plant {
     /// The modes.
     type Modes: Clone + Debug;
     /// One number per event.
-    type Values: StateVector<Scalar = Of<Self::State>>;
+    type Values: EventValues<Of<Self::State>>;
     /// One number per entry of the balance of power.
     type Entries: StateVector<Scalar = Of<Self::State>>;
     /// Why there may be no rates: a singular mass matrix.
@@ -89,12 +108,17 @@ pub trait Plant {
         Ok(self.position_rates(t, y, modes)?.times(h))
     }
 
-    /// Takes a state back onto the set of possible ones, as [`Ode::project`].
+    /// Takes a state back onto the set of possible ones with these modes, as [`Ode::project`].
     ///
     /// # Errors
     /// As [`Ode::project`].
-    fn project(&self, y: &mut Self::State) -> Result<bool, Self::Error> {
-        let _ = y;
+    fn project(
+        &self,
+        t: Time<Self>,
+        y: &mut Self::State,
+        modes: &Self::Modes,
+    ) -> Result<bool, Self::Error> {
+        let _ = (t, y, modes);
         Ok(false)
     }
 
@@ -104,11 +128,12 @@ pub trait Plant {
     /// As [`Ode::project`].
     fn project_in_two(
         &self,
-        y: &mut Self::State,
-        low: &mut Self::State,
+        t: Time<Self>,
+        (y, low): (&mut Self::State, &mut Self::State),
+        modes: &Self::Modes,
     ) -> Result<bool, Self::Error> {
         let _ = low;
-        self.project(y)
+        self.project(t, y, modes)
     }
 
     /// Whether a state is off the set of possible ones by more than rounding, as [`Ode::strays`].
@@ -157,6 +182,22 @@ pub trait Plant {
         Ok(())
     }
 
+    /// Writes the accelerations γ̇ of each rigid contact at v̇ = 0, m/s² along (x, y, normal): J̇ v and the motion of what is
+    /// prescribed.
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn rigid_contact_biases(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        biases: &mut [[Time<Self>; 3]],
+    ) -> Result<(), Self::Error> {
+        let _ = (t, y, modes, biases);
+        Ok(())
+    }
+
     /// Values whose passage through zero is an event.
     ///
     /// # Errors
@@ -183,6 +224,18 @@ pub trait Plant {
         modes: &Self::Modes,
         fell: impl Fn(usize) -> bool,
     ) -> Result<(Self::State, Self::Modes), Self::Error>;
+
+    /// The energy that entries of the balance of power lose in the jump that led to these modes, J: at impacts.
+    fn jump_losses(&self, modes: &Self::Modes) -> impl Iterator<Item = (usize, Time<Self>)> {
+        let _ = modes;
+        core::iter::empty()
+    }
+
+    /// The largest number of events in one call of [`crate::Run::step`], and of events that follow each other within
+    /// the rounding of time. More are chattering.
+    fn most_events(&self) -> usize {
+        64
+    }
 
     /// State and modes that agree with each other, the inputs and the parameters: what moves slips
     /// the way it moves, what is at rest holds where it can. `rest` says up to which part of its
@@ -277,12 +330,17 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
         self.plant.position_change(t, y, self.modes, h)
     }
 
-    fn project(&self, y: &mut P::State) -> Result<bool, Self::Error> {
-        self.plant.project(y)
+    fn project(&self, t: Time<P>, y: &mut P::State) -> Result<bool, Self::Error> {
+        self.plant.project(t, y, self.modes)
     }
 
-    fn project_in_two(&self, y: &mut P::State, low: &mut P::State) -> Result<bool, Self::Error> {
-        self.plant.project_in_two(y, low)
+    fn project_in_two(
+        &self,
+        t: Time<P>,
+        y: &mut P::State,
+        low: &mut P::State,
+    ) -> Result<bool, Self::Error> {
+        self.plant.project_in_two(t, (y, low), self.modes)
     }
 
     fn strays(&self, y: &P::State) -> bool {

@@ -35,7 +35,7 @@ where
     pub fn step(&mut self, h: Time<P>) -> Result<(), Failed<P>> {
         // What rounding leaves of a step is no step.
         let rest = h * Time::<P>::EPSILON * Time::<P>::from_f64(4096.0);
-        let mut budget = Budget::new();
+        let mut budget = Budget::new(self.plant.most_events());
         let mut left = h;
         while rest < left {
             let piece = self.piece(left, &mut budget, false);
@@ -50,7 +50,7 @@ where
     /// # Errors
     /// Where the plant cannot go on.
     pub fn advance_densely(&mut self, most: Time<P>) -> Result<Dense<P::State>, Failed<P>> {
-        let piece = self.piece(most, &mut Budget::new(), true);
+        let piece = self.piece(most, &mut Budget::new(self.plant.most_events()), true);
         let (h, dense) = piece.map_err(|reason| self.solver.failure(reason))?;
         let here = || Dense::new(self.t(), h, self.y(), [const { None }; 7]);
         Ok(dense.unwrap_or_else(here))
@@ -120,7 +120,9 @@ where
         theta: Time<P>,
     ) -> Result<P::State, Refused<P>> {
         let mut y = dense.at(theta);
-        self.plant.project(&mut y).map_err(Reason::Singular)?;
+        let t = dense.start() + theta * dense.length();
+        let possible = self.plant.project(t, &mut y, &self.modes);
+        possible.map_err(Reason::Singular)?;
         Ok(y)
     }
 
@@ -146,6 +148,11 @@ where
                 weight.to::<Time<P>>() * h,
                 &power.map_err(Reason::Singular)?,
             );
+        }
+        if let Some((_, modes)) = after {
+            for (entry, loss) in self.plant.jump_losses(modes) {
+                ledger.lose(entry, loss);
+            }
         }
         if let Some(contacts) = self.solver.integrator().contact_step(&step.step.stages) {
             for (c, &loss) in contacts

@@ -193,11 +193,16 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         Ok(scene_positions::position_change(self.scene, y, h))
     }
 
-    fn project(&self, y: &mut S::State) -> Result<bool, S::Singular> {
+    fn project(&self, _: T, y: &mut S::State, _: &S::Modes) -> Result<bool, S::Singular> {
         scene_positions::project(self.scene, y)
     }
 
-    fn project_in_two(&self, y: &mut S::State, low: &mut S::State) -> Result<bool, S::Singular> {
+    fn project_in_two(
+        &self,
+        _: T,
+        (y, low): (&mut S::State, &mut S::State),
+        _: &S::Modes,
+    ) -> Result<bool, S::Singular> {
         scene_positions::project_in_two(self.scene, y, low)
     }
 

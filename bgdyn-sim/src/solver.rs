@@ -275,8 +275,8 @@ where
         }
         let projected = (!self.integrator.keeps_lengths() || ode.strays(&y))
             && match &mut low {
-                None => ode.project(&mut y),
-                Some(low) => ode.project_in_two(&mut y, low),
+                None => ode.project(t.0, &mut y),
+                Some(low) => ode.project_in_two(t.0, &mut y, low),
             }
             .map_err(Reason::Singular)?;
         let smooth = !projected;

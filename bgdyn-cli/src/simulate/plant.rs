@@ -256,11 +256,16 @@ impl Plant for Evaluated<'_> {
         Ok(self.change_of_positions(t, &self.natural(t, state, modes)?, modes, h))
     }
 
-    fn project(&self, y: &mut Numbers) -> Evaluation<bool> {
+    fn project(&self, _: f64, y: &mut Numbers, _: &Numbers) -> Evaluation<bool> {
         self.put_right(y)
     }
 
-    fn project_in_two(&self, y: &mut Numbers, low: &mut Numbers) -> Evaluation<bool> {
+    fn project_in_two(
+        &self,
+        _: f64,
+        (y, low): (&mut Numbers, &mut Numbers),
+        _: &Numbers,
+    ) -> Evaluation<bool> {
         self.put_right_in_two(y, low)
     }
 

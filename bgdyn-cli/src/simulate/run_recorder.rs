@@ -261,7 +261,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             }
             let mut y = step.at_time(t.min(now));
             // Positions of a loop that does not close are recorded as NaN.
-            self.run.plant().project(&mut y).ok();
+            self.run.plant().project(t, &mut y, modes).ok();
             self.keep_with(t, &y, modes, false);
             self.points += 1;
         }

@@ -7,10 +7,10 @@
 use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 
 use super::impulses::{Contacts, Impulses, contacts_at, listed};
-use super::middle::moved;
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::contact_step::ContactStep;
 use crate::failure::Reason;
+use crate::motion::moved;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
@@ -101,7 +101,7 @@ where
             change.add(lambda[2], &map.columns[2]);
         }
     }
-    moved(ode, t, &mut change, Of::<O::State>::from_f64(1.0))?;
+    moved(ode, t, &mut change, Of::<O::State>::from_f64(1.0)).map_err(Reason::Singular)?;
     end.entries_mut()[..positions].copy_from_slice(&change.entries()[..positions]);
     Ok(())
 }

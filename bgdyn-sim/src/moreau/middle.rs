@@ -4,6 +4,7 @@ use bgdyn_runtime::{ArrayOf, MatrixOf, Scalar as _, StateVector};
 
 use crate::failure::Reason;
 use crate::lu::{factor, solve};
+use crate::motion::moved;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
@@ -38,8 +39,8 @@ where
         let half = h * Of::<Y>::from_f64(0.5);
         let positions = ode.positions();
         let mut y = from.clone();
-        moved(ode, t, &mut y, half)?;
-        ode.project(&mut y).map_err(Reason::Singular)?;
+        moved(ode, t, &mut y, half).map_err(Reason::Singular)?;
+        ode.project(t + half, &mut y).map_err(Reason::Singular)?;
         y.entries_mut()[positions..].copy_from_slice(&from.entries()[positions..]);
         Ok(Middle {
             t: t + half,
@@ -149,37 +150,7 @@ where
         ode: &O,
         end: &mut Y,
     ) -> Result<(), Reason<O::Error>> {
-        moved(ode, self.t, end, self.h * Of::<Y>::from_f64(0.5))
+        let half = self.h * Of::<Y>::from_f64(0.5);
+        moved(ode, self.t, end, half).map_err(Reason::Singular)
     }
-}
-
-/// Moves the positions of a state by its velocities, for a time, with an error of its third power: half of the change from
-/// here, and half of that on the way back from there. Where the first is exact, so is the second, and they are the same; with
-/// wheels the change is that of the rates at its beginning.
-pub(super) fn moved<O: Ode>(
-    ode: &O,
-    t: Of<O::State>,
-    y: &mut O::State,
-    time: Of<O::State>,
-) -> Result<(), Reason<O::Error>> {
-    let positions = ode.positions();
-    let half = Of::<O::State>::from_f64(0.5);
-    let there = ode.position_change(t, y, time).map_err(Reason::Singular)?;
-    let mut end = y.clone();
-    for (x, &change) in end
-        .entries_mut()
-        .iter_mut()
-        .zip(there.entries())
-        .take(positions)
-    {
-        *x = *x + change;
-    }
-    let back = ode
-        .position_change(t, &end, -time)
-        .map_err(Reason::Singular)?;
-    let changes = there.entries().iter().zip(back.entries());
-    for (x, (&there, &back)) in y.entries_mut().iter_mut().zip(changes).take(positions) {
-        *x = *x + half * (there - back);
-    }
-    Ok(())
 }

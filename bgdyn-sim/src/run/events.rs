@@ -1,11 +1,11 @@
 //! Events within a step: detection, location, and the changes that follow.
 
-use bgdyn_runtime::{Scalar, StateVector};
+use bgdyn_runtime::Scalar;
 
-use super::state::{Budget, EVENTS, Proposed, Refused, Run};
+use super::state::{Budget, Proposed, Refused, Run};
 use crate::failure::Reason;
 use crate::integrator::Integrator;
-use crate::plant::{Plant, Time};
+use crate::plant::{EventValues, Plant, Time};
 use crate::real::Real;
 use crate::zero_crossing::first_passage;
 
@@ -52,7 +52,7 @@ where
         counts: impl Fn(usize) -> bool,
     ) -> (Time<P>, bool) {
         let mut nearest = (Time::<P>::from_f64(f64::INFINITY), false);
-        for e in (0..now.entries().len()).filter(|&e| counts(e)) {
+        for e in (0..now.count()).filter(|&e| counts(e)) {
             let found = self.passage_of(e, before, now, budget);
             let Some((distance, passed)) = found else {
                 continue;
@@ -72,7 +72,7 @@ where
     ) -> Option<(Time<P>, bool)> {
         let changes = self.plant.changes_mode(e);
         let counts = changes || budget.kinks > 0;
-        let found = passage(before.entries()[e], now.entries()[e], changes);
+        let found = passage(before.value(e), now.value(e), changes);
         found.filter(|_| counts)
     }
 
@@ -85,7 +85,7 @@ where
         budget: &Budget,
     ) -> Result<Option<(Proposed<P, M>, Passed<P::Values>)>, Refused<P>> {
         let before = self.values(self.t(), self.y())?;
-        if before.entries().is_empty() {
+        if before.count() == 0 {
             return Ok(None);
         }
         let [zero, one] = [0.0, 1.0].map(Time::<P>::from_f64);
@@ -125,7 +125,7 @@ where
         let at = first_passage(value, ends, guess.map(|(_, at)| at), width)?;
         let found = self.passed_at(whole, at, &before)?;
         let fell = |e| self.fell(e, &found.1);
-        if (0..before.entries().len()).any(fell) {
+        if (0..before.count()).any(fell) {
             return Ok(Some(found));
         }
         // On the kink itself rounding would choose the side whose slope is taken: a little behind it
@@ -212,11 +212,12 @@ where
         budget: &Budget,
     ) -> Result<Option<(P::State, P::Modes)>, Refused<P>> {
         let fell = |e| self.fell(e, passed);
-        if !(0..passed.before.entries().len()).any(fell) {
+        if !(0..passed.before.count()).any(fell) {
             return Ok(None);
         }
-        if budget.events == 0 || self.zeno_count == EVENTS {
-            return Err(Reason::TooManyEvents { events: EVENTS });
+        let events = self.plant.most_events();
+        if budget.events == 0 || self.zeno_count >= events {
+            return Err(Reason::TooManyEvents { events });
         }
         let after = self.plant.change(step.t.0, &step.y.0, &self.modes, fell);
         after.map(Some).map_err(Reason::Singular)
@@ -225,13 +226,13 @@ where
     /// Whether an event that changes a mode has passed.
     fn fell(&self, e: usize, passed: &Passed<P::Values>) -> bool {
         let zero = Time::<P>::from_f64(0.0);
-        let (before, behind) = (passed.before.entries()[e], passed.behind.entries()[e]);
+        let (before, behind) = (passed.before.value(e), passed.behind.value(e));
         self.plant.changes_mode(e) && before >= zero && behind < zero
     }
 
     /// Counts what a step has passed.
     pub(super) fn count(&mut self, passed: &Passed<P::Values>, budget: &mut Budget) {
-        let events = passed.before.entries().len();
+        let events = passed.before.count();
         let fell = (0..events).filter(|&e| self.fell(e, passed)).count();
         if fell > 0 {
             let apart = self.t() - self.last_event;

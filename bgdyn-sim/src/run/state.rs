@@ -29,8 +29,8 @@ pub(super) type Refused<P> = Reason<<P as Plant>::Error>;
 pub(super) type Proposed<P, M> =
     Proposal<<P as Plant>::State, <M as Integrator<<P as Plant>::State>>::Stages>;
 
-/// Events within one call of [`Run::step`] at the most.
-pub(super) const EVENTS: usize = 64;
+/// Kinks within one call of [`Run::step`] that end a step; more are passed over.
+const MOST_KINKS: usize = 64;
 
 /// A joint that is held while a run goes on drifts by the errors of the method: it counts as at rest
 /// up to this part of its velocity.
@@ -83,10 +83,10 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    pub(super) fn new() -> Self {
+    pub(super) fn new(events: usize) -> Self {
         Budget {
-            events: EVENTS,
-            kinks: EVENTS,
+            events,
+            kinks: MOST_KINKS,
         }
     }
 }

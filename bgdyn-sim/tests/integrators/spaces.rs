@@ -116,7 +116,7 @@ impl Ode for Turning {
         ]))
     }
 
-    fn project(&self, y: &mut SVector<f64, 4>) -> Result<bool, ()> {
+    fn project(&self, _: f64, y: &mut SVector<f64, 4>) -> Result<bool, ()> {
         if self.projects {
             *y /= y.norm_squared().sqrt();
         }

@@ -33,7 +33,7 @@ impl<S: HybridSystem<Dd>> Way<'_, S> {
         let held = FixedModes { plant, modes };
         // The scene's start has the digits of an `f64`: its quaternion is off length 1 by its rounding error.
         let mut y = self.begin.y;
-        held.project(&mut y).expect("no loop");
+        held.project(self.begin.t, &mut y).expect("no loop");
         let mut solver = Solver::new(method, self.begin.t, y);
         let h = Dd::from(self.end) / Dd::from(f64::from(steps));
         for _ in 0..steps {

@@ -188,7 +188,7 @@ impl<T: Real> Ode for ByMomentum<'_, T> {
         Ok(vector(floating::position_rates(base, self.0.velocity(t))))
     }
 
-    fn project(&self, y: &mut SVector<T, 7>) -> Result<bool, ()> {
+    fn project(&self, _: T, y: &mut SVector<T, 7>) -> Result<bool, ()> {
         Ok(project(y.as_mut_slice()))
     }
 }
@@ -208,7 +208,7 @@ impl<T: Real> Ode for ByEfforts<'_, T> {
         Ok(SVector::from_fn(|i, _| rate(i)))
     }
 
-    fn project(&self, y: &mut SVector<T, 13>) -> Result<bool, ()> {
+    fn project(&self, _: T, y: &mut SVector<T, 13>) -> Result<bool, ()> {
         Ok(project(y.as_mut_slice()))
     }
 }

@@ -1,0 +1,105 @@
+//! Impacts: jumps of the velocities by impulses of all contacts that touch.
+
+use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
+
+use super::modes::Jump;
+use super::poisson;
+use super::snapshot::{PerContact, Snapshot};
+use crate::cone::{ContactOptions, ContactProblem, solve};
+use crate::real::{Of, Real};
+
+/// The law of restitution at impacts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactLaw {
+    /// Newton's: γ_n⁺ ≥ −e γ_n⁻. Where it would add energy, which it can with friction, Poisson's law is taken, and
+    /// [`Jump::by_poisson`] tells.
+    #[default]
+    Newton,
+    /// Poisson's: the normal impulse of expansion is e times that of compression.
+    Poisson,
+}
+
+/// Returns the impulses with which contacts, where `active`, meet. Where `ends` holds, a contact comes to rest: e = 0.
+pub(super) fn impact<Y: StateVector>(
+    snapshot: &Snapshot<Y>,
+    law: ImpactLaw,
+    active: &PerContact<bool>,
+    ends: &PerContact<bool>,
+) -> Jump<Of<Y>>
+where
+    Of<Y>: Real,
+{
+    let zero = Of::<Y>::from_f64(0.0);
+    let restitution = core::array::from_fn(|c| match ends[c] {
+        true => zero,
+        false => snapshot.contacts[c].restitution,
+    });
+    let mut jump = match law {
+        ImpactLaw::Newton => by_newton(snapshot, active, &restitution),
+        ImpactLaw::Poisson => poisson::jump(snapshot, active, &restitution),
+    };
+    note_losses(snapshot, &mut jump);
+    let (lost, moved) = jump.losses.iter().fold((zero, zero), |(sum, size), &loss| {
+        (sum + loss, size + loss.abs())
+    });
+    let rounding = moved * Of::<Y>::EPSILON.sqrt();
+    if law == ImpactLaw::Newton && lost < -rounding {
+        jump = poisson::jump(snapshot, active, &restitution);
+        note_losses(snapshot, &mut jump);
+        jump.by_poisson = true;
+    }
+    jump
+}
+
+/// Returns the impulses of Newton's law of restitution.
+fn by_newton<Y: StateVector>(
+    snapshot: &Snapshot<Y>,
+    active: &PerContact<bool>,
+    restitution: &PerContact<Of<Y>>,
+) -> Jump<Of<Y>>
+where
+    Of<Y>: Real,
+{
+    let mut start = snapshot.contacts.map(|contact| contact.velocity);
+    for (start, &e) in start.iter_mut().zip(restitution) {
+        let approach = start[2].min(Of::<Y>::from_f64(0.0));
+        start[2] = e.mul_add(approach, start[2]);
+    }
+    by_cones(snapshot, active, &start)
+}
+
+/// Returns the impulses with which the velocities γ = G p + start are those of the cones.
+pub(super) fn by_cones<Y: StateVector>(
+    snapshot: &Snapshot<Y>,
+    active: &PerContact<bool>,
+    start: &PerContact<[Of<Y>; 3]>,
+) -> Jump<Of<Y>>
+where
+    Of<Y>: Real,
+{
+    let mut jump = Jump::none();
+    let problem = ContactProblem {
+        delassus: &snapshot.delassus,
+        velocities: start,
+        friction: &snapshot.contacts.map(|contact| contact.friction),
+        active,
+    };
+    let options = ContactOptions::default();
+    jump.residual = solve(&problem, &options, &mut jump.impulses).residual;
+    jump
+}
+
+/// Notes the energy that each contact takes: −p·(γ⁻ + γ⁺)/2.
+pub(super) fn note_losses<Y: StateVector>(snapshot: &Snapshot<Y>, jump: &mut Jump<Of<Y>>)
+where
+    Of<Y>: Real,
+{
+    let half = Of::<Y>::from_f64(0.5);
+    for c in 0..snapshot.number.min(MOST_EVENT_CONTACTS) {
+        let before = snapshot.contacts[c].velocity;
+        let after = snapshot.velocity(c, &jump.impulses, before);
+        let p = jump.impulses[c];
+        let sums = (0..3).map(|k| p[k] * (before[k] + after[k]));
+        jump.losses[c] = -half * sums.fold(Of::<Y>::from_f64(0.0), |sum, x| sum + x);
+    }
+}

@@ -1,0 +1,363 @@
+//! Rigid contacts from event to event, compared with closed forms.
+
+#[path = "planar.rs"]
+mod bodies;
+#[path = "../moreau/sphere.rs"]
+mod sphere;
+
+use bgdyn_sim::event_driven::{ContactMode, ContactModes, EventError, ImpactLaw};
+use bgdyn_sim::{Dop853, EventDriven, HybridState, Reason, Run, Tolerance};
+
+use bodies::Planar;
+use sphere::{GRAVITY, Sphere, Y};
+
+type Rolling = Run<EventDriven<Sphere>, Dop853>;
+
+fn run(sphere: Sphere, y: Y) -> Rolling {
+    let start = HybridState {
+        t: 0.0,
+        y,
+        modes: ContactModes::open(()),
+    };
+    let run = Run::by(Dop853, EventDriven::new(sphere), start);
+    run.with_tolerance(Tolerance {
+        absolute: 1e-12,
+        relative: 1e-12,
+    })
+}
+
+fn ran(sphere: Sphere, y: Y, end: f64) -> Rolling {
+    let mut run = run(sphere, y);
+    run.step(end).expect("it goes on");
+    run
+}
+
+/// A ball that falls from a height h bounces at √(2h/g) (1 + 2e + 2e² + …), and rests at √(2h/g) (1 + e)/(1 − e).
+#[test]
+fn a_ball_bounces_and_comes_to_rest() {
+    let (height, e) = (0.5, 0.8);
+    let first = (2.0 * height / GRAVITY).sqrt();
+    let ball = || Sphere {
+        restitution: e,
+        ..Sphere::default()
+    };
+    let mut instants = vec![];
+    let mut run = run(ball(), ball().at(height, [0.0; 3]));
+    let rests = first * (1.0 + e) / (1.0 - e);
+    while run.t() < 1.1 * rests {
+        let events = run.events;
+        run.advance_densely(1e-2).expect("it bounces");
+        if run.events > events {
+            instants.push(run.t());
+        }
+    }
+    println!("{:e}", instants.last().expect("") - rests);
+    let mut exact = first;
+    for (k, instant) in instants.iter().enumerate() {
+        assert!((instant - exact).abs() < 1e-9, "{k}: {instant} {exact}");
+        exact += 2.0 * first * e.powi(k as i32 + 1);
+    }
+    let last = instants.last().expect("impacts");
+    assert!((last - rests).abs() < 1e-9, "{last} {rests}");
+    assert_eq!(run.modes().contacts[0], ContactMode::Stick);
+    assert!(run.y()[8] == 0.0 && (run.y()[2] - 0.1).abs() < 1e-14);
+    let audit = run.audit();
+    assert!(
+        audit.drift().abs() < 1e-12 * 2.0 * GRAVITY * height * 2.0,
+        "{}",
+        audit.drift()
+    );
+}
+
+#[test]
+fn an_elastic_ball_keeps_its_energy() {
+    let ball = Sphere {
+        restitution: 1.0,
+        ..Sphere::default()
+    };
+    let y = ball.at(0.5, [0.3, 0.0, 0.0]);
+    let run = ran(ball, y, 20.0);
+    let energy = |y: &Y| 0.5 * (y[6] * y[6] + y[8] * y[8]) + GRAVITY * (y[2] - 0.1);
+    assert!((energy(run.y()) - energy(&y)).abs() < 1e-10);
+    assert!(run.events > 30);
+}
+
+/// A block comes to rest after v₀²/(2 g (μ cos α − sin α)), and stays.
+#[test]
+fn a_block_slides_to_rest_and_sticks() {
+    let (friction, incline, speed) = (0.5, 0.3_f64, 2.0);
+    let block = || Sphere {
+        friction,
+        incline,
+        ..Sphere::default()
+    };
+    let slows = GRAVITY * (friction * incline.cos() - incline.sin());
+    let mut run = run(block(), block().at(0.0, [speed, 0.0, 0.0]));
+    run.step(3.0).expect("it slides");
+    assert!(
+        (run.last_event - speed / slows).abs() < 1e-9,
+        "{}",
+        run.last_event
+    );
+    assert!((run.y()[0] - speed * speed / (2.0 * slows)).abs() < 1e-11);
+    let x = run.y()[0];
+    run.step(1000.0).expect("it sticks");
+    assert!((run.y()[0] - x).abs() < 1e-12, "{}", run.y()[0] - x);
+    assert!(run.audit().drift().abs() < 1e-10, "{:?}", run.audit());
+    // Sideways friction turns the slip, until it stops.
+    let run = ran(
+        block(),
+        block().at(0.0, [speed * 0.6, speed * 0.8, 0.0]),
+        5.0,
+    );
+    assert_eq!(run.modes().contacts[0], ContactMode::Stick);
+    assert!(run.y().as_slice()[6..9].iter().all(|v| v.abs() < 1e-12));
+    // Steeper than the friction it does not stick.
+    let steep = Sphere {
+        friction: 0.2,
+        ..block()
+    };
+    let run = ran(steep, block().at(0.0, [0.0; 3]), 1.0);
+    let falls = GRAVITY * (incline.sin() - 0.2 * incline.cos());
+    assert!((run.y()[6] - falls).abs() < 1e-11, "{}", run.y()[6]);
+}
+
+/// A sphere without spin rolls from t = 2 v₀/(7 μ g) on at 5 v₀/7, after 12 v₀²/(49 μ g).
+#[test]
+fn a_sphere_slides_until_it_rolls() {
+    let (friction, speed) = (0.2, 3.0);
+    let sphere = Sphere {
+        friction,
+        rolls: true,
+        ..Sphere::default()
+    };
+    let rolls = 2.0 * speed / (7.0 * friction * GRAVITY);
+    let y = sphere.at(0.0, [speed, 0.0, 0.0]);
+    let run = ran(sphere, y, 2.0 * rolls);
+    assert!((run.last_event - rolls).abs() < 1e-9, "{}", run.last_event);
+    let way = 12.0 * speed * speed / (49.0 * friction * GRAVITY) + 5.0 * speed / 7.0 * rolls;
+    let y = run.y();
+    assert!(
+        (y[6] - 5.0 * speed / 7.0).abs() < 1e-12 && (y[0] - way).abs() < 1e-11,
+        "{}",
+        y[0] - way
+    );
+    assert!(run.audit().drift().abs() < 1e-11);
+}
+
+/// An oblique impact: the tangential impulse is the lesser of μ times the normal one and m v_t/3.5, by both laws.
+#[test]
+fn both_laws_agree_on_a_sphere() {
+    let (mass, e, v) = (2.0, 0.5, [1.0, 2.0, -3.0]);
+    for law in [ImpactLaw::Newton, ImpactLaw::Poisson] {
+        for friction in [0.05, 0.3] {
+            let sphere = Sphere {
+                friction,
+                restitution: e,
+                rolls: true,
+                ..Sphere::default()
+            };
+            let y = sphere.at(0.0, v);
+            let mut run = run(sphere, y);
+            run.plant_mut().law = law;
+            run.resolve_stiction().expect("it bounces");
+            let pressed = mass * (1.0 + e) * 3.0;
+            let along = v[0].hypot(v[1]);
+            let rubbed = (friction * pressed).min(mass * along / 3.5);
+            let left = 1.0 - rubbed / mass / along;
+            let wanted = [v[0] * left, v[1] * left, -e * v[2]];
+            for (found, wanted) in run.y().as_slice()[6..9].iter().zip(wanted) {
+                assert!(
+                    (found - wanted).abs() < 1e-13,
+                    "{law:?} {friction}: {found} {wanted}"
+                );
+            }
+        }
+    }
+}
+
+fn planar(body: Planar, y: bodies::Y) -> Run<EventDriven<Planar>, Dop853> {
+    let start = HybridState {
+        t: 0.0,
+        y,
+        modes: ContactModes::open(()),
+    };
+    let run = Run::by(Dop853, EventDriven::new(body), start);
+    run.with_tolerance(Tolerance {
+        absolute: 1e-13,
+        relative: 1e-13,
+    })
+}
+
+/// A block of half width 0.1 m and half height 0.4 m.
+fn block() -> Planar {
+    Planar {
+        inertia: (0.1 * 0.1 + 0.4 * 0.4) / 3.0,
+        corners: vec![[-0.1, -0.4], [0.1, -0.4]],
+        friction: 2.0,
+        restitution: 0.0,
+    }
+}
+
+/// The time in which a rocking block falls from rest at this angle, by quadrature of its energy with θ = θ₀ − u²:
+/// θ̇²/2 = p² (cos(α − θ₀) − cos(α − θ)).
+fn quarter(amplitude: f64, slope: f64, p2: f64) -> f64 {
+    let n = 4000;
+    let end = amplitude.sqrt();
+    let f = |u: f64| {
+        let d = 0.5 * u * u;
+        let ratio = if u == 0.0 { 0.5 } else { d.sin() / (u * u) };
+        // 2u du over θ̇
+        1.0 / (p2 * (slope - amplitude + d).sin() * ratio).sqrt()
+    };
+    let h = end / f64::from(n);
+    let weight = |k: i32| match k {
+        0 => 1.0,
+        k if k == n => 1.0,
+        k if k % 2 == 1 => 4.0,
+        _ => 2.0,
+    };
+    let sum: f64 = (0..=n).map(|k| weight(k) * f(f64::from(k) * h)).sum();
+    sum * h / 3.0
+}
+
+/// A slender block rocks from corner to corner: θ̈ = −p² sin(α − θ), p² = 3 g/(4 R), and each impact leaves
+/// 1 − (3/2) sin² α of the rate (Housner 1963).
+#[test]
+fn a_block_rocks_until_it_rests() {
+    let (slope, radius) = (0.25_f64.atan(), 0.1_f64.hypot(0.4));
+    let p2 = 3.0 * GRAVITY / (4.0 * radius);
+    let left = 1.0 - 1.5 * slope.sin().powi(2);
+    let mut amplitude = 0.1_f64;
+    let mut y = bodies::Y::zeros();
+    // It stands on its right corner, which is at x = 0.
+    let (sin, cos) = (-amplitude).sin_cos();
+    y.as_mut_slice()[..3].copy_from_slice(&[
+        -cos * 0.1 - sin * 0.4,
+        -sin * 0.1 + cos * 0.4,
+        -amplitude,
+    ]);
+    let mut run = planar(block(), y);
+    let mut exact = quarter(amplitude, slope, p2);
+    let mut before = block().energy_of(&y);
+    let mut found = vec![];
+    while found.len() < 12 {
+        let events = run.events;
+        run.advance_densely(1e-1).expect("it rocks");
+        if run.events > events {
+            found.push(run.t());
+            let now = block().energy_of(run.y());
+            assert!(now < before, "{now} {before}");
+            before = now;
+        }
+    }
+    for (k, instant) in found.iter().enumerate() {
+        assert!((instant - exact).abs() < 1e-9, "{k}: {instant} {exact}");
+        let square = 2.0 * p2 * ((slope - amplitude).cos() - slope.cos()) * left * left;
+        amplitude = slope - (slope.cos() + square / (2.0 * p2)).acos();
+        exact += 2.0 * quarter(amplitude, slope, p2);
+    }
+    run.step(20.0).expect("it comes to rest");
+    let y = *run.y();
+    assert!(
+        run.modes().contacts[..2]
+            .iter()
+            .all(|&mode| mode == ContactMode::Stick)
+    );
+    assert!(y[2].abs() < 1e-13 && (y[1] - 0.4).abs() < 1e-13, "{y}");
+    assert!(y.as_slice()[3..].iter().all(|v| v.abs() < 1e-14), "{y}");
+    for _ in 0..10_000 {
+        run.step(0.1).expect("it rests");
+    }
+    assert!((run.y() - y).norm() < 1e-12, "{}", run.y() - y);
+    assert!(run.audit().drift().abs() < 1e-10, "{}", run.audit().drift());
+}
+
+/// A rod, half a metre from its centre to its end, that slides on this end away from the side to which it leans.
+fn rod(friction: f64, angle: f64, speed: f64) -> (Planar, bodies::Y) {
+    let body = Planar {
+        inertia: 0.25 / 3.0,
+        corners: vec![[0.5, 0.0]],
+        friction,
+        restitution: 0.0,
+    };
+    let y = bgdyn_runtime::vector([0.0, 0.5 * angle.sin(), -angle, speed, 0.0, 0.0]);
+    (body, y)
+}
+
+/// 1 + 3 cos φ (cos φ − μ sin φ) < 0 where μ > 4/3 and tan φ is about 2: no force keeps the rod up.
+#[test]
+fn a_rod_meets_the_paradox() {
+    let (body, y) = rod(1.5, 2.0_f64.atan(), 3.0);
+    let failure = planar(body, y).step(1e-3).expect_err("no forces");
+    let wanted = Reason::Singular(EventError::Paradox { contact: 0 });
+    assert_eq!(failure.reason, wanted);
+    for (friction, angle, speed) in [(1.3, 2.0_f64.atan(), 3.0), (1.5, 2.0_f64.atan(), -3.0)] {
+        let (body, y) = rod(friction, angle, speed);
+        planar(body, y).step(1e-3).expect("forces");
+    }
+    // From outside the angles of the paradox, it slides on until it lifts off or meets it.
+    let (body, y) = rod(2.0, 0.3, 10.0);
+    let mut run = planar(body, y);
+    while run.t() < 0.5 {
+        let e = run.events;
+        run.advance_densely(1e-3).unwrap();
+        if run.events > e || run.t() < 0.02 {
+            println!(
+                "{} {:?} {:?} {:?} {} {}",
+                run.t(),
+                run.modes().contacts[0],
+                run.y().as_slice(),
+                run.plant().forces(run.t(), run.y(), run.modes()).unwrap()[0],
+                run.plant().plant.energy_of(run.y()),
+                run.audit().drift()
+            );
+        }
+    }
+}
+
+/// A box thrown at random: energy falls at each impact and at no other time rises, until it rests.
+#[test]
+fn boxes_tumble_and_rest() {
+    let mut seed = 7_u64;
+    let mut random = || {
+        seed = seed
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64 * 2.0 - 1.0
+    };
+    for k in 0..200 {
+        let body = || Planar {
+            inertia: (0.1 * 0.1 + 0.15 * 0.15) / 3.0,
+            corners: vec![[-0.1, -0.15], [0.1, -0.15], [0.1, 0.15], [-0.1, 0.15]],
+            friction: 0.4,
+            restitution: 0.3,
+        };
+        let y = bgdyn_runtime::vector([
+            0.0,
+            0.6,
+            3.0 * random(),
+            random(),
+            random(),
+            10.0 * random(),
+        ]);
+        let mut run = planar(body(), y);
+        let mut energy = body().energy_of(&y);
+        for _ in 0..400 {
+            run.step(0.01).unwrap_or_else(|e| panic!("{k}: {e}"));
+            let now = body().energy_of(run.y());
+            assert!(now < energy + 1e-11, "{k}: {now} {energy}");
+            energy = now;
+        }
+        assert!(
+            run.y().as_slice()[3..].iter().all(|v| v.abs() < 1e-13),
+            "{k}: {}",
+            run.y()
+        );
+        assert!(
+            run.audit().drift().abs() < 1e-9,
+            "{k}: {}",
+            run.audit().drift()
+        );
+    }
+}
