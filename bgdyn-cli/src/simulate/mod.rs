@@ -14,6 +14,7 @@ mod plant_positions;
 #[cfg(feature = "plot")]
 pub(crate) mod plot;
 pub(crate) mod progress;
+mod recorded;
 pub(crate) mod report;
 mod run_recorder;
 mod run_table;
@@ -28,6 +29,6 @@ pub(crate) use plant::Evaluation;
 pub use plant::{Evaluated, Numbers, PreparedScene};
 pub use report::{changes, csv, report, summary};
 pub use run_recorder::{prepared, record, record_from};
-pub use run_table::{Column, EnergyAt, Event, POINTS, Record, Row, Way, columns};
+pub use run_table::{Column, ContactEvent, EnergyAt, Event, POINTS, Record, Row, Way, columns};
 pub use scene_functions::Form;
 pub use undefined::Undefined;

@@ -71,6 +71,13 @@ fn contacts(record: &Record) -> String {
             quality.unsolved
         );
     }
+    if quality.by_poisson > 0 {
+        let _ = write!(
+            text,
+            ", {} impacts by Poisson's law, as Newton's would have added energy",
+            quality.by_poisson
+        );
+    }
     text.push('\n');
     text
 }
@@ -114,13 +121,20 @@ fn events(system: &SceneEquations, record: &Record) -> String {
 pub fn changes(system: &SceneEquations, event: &Event) -> String {
     let modes = system.scene.layout.modes.iter().enumerate();
     let changed = modes.filter(|&(i, _)| event.before[i] != event.after[i]);
-    let texts: Vec<String> = changed
-        .map(|(i, mode)| match event.after[i] {
-            0.0 => format!("`{}` is held", mode.name),
-            way if event.before[i] == 0.0 => format!("`{}` is released, {way:+}", mode.name),
-            way => format!("`{}` slips the other way, {way:+}", mode.name),
-        })
-        .collect();
+    let of_modes = changed.map(|(i, mode)| match event.after[i] {
+        0.0 => format!("`{}` is held", mode.name),
+        way if event.before[i] == 0.0 => format!("`{}` is released, {way:+}", mode.name),
+        way => format!("`{}` slips the other way, {way:+}", mode.name),
+    });
+    let names = &system.scene.layout.rigid_contacts;
+    let of_contacts = event.contacts.iter().map(|what| {
+        let text = format!("`{}` {}", names[what.contact], what.text);
+        match what.impulse > 0.0 {
+            true => format!("{text}, {} N s", short(what.impulse)),
+            false => text,
+        }
+    });
+    let texts: Vec<String> = of_modes.chain(of_contacts).collect();
     match texts.is_empty() {
         true => "no mode changes".to_owned(),
         false => texts.join(", "),

@@ -4,13 +4,14 @@ use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
 use bgdyn_codegen::system::SceneEquations;
 use bgdyn_sim::{
-    Dense, Failure, Integrator, Plant as _, Run, Tolerance, WithIntegrator, with_integrator,
+    Dense, EventDriven, Failure, Integrator, Plant as _, Run, Tolerance, WithIntegrator,
+    with_integrator,
 };
 
 use super::plant::{Evaluated, Numbers};
+use super::recorded::Recorded;
 use super::run_table::{ContactQuality, EnergyAt, Event, Record, Row, Way};
 use super::scene_functions::Form;
-use super::undefined::Undefined;
 
 /// Returns a scene as a plant for its integrator, computed by an engine.
 pub fn prepared<'a>(
@@ -62,9 +63,18 @@ impl WithIntegrator<Numbers> for Start<'_> {
     type Output = Record;
 
     fn with<M: Integrator<Numbers>>(self, method: M) -> Record {
-        let begin = self.plant.begin();
+        match self.plant.rigid_contacts() > 0 && !method.solves_contacts() {
+            true => self.recorded::<EventDriven<Evaluated<'_>>, M>(method),
+            false => self.recorded::<Evaluated<'_>, M>(method),
+        }
+    }
+}
+
+impl<'a> Start<'a> {
+    fn recorded<P: Recorded<'a>, M: Integrator<Numbers>>(self, method: M) -> Record {
         let outputs = self.plant.has_outputs();
-        let mut run = Run::by(method, self.plant, begin);
+        let (plant, begin) = P::from_scene(self.plant);
+        let mut run = Run::by(method, plant, begin);
         if let StepControl::Tolerance(tolerance) = self.way.integration.step_control {
             run = run.with_tolerance(Tolerance {
                 absolute: tolerance,
@@ -78,7 +88,7 @@ impl WithIntegrator<Numbers> for Start<'_> {
     }
 }
 
-type Failed = Failure<Numbers, Undefined>;
+type Failed<P> = Failure<Numbers, <P as bgdyn_sim::Plant>::Error>;
 
 /// The energy that could move is at least this fraction of the stored energy: then a drift of a hundredth
 /// of it is the rounding of sums of that size.
@@ -89,10 +99,10 @@ const ROUNDING: f64 = 1e-12;
 const ZENO_LIMIT: usize = 16;
 
 /// Returns a straight line from a state to the current state of a run.
-fn straight<M: Integrator<Numbers>>(
+fn straight<'a, P: Recorded<'a>, M: Integrator<Numbers>>(
     t: f64,
     y: &Numbers,
-    run: &Run<Evaluated<'_>, M>,
+    run: &Run<P, M>,
 ) -> Dense<Numbers> {
     let mut terms = [const { None }; 7];
     terms[0] = Some(run.y() - y);
@@ -100,8 +110,8 @@ fn straight<M: Integrator<Numbers>>(
 }
 
 /// A run, and its record so far.
-struct RunRecorder<'a, M: Integrator<Numbers>> {
-    run: Run<Evaluated<'a>, M>,
+struct RunRecorder<'a, P: Recorded<'a>, M: Integrator<Numbers>> {
+    run: Run<P, M>,
     outputs: bool,
     way: &'a Way,
     watch: &'a mut dyn FnMut(f64),
@@ -112,19 +122,14 @@ struct RunRecorder<'a, M: Integrator<Numbers>> {
     events: Vec<Event>,
     energy: Vec<EnergyAt>,
     moved: f64,
-    /// The mean forces of the rigid contacts in the last step.
+    /// The mean forces of the rigid contacts in the last step, or those now.
     forces: Vec<[f64; 3]>,
     quality: Option<ContactQuality>,
 }
 
-impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
-    fn new(
-        run: Run<Evaluated<'a>, M>,
-        outputs: bool,
-        way: &'a Way,
-        watch: &'a mut dyn FnMut(f64),
-    ) -> Self {
-        let forces = vec![[0.0; 3]; run.plant().rigid_contacts()];
+impl<'a, P: Recorded<'a>, M: Integrator<Numbers>> RunRecorder<'a, P, M> {
+    fn new(run: Run<P, M>, outputs: bool, way: &'a Way, watch: &'a mut dyn FnMut(f64)) -> Self {
+        let forces = vec![[0.0; 3]; run.plant().scene().rigid_contacts()];
         RunRecorder {
             run,
             outputs,
@@ -148,7 +153,10 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             let y = self.run.y().clone();
             self.keep(t, &y, true);
         }
-        let y = self.run.plant().natural(t, self.run.y(), &modes);
+        let of_scene = P::scene_modes(&modes).clone();
+        let scene = self.run.plant().scene();
+        let y = scene.natural(t, self.run.y(), &of_scene);
+        let failure = failed.map(|failed| self.run.plant().failure(&failed.reason));
         Record {
             rows: self.rows,
             energy: self.energy,
@@ -157,15 +165,15 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
             kinks: self.run.kinks,
             t,
             y: y.unwrap_or_else(|_| self.run.y().clone()),
-            modes,
+            modes: of_scene,
             audit: self.run.audit(),
             moved: self.moved,
             contacts: self.quality,
-            failure: failed.map(|failure| failure.reason.to_string()),
+            failure,
         }
     }
 
-    fn complete(&mut self) -> Result<(), Failed> {
+    fn complete(&mut self) -> Result<(), Failed<P>> {
         let resolved = self.run.resolve_stiction();
         let begin = self.run.y().clone();
         self.keep(0.0, &begin, false);
@@ -194,7 +202,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
     }
 
     /// Advances to a time, one step of the integrator after the other.
-    fn reach(&mut self, target: f64) -> Result<(), Failed> {
+    fn reach(&mut self, target: f64) -> Result<(), Failed<P>> {
         let span = target - self.run.t();
         let rest = (1e-9 * span.min(self.interval())).max(4.0 * f64::EPSILON * target);
         let mut zeno_count = 0;
@@ -223,7 +231,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
                 0
             };
             if self.run.events > passed.0 {
-                self.happened(before);
+                self.happened(&before);
             }
             (self.watch)(self.run.t() / self.way.integration.end);
         }
@@ -248,7 +256,7 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
     }
 
     /// Records the output points inside a step.
-    fn sample(&mut self, step: &Dense<Numbers>, modes: &Numbers, rest: f64) {
+    fn sample(&mut self, step: &Dense<Numbers>, modes: &P::Modes, rest: f64) {
         let now = self.run.t();
         while self.points < self.way.points {
             let last = self.points + 1 == self.way.points;
@@ -268,10 +276,22 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
     }
 
     /// Records an event, with the state after it.
-    fn happened(&mut self, before: Numbers) {
+    fn happened(&mut self, before: &P::Modes) {
         let (t, y) = (self.run.t(), self.run.y().clone());
-        let after = self.run.modes().clone();
-        self.events.push(Event { t, before, after });
+        let after = self.run.modes();
+        let contacts = P::contact_events(before, after);
+        if let Some((residual, by_poisson)) = P::impact(after) {
+            let quality = self.quality.get_or_insert_default();
+            quality.residual = quality.residual.max(residual);
+            quality.by_poisson += usize::from(by_poisson);
+        }
+        let [before, after] = [before, after].map(|modes| P::scene_modes(modes).clone());
+        self.events.push(Event {
+            t,
+            before,
+            after,
+            contacts,
+        });
         self.keep(t, &y, true);
     }
 
@@ -280,8 +300,11 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         self.keep_with(t, state, &modes, extra);
     }
 
-    fn keep_with(&mut self, t: f64, state: &Numbers, modes: &Numbers, extra: bool) {
-        let plant = self.run.plant();
+    fn keep_with(&mut self, t: f64, state: &Numbers, modes: &P::Modes, extra: bool) {
+        if let Some(forces) = self.run.plant().contact_forces(t, state, modes) {
+            self.forces = forces;
+        }
+        let (plant, modes) = (self.run.plant().scene(), P::scene_modes(modes));
         let y = plant.natural(t, state, modes);
         // Undefined velocities are recorded as NaN.
         let y = y.unwrap_or_else(|_| state.map(|_| f64::NAN));
@@ -311,7 +334,8 @@ impl<'a, M: Integrator<Numbers>> RunRecorder<'a, M> {
         for part in [&audit.supplied, &audit.stored, &audit.dissipated] {
             self.moved = self.moved.max(part.lp_norm(1));
         }
-        let held = self.run.plant().held(t, self.run.y(), self.run.modes());
+        let modes = P::scene_modes(self.run.modes());
+        let held = self.run.plant().scene().held(t, self.run.y(), modes);
         if let Ok((motion, all)) = held {
             self.moved = self.moved.max(motion).max(ROUNDING * all);
         }

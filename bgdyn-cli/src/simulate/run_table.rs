@@ -71,7 +71,8 @@ pub struct Row {
     pub modes: Numbers,
     /// The inputs, driven ones and 0 for the others.
     pub inputs: Vec<f64>,
-    /// The mean forces of the rigid contacts in the step up to this instant, N along (x, y, normal).
+    /// The forces of the rigid contacts, N along (x, y, normal): the mean ones in the step up to this instant, or, from
+    /// event to event, those at this instant.
     pub contacts: Vec<[f64; 3]>,
     /// Whether it is a row for an event or for the end, and no output point.
     pub extra: bool,
@@ -101,6 +102,19 @@ pub struct Event {
     pub before: Numbers,
     /// The modes after it.
     pub after: Numbers,
+    /// What rigid contacts did, if they are solved from event to event.
+    pub contacts: Vec<ContactEvent>,
+}
+
+/// What a rigid contact did at an event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContactEvent {
+    /// The contact, in the order of the scene's.
+    pub contact: usize,
+    /// What it did: "bounces", "opens", "sticks".
+    pub text: &'static str,
+    /// Its normal impulse, N·s; 0 without an impact.
+    pub impulse: f64,
 }
 
 /// How well the rigid contacts of a run were solved.
@@ -108,10 +122,12 @@ pub struct Event {
 pub struct ContactQuality {
     /// The deepest overlap at the end of a step, m.
     pub depth: f64,
-    /// The largest residual of the impulses of a step, N·s.
+    /// The largest residual of the impulses of a step or an impact, N·s.
     pub residual: f64,
     /// The number of steps whose residual does not meet the tolerance.
     pub unsolved: usize,
+    /// The number of impacts at which Newton's law would have added energy, so that Poisson's was taken.
+    pub by_poisson: usize,
 }
 
 /// The record of a run.

@@ -158,7 +158,8 @@ where
                         row,
                         force,
                     };
-                    if constraint.product(&self.delassus, &constraint) <= zero {
+                    let least = self.delassus[c][c][2][2] * Of::<Y>::from_f64(JAMS);
+                    if constraint.product(&self.delassus, &constraint) <= least {
                         return Err(c);
                     }
                     unknowns.add(constraint, -a[2]);
@@ -168,6 +169,9 @@ where
         Ok(solved(&unknowns, &self.delassus))
     }
 }
+
+/// Friction that leaves less than this part of the normal acceleration by a normal force jams: forces grow without bound.
+const JAMS: f64 = 1e-6;
 
 /// Returns the scalar product of the velocities of two states.
 fn dot<Y: StateVector>(positions: usize, a: &Y, b: &Y) -> Of<Y> {

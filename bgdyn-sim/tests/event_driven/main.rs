@@ -51,7 +51,6 @@ fn a_ball_bounces_and_comes_to_rest() {
             instants.push(run.t());
         }
     }
-    println!("{:e}", instants.last().expect("") - rests);
     let mut exact = first;
     for (k, instant) in instants.iter().enumerate() {
         assert!((instant - exact).abs() < 1e-9, "{k}: {instant} {exact}");
@@ -296,24 +295,24 @@ fn a_rod_meets_the_paradox() {
         let (body, y) = rod(friction, angle, speed);
         planar(body, y).step(1e-3).expect("forces");
     }
-    // From outside the angles of the paradox, it slides on until it lifts off or meets it.
-    let (body, y) = rod(2.0, 0.3, 10.0);
+    // From outside the angles of the paradox it slides towards them, until its forces have no bound.
+    let (body, y) = rod(2.0, 0.55, 10.0);
     let mut run = planar(body, y);
-    while run.t() < 0.5 {
-        let e = run.events;
-        run.advance_densely(1e-3).unwrap();
-        if run.events > e || run.t() < 0.02 {
-            println!(
-                "{} {:?} {:?} {:?} {} {}",
-                run.t(),
-                run.modes().contacts[0],
-                run.y().as_slice(),
-                run.plant().forces(run.t(), run.y(), run.modes()).unwrap()[0],
-                run.plant().plant.energy_of(run.y()),
-                run.audit().drift()
-            );
-        }
+    run.step(0.07).expect("it slides");
+    // By rod.py, in 40 digits.
+    let exact = [
+        (0, 0.593_357_094_538_215_9),
+        (2, -0.620_277_678_142_963_6),
+        (3, 6.426_076_549_800_927),
+        (5, -2.704_285_668_880_464),
+    ];
+    for (k, exact) in exact {
+        let found = run.y()[k];
+        assert!((found - exact).abs() < 1e-11, "{k}: {found} {exact}");
     }
+    let failure = run.step(0.02).expect_err("it jams");
+    assert_eq!(failure.reason, wanted);
+    assert!((failure.t - 0.07923814).abs() < 1e-5, "{}", failure.t);
 }
 
 /// A box thrown at random: energy falls at each impact and at no other time rises, until it rests.
@@ -326,7 +325,7 @@ fn boxes_tumble_and_rest() {
             .wrapping_add(1442695040888963407);
         (seed >> 11) as f64 / (1u64 << 53) as f64 * 2.0 - 1.0
     };
-    for k in 0..200 {
+    for k in 0..60 {
         let body = || Planar {
             inertia: (0.1 * 0.1 + 0.15 * 0.15) / 3.0,
             corners: vec![[-0.1, -0.15], [0.1, -0.15], [0.1, 0.15], [-0.1, 0.15]],
