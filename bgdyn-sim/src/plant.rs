@@ -157,6 +157,22 @@ pub trait Plant {
         Ok(())
     }
 
+    /// γ̇ of each rigid contact at v̇ = 0 along (x, y, normal), m/s²: γ̇ = J v̇ + this for the accelerations v̇ of
+    /// [`Plant::rates`].
+    ///
+    /// # Errors
+    /// As [`Plant::rates`].
+    fn rigid_contact_biases(
+        &self,
+        t: Time<Self>,
+        y: &Self::State,
+        modes: &Self::Modes,
+        biases: &mut [[Time<Self>; 3]],
+    ) -> Result<(), Self::Error> {
+        let _ = (t, y, modes, biases);
+        Ok(())
+    }
+
     /// Values whose passage through zero is an event.
     ///
     /// # Errors
