@@ -3,7 +3,7 @@
 /// The largest number of rigid contacts of a scene.
 pub const MOST_CONTACTS: usize = 32;
 
-/// The largest number of rigid contacts that are solved from event to event.
+/// The largest number of rigid contacts of a scene that is solved from event to event.
 pub const MOST_EVENT_CONTACTS: usize = 8;
 
 /// A rigid contact in a state of its scene. Components are along (x, y, normal) of the contact.

@@ -206,6 +206,18 @@ pub trait HybridSystem<T: Scalar> {
         Ok(())
     }
 
+    /// Writes γ̇ of each rigid contact at v̇ = 0 along (x, y, normal), m/s², in the order of their names: γ̇ = J v̇ + this
+    /// for the accelerations v̇ of the rates. It is J̇ v, and the motion of what is prescribed.
+    fn rigid_contact_biases(
+        &self,
+        y: &Self::State,
+        input: &Self::Inputs,
+        t: T,
+        biases: &mut [[T; 3]],
+    ) {
+        let _ = (y, input, t, biases);
+    }
+
     /// Returns the outputs.
     fn output(
         &self,

@@ -241,6 +241,18 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
             .rigid_contact_maps(y, &self.input(t, y, modes), t, maps)
     }
 
+    fn rigid_contact_biases(
+        &self,
+        t: T,
+        y: &S::State,
+        modes: &S::Modes,
+        biases: &mut [[T; 3]],
+    ) -> Result<(), S::Singular> {
+        let input = self.input(t, y, modes);
+        self.scene.rigid_contact_biases(y, &input, t, biases);
+        Ok(())
+    }
+
     fn events(&self, t: T, y: &S::State, modes: &S::Modes) -> Result<S::Events, S::Singular> {
         self.scene.events(y, modes, &self.input(t, y, modes), t)
     }

@@ -1,6 +1,7 @@
 //! Rigid contact by time stepping, against closed forms: bouncing, sliding, sticking, rolling, rocking, collision, rest.
 
 mod balls;
+mod biases;
 mod drops;
 mod planar;
 mod rest;

@@ -304,6 +304,17 @@ impl Plant for Evaluated<'_> {
         self.maps_of_contacts(t, state, modes, maps)
     }
 
+    fn rigid_contact_biases(
+        &self,
+        t: f64,
+        state: &Numbers,
+        modes: &Numbers,
+        biases: &mut [[f64; 3]],
+    ) -> Evaluation<()> {
+        self.biases_of_contacts(t, state, modes, biases);
+        Ok(())
+    }
+
     fn events(&self, t: f64, state: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         let Some(events) = &self.functions.events else {
             return Ok(DVector::zeros(0));

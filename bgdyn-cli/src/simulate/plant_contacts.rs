@@ -1,4 +1,4 @@
-//! Rigid contacts of a scene: their states, and how they and the velocities act on each other.
+//! Rigid contacts of a scene: their states, how they and the velocities act on each other, and their biases.
 
 use bgdyn_runtime::{ContactMap, RigidContact};
 use nalgebra::DVector;
@@ -54,5 +54,22 @@ impl Evaluated<'_> {
             *to = Some(ContactMap { rows, columns });
         }
         Ok(())
+    }
+
+    /// Writes γ̇ at v̇ = 0 of each rigid contact at y.
+    pub(super) fn biases_of_contacts(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+        biases: &mut [[f64; 3]],
+    ) {
+        let Some(rigid) = &self.functions.rigid else {
+            return;
+        };
+        let (values, _) = self.driven(t, y, modes, |at| rigid.biases.value(at));
+        for (to, v) in biases.iter_mut().zip(values.chunks_exact(3)) {
+            *to = [v[0], v[1], v[2]];
+        }
     }
 }

@@ -54,6 +54,7 @@ pub(super) struct ClosedLoops {
 pub(super) struct RigidContacts {
     pub(super) states: Box<dyn Callable>,
     pub(super) maps: Box<dyn Callable>,
+    pub(super) biases: Box<dyn Callable>,
     /// The entry of each in the balance of power.
     pub(super) entries: Vec<usize>,
 }
@@ -94,6 +95,7 @@ impl SceneFunctions {
             rigid: if_there(SceneFunction::RigidContactStates).map(|states| RigidContacts {
                 states,
                 maps: prepare(SceneFunction::RigidContactMaps),
+                biases: prepare(SceneFunction::RigidContactBiases),
                 entries: rigid_entries(system),
             }),
             outputs: if_there(SceneFunction::Outputs),
@@ -135,7 +137,7 @@ impl SceneFunctions {
         let rigid = self
             .rigid
             .iter()
-            .flat_map(|rigid| [&rigid.states, &rigid.maps]);
+            .flat_map(|rigid| [&rigid.states, &rigid.maps, &rigid.biases]);
         let all = always.into_iter().chain(optional.into_iter().flatten());
         engines_of(
             all.chain(canonical)

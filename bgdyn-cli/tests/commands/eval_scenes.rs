@@ -95,6 +95,21 @@ fn every_kind_of_function() {
     assert_eq!(rates, json!([1.0, -8.0]));
 }
 
+/// The ends of a rod that turns at 2 rad/s about its middle, which rests: r ω² towards the middle.
+#[test]
+fn biases_of_rigid_contacts() {
+    let states = r#"{"states": [{"y": {"rod_y": 0.7, "rod_turn_rate": 2}}]}"#;
+    let states = scratch("scene_biases", "states.json", states);
+    let scene = "tests/rigid_contact/jams.scene.yaml";
+    let run = bgdyn(&["eval", scene, "rigid_contact_biases", "--states", &states]);
+    let wanted = json!({
+        "function": "rigid_contact_biases",
+        "names": ["ends_tail", "ends_head"],
+        "results": [[[2.0, 0.0, 0.0], [-2.0, 0.0, 0.0]]],
+    });
+    assert_eq!(told(&run), wanted, "{}", run.stderr);
+}
+
 #[test]
 fn what_is_wrong_is_said_state_by_state() {
     let states = r#"{}, {"y": {"slid": 1}}, {"y": [1]}, {"y": [1e400, 0]}, {"t": "now"}, {"y": 3}"#;

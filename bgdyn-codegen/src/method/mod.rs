@@ -394,6 +394,7 @@ impl Method {
             Method::Scene(
                 SceneFunction::Energy
                 | SceneFunction::RigidContactStates
+                | SceneFunction::RigidContactBiases
                 | SceneFunction::Inverse
                 | SceneFunction::Inputs
                 | SceneFunction::Outputs

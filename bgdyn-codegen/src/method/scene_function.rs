@@ -17,6 +17,8 @@ pub enum SceneFunction {
     RigidContactStates,
     /// The Jacobian of each rigid contact, and M⁻¹ Jᵀ.
     RigidContactMaps,
+    /// γ̇ of each rigid contact at v̇ = 0.
+    RigidContactBiases,
     /// Power supplied, stored and dissipated by each effect.
     Power,
     /// Energy stored by each effect.
@@ -42,7 +44,7 @@ pub enum SceneFunction {
 
 impl SceneFunction {
     /// All functions.
-    pub const ALL: [SceneFunction; 17] = [
+    pub const ALL: [SceneFunction; 18] = [
         SceneFunction::Derivative,
         SceneFunction::Inverse,
         SceneFunction::Inputs,
@@ -50,6 +52,7 @@ impl SceneFunction {
         SceneFunction::Contacts,
         SceneFunction::RigidContactStates,
         SceneFunction::RigidContactMaps,
+        SceneFunction::RigidContactBiases,
         SceneFunction::Power,
         SceneFunction::Energy,
         SceneFunction::Outputs,
@@ -79,6 +82,7 @@ impl SceneFunction {
             SceneFunction::Contacts => "contacts",
             SceneFunction::RigidContactStates => "rigid_contact_states",
             SceneFunction::RigidContactMaps => "rigid_contact_maps",
+            SceneFunction::RigidContactBiases => "rigid_contact_biases",
             SceneFunction::Power => "power",
             SceneFunction::Energy => "energy",
             SceneFunction::Outputs => "output",
@@ -113,6 +117,9 @@ impl SceneFunction {
             }
             SceneFunction::RigidContactMaps => {
                 "For each rigid contact: the rows of its Jacobian along x, y and normal, and the columns of M⁻¹ Jᵀ."
+            }
+            SceneFunction::RigidContactBiases => {
+                "For each rigid contact: γ̇ at v̇ = 0 along x, y and normal, m/s²: γ̇ = J v̇ + this."
             }
             SceneFunction::Power => {
                 "Balance of power, W: Σ supplied = Σ rate of the energy stored + Σ dissipated."

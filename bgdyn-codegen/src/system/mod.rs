@@ -186,9 +186,9 @@ impl SceneEquations {
             SceneFunction::Inputs => !layout.inputs.is_empty(),
             SceneFunction::Events => !layout.events.is_empty(),
             SceneFunction::Contacts => !layout.modes.is_empty(),
-            SceneFunction::RigidContactStates | SceneFunction::RigidContactMaps => {
-                !layout.rigid_contacts.is_empty()
-            }
+            SceneFunction::RigidContactStates
+            | SceneFunction::RigidContactMaps
+            | SceneFunction::RigidContactBiases => !layout.rigid_contacts.is_empty(),
             SceneFunction::Outputs => !self.outputs.is_empty(),
             SceneFunction::Derivative
             | SceneFunction::Inverse
@@ -245,6 +245,7 @@ impl SceneEquations {
             SceneFunction::Contacts => vec![self.one(role, holds::contacts)],
             SceneFunction::RigidContactStates => vec![self.one(role, rigid_contacts::states)],
             SceneFunction::RigidContactMaps => vec![self.one(role, rigid_contacts::maps)],
+            SceneFunction::RigidContactBiases => vec![self.one(role, rigid_contacts::biases)],
             SceneFunction::Power => vec![self.one(role, balance::power)],
             SceneFunction::Energy => vec![self.one(role, balance::energy)],
             SceneFunction::Outputs => vec![self.one(role, |system, b| {

@@ -47,6 +47,15 @@ pub(super) fn maps<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>>
     all
 }
 
+/// Returns for each rigid contact γ̇ at v̇ = 0 along (x, y, normal): J̇ v, and the motion of what is prescribed.
+pub(super) fn biases<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>> {
+    let sums = system.effort_sums(b);
+    let biases = sums.of_contacts(ContactMethod::Bias);
+    let laws = sums.rigid_contacts().iter();
+    laws.flat_map(|law| biases[directions(law)].to_vec())
+        .collect()
+}
+
 /// Returns the rows of a contact in the methods of contacts.
 fn directions(law: &RigidLaw<'_>) -> std::ops::Range<usize> {
     let first = CONTACT_DIRECTIONS * law.contact;

@@ -1,11 +1,12 @@
-//! Both sides of the laws of rigid contacts: the rate of the gap, J v, and M (M⁻¹ Jᵀ) = Jᵀ.
+//! Both sides of the laws of rigid contacts: the rate of the gap, J v, M (M⁻¹ Jᵀ) = Jᵀ, and the rate of γ at v̇ = 0.
 
 use bgdyn_runtime::Dd;
 
 use super::compare::minus;
-use super::dual::{Direction, along, rates};
+use super::dual::{Direction, Dual, along, rates, with_rates};
 use crate::expr::Inputs;
 use crate::function::Function;
+use crate::layout::Level;
 use crate::system::SceneEquations;
 
 /// The numbers of a contact's state: gap, velocity along (x, y, normal), friction, restitution.
@@ -17,19 +18,57 @@ pub(super) fn gap_rates(
     system: &SceneEquations,
     at: &Inputs<Dd>,
 ) -> (Vec<Dd>, Vec<Dd>) {
-    let mut q = system.graph.position_rates(&at.q, &at.v);
-    q.resize(at.q.len(), Dd::ZERO);
-    let motion = Direction {
-        q,
-        v: vec![Dd::ZERO; at.v.len()],
-        x: vec![Dd::ZERO; at.x.len()],
-        t: Dd::ZERO,
-    };
-    let moving = rates(&states.evaluate(along(at, &motion)).0);
+    let moving = rates(&states.evaluate(moving(system, at)).0);
     let found = states.evaluate(at.clone()).0;
     let normals = found.chunks(STATE).map(|state| state[3]);
     let of_gaps = moving.chunks(STATE).map(|state| state[0]);
     (normals.collect(), of_gaps.collect())
+}
+
+/// Returns the rate of γ of all contacts along the motion with constant velocities.
+pub(super) fn velocity_rates(
+    states: &Function,
+    system: &SceneEquations,
+    at: &Inputs<Dd>,
+) -> Vec<Dd> {
+    let moving = rates(&states.evaluate(moving(system, at)).0);
+    let of_velocities = moving.chunks(STATE).flat_map(|state| state[1..4].to_vec());
+    of_velocities.collect()
+}
+
+/// Returns the state that moves with constant velocities and, where they are prescribed, accelerations: q̇ = N(q) S(q) v.
+fn moving(system: &SceneEquations, at: &Inputs<Dd>) -> Inputs<Dual> {
+    let none = |n: usize| vec![Dd::ZERO; n];
+    let mut q = system.graph.position_rates(&at.q, &at.v);
+    // Coordinates that effects add move no contact.
+    q.resize(at.q.len(), Dd::ZERO);
+    let motion = Direction {
+        q,
+        v: none(at.v.len()),
+        x: none(at.x.len()),
+        t: Dd::ZERO,
+    };
+    let layout = &system.scene.layout;
+    let input = |joint: &str, level: Level| {
+        let name = level.name(joint);
+        layout.inputs.iter().position(|input| input.name == name)
+    };
+    let mut u = none(at.u.len());
+    let steps = [
+        (Level::Position, Level::Rate),
+        (Level::Rate, Level::Acceleration),
+    ];
+    for joint in &layout.prescribed {
+        for (from, to) in steps {
+            if let (Some(from), Some(to)) = (input(joint, from), input(joint, to)) {
+                u[from] = at.u[to];
+            }
+        }
+    }
+    Inputs {
+        u: with_rates(&at.u, &u),
+        ..along(at, &motion)
+    }
 }
 
 /// Returns the rows of J times v, and γ(v) − γ(0), for all contacts.

@@ -101,6 +101,14 @@ impl CheckedScene<'_> {
                 self.compare(function, law, (&normal, &rate), 0.0, at)
             }
             SceneFunction::RigidContactMaps => self.rigid_contact_maps(function, at, &found),
+            SceneFunction::RigidContactBiases => {
+                let states = self.function(SceneFunction::RigidContactStates)?;
+                let expected = rigid_contacts::velocity_rates(states, self.system, at);
+                let law = ("J̇ v = the rate of γ at constant velocities", EXACT);
+                // The terms that may cancel are products of two velocities.
+                let size = largest(&at.v).powi(2);
+                self.compare(function, law, (&found, &expected), size, at)
+            }
         }
     }
 

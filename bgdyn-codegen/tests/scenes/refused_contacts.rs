@@ -295,13 +295,20 @@ fn rigid(keys: &str, more: &str) -> String {
 #[test]
 fn what_rigid_contacts_refuse() {
     let floor = "contact: floor";
-    assert_eq!(rigid(floor, "initial: { fall: 10 mm }\n"), "sound");
+    for more in [
+        "",
+        "integration: { method: rk4 }\n",
+        "integration: { method: dopri5 }\n",
+    ] {
+        let more = format!("initial: {{ fall: 10 mm }}\n{more}");
+        assert_eq!(rigid(floor, &more), "sound", "{more}");
+    }
     for (keys, more, rule, words) in [
         (
             "contact: floor",
-            "initial: { fall: 10 mm }\nintegration: { method: rk4 }\n",
+            "initial: { fall: 10 mm }\nintegration: { method: canonical_midpoint }\n",
             "integration",
-            "`rk4` does not solve for its impulses",
+            "`canonical_midpoint` integrates momenta",
         ),
         (
             "contact: floor",
@@ -349,17 +356,51 @@ fn what_rigid_contacts_refuse() {
     }
 }
 
+/// Returns the message about a scene with rigid contacts at these cubes, of eight corners each, with these other contacts
+/// and these lines.
+fn cubes(number: usize, others: &str, more: &str) -> String {
+    let all = || (0..number).map(|k| format!("cube{k}"));
+    let declared: String = all()
+        .map(|cube| format!("  {cube}: {{ link: ball, size: [0.1, 0.1, 0.1] }}\n"))
+        .collect();
+    let mechanism = BALL.replace("contacts:\n", &format!("contacts:\n{declared}"));
+    let names: Vec<String> = all().collect();
+    let names = names.join(", ");
+    let scene = format!(
+        "scene: 1\nmechanism: m.yaml\neffects:\n  - inertia\n  - touch: {{ type: rigid_contact, contacts: [{names}{others}] }}\ninitial: {{ fall: 1 m }}\n{more}"
+    );
+    match try_scene(&scene, &mechanism) {
+        Ok(_) => "sound".into(),
+        Err(refusal) => told(&refusal, &scene),
+    }
+}
+
 #[test]
 fn a_scene_has_at_most_32_rigid_contacts() {
-    let cubes: String = (0..5)
-        .map(|k| format!("  cube{k}: {{ link: ball, size: [0.1, 0.1, 0.1] }}\n"))
-        .collect();
-    let mechanism = BALL.replace("contacts:\n", &format!("contacts:\n{cubes}"));
-    let scene = "scene: 1\nmechanism: m.yaml\neffects:\n  - inertia\n  - touch: { type: rigid_contact, contacts: [cube0, cube1, cube2, cube3, cube4] }\ninitial: { fall: 1 m }\n";
-    let refusal = try_scene(scene, &mechanism).expect_err("forty");
-    let text = told(&refusal, scene);
-    assert!(
-        text.contains("40 rigid contacts; the solver takes 32"),
-        "{text}"
-    );
+    assert_eq!(cubes(4, "", ""), "sound");
+    for method in ["moreau", "rk4"] {
+        let text = cubes(5, "", &format!("integration: {{ method: {method} }}\n"));
+        let words = "40 rigid contacts; the solver takes 32";
+        assert!(
+            text.contains(words) && !text.contains("[integration]"),
+            "{text}"
+        );
+    }
+}
+
+#[test]
+fn integrators_of_the_rates_take_at_most_8_rigid_contacts() {
+    for method in ["rk4", "dopri5", "rodas4", "gauss2"] {
+        let more = format!("integration: {{ method: {method} }}\n");
+        assert_eq!(cubes(1, "", &more), "sound");
+        let text = cubes(1, ", floor", &more);
+        let words = format!(
+            "9 rigid contacts, and `{method}` goes from event to event with at most 8; `moreau` takes 32"
+        );
+        assert!(
+            text.contains("[integration]") && text.contains(&words),
+            "{text}"
+        );
+    }
+    assert_eq!(cubes(1, ", floor", ""), "sound");
 }

@@ -5,6 +5,7 @@
 mod allocator;
 
 mod mistakes;
+mod rigid_contacts;
 
 use std::path::{Path, PathBuf};
 

@@ -112,9 +112,9 @@ impl SceneCall<'_> {
             SceneFunction::Inputs => names.inputs.clone(),
             SceneFunction::Events => parts(&layout.events),
             SceneFunction::Contacts => parts(&layout.modes),
-            SceneFunction::RigidContactStates | SceneFunction::RigidContactMaps => {
-                layout.rigid_contacts.clone()
-            }
+            SceneFunction::RigidContactStates
+            | SceneFunction::RigidContactMaps
+            | SceneFunction::RigidContactBiases => layout.rigid_contacts.clone(),
             SceneFunction::Power | SceneFunction::Energy => named(&self.system.entries),
             SceneFunction::Outputs => named(&self.system.outputs),
             SceneFunction::PositionRates | SceneFunction::ClosingStep => {
@@ -240,7 +240,7 @@ impl SceneCall<'_> {
             SceneFunction::ToCanonical | SceneFunction::FromCanonical => {
                 json!([&at.q[..], values, &at.x[..]].concat())
             }
-            SceneFunction::Power => rows(3),
+            SceneFunction::Power | SceneFunction::RigidContactBiases => rows(3),
             SceneFunction::Contacts => rows(4),
             SceneFunction::RigidContactStates => rows(6),
             SceneFunction::RigidContactMaps => rows(6 * self.system.scene.layout.nv()),

@@ -89,6 +89,9 @@ fn result_order(role: SceneFunction) -> Option<&'static str> {
         SceneFunction::RigidContactMaps => {
             "Result: for each rigid contact the three rows of its Jacobian, then the three columns of M^-1 J^T."
         }
+        SceneFunction::RigidContactBiases => {
+            "Result: for each rigid contact its acceleration along x, y, normal where the velocities are constant."
+        }
         SceneFunction::Power => {
             "Result: for each entry power supplied, rate of the energy stored, power dissipated."
         }

@@ -78,6 +78,7 @@ impl SceneResult {
             SceneFunction::Contacts => in_order("4 * NM"),
             SceneFunction::RigidContactStates => in_order("6 * NK"),
             SceneFunction::RigidContactMaps => in_order("6 * NK * NV"),
+            SceneFunction::RigidContactBiases => in_order("3 * NK"),
             SceneFunction::Power => in_order("3 * NB"),
             SceneFunction::Energy => in_order("NB"),
             SceneFunction::Outputs => in_order("NY"),

@@ -39,7 +39,7 @@ impl EffectKind for RigidContact {
     }
 
     fn summary(&self) -> &'static str {
-        "rigid contact: 0 ≤ g ⟂ λ_n ≥ 0, |λ_t| ≤ μ λ_n and against the slip, γ_n⁺ = −e γ_n⁻ at impacts; needs the integrator `moreau`"
+        "rigid contact: 0 ≤ g ⟂ λ_n ≥ 0, |λ_t| ≤ μ λ_n and against the slip, γ_n⁺ = −e γ_n⁻ at impacts; by the integrator `moreau`, or from event to event by others"
     }
 
     fn symbol(&self) -> &'static str {

@@ -35,6 +35,7 @@ fn result_of(role: SceneFunction, scene: &SceneInterface) -> (&'static str, Vec<
         | SceneFunction::CanonicalRates
         | SceneFunction::RigidContactStates
         | SceneFunction::RigidContactMaps
+        | SceneFunction::RigidContactBiases
         | SceneFunction::PositionRates
         | SceneFunction::ClosingStep => ("", vec![]),
     }
@@ -89,6 +90,7 @@ pub(super) fn signature(role: SceneFunction, scene: &SceneInterface) -> TokenStr
         SceneFunction::Events => quote! { __na::SVector<T, NE> },
         SceneFunction::RigidContactStates => rigid_contacts::states_type(&scene.layout),
         SceneFunction::RigidContactMaps => rigid_contacts::maps_type(&scene.layout),
+        SceneFunction::RigidContactBiases => rigid_contacts::biases_type(&scene.layout),
         SceneFunction::PositionRates | SceneFunction::ClosingStep => {
             quote! { __na::SVector<T, NQ> }
         }
@@ -181,6 +183,7 @@ fn finish(
         }
         SceneFunction::RigidContactStates => rigid_contacts::states(values),
         SceneFunction::RigidContactMaps => ok(rigid_contacts::maps(layout, values)),
+        SceneFunction::RigidContactBiases => rigid_contacts::biases(values),
         SceneFunction::Inverse => ok(literal("Coordinates", parts, values)),
         SceneFunction::Inputs => ok(literal("Input", parts, values)),
         SceneFunction::Energy => ok(literal("Energy", parts, values)),

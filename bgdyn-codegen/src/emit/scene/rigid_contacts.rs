@@ -20,6 +20,12 @@ pub(super) fn maps_type(layout: &StateLayout) -> TokenStream {
     quote! { [__rt::ContactMap<__na::SVector<T, N>>; #number] }
 }
 
+/// Returns the type of their biases.
+pub(super) fn biases_type(layout: &StateLayout) -> TokenStream {
+    let number = size(layout.rigid_contacts.len());
+    quote! { [[T; 3]; #number] }
+}
+
 /// Returns their states from six numbers each.
 pub(super) fn states(values: &[TokenStream]) -> TokenStream {
     let one = |v: &[TokenStream]| match v {
@@ -51,6 +57,12 @@ pub(super) fn maps(layout: &StateLayout, values: &[TokenStream]) -> TokenStream 
         quote! { __rt::ContactMap { rows: [#(#rows),*], columns: [#(#columns),*] } }
     };
     let all = values.chunks((6 * nv).max(1)).map(one);
+    quote! { [#(#all),*] }
+}
+
+/// Returns their biases from three numbers each.
+pub(super) fn biases(values: &[TokenStream]) -> TokenStream {
+    let all = values.chunks(3).map(|one| quote! { [#(#one),*] });
     quote! { [#(#all),*] }
 }
 
@@ -93,6 +105,19 @@ pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
                 *to = ::core::option::Option::Some(from);
             }
             ::core::result::Result::Ok(())
+        }
+        fn rigid_contact_biases(
+            &self,
+            y: &__na::SVector<T, N>,
+            input: &__na::SVector<T, NU>,
+            t: T,
+            biases: &mut [[T; 3]],
+        ) {
+            let state = State::from_vectors(y, &State::<T>::default().modes());
+            let all = self.rigid_contact_biases(&state, &Input::from_vector(input), t);
+            for (to, from) in biases.iter_mut().zip(all) {
+                *to = from;
+            }
         }
     }
 }

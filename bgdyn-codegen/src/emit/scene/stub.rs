@@ -26,9 +26,9 @@ pub fn scene_stub(scene: &SceneInterface, output: &OutputOptions) -> TokenStream
     let layout = &scene.layout;
     let exists = |role: &SceneFunction| match role {
         SceneFunction::Contacts => !layout.modes.is_empty(),
-        SceneFunction::RigidContactStates | SceneFunction::RigidContactMaps => {
-            !layout.rigid_contacts.is_empty()
-        }
+        SceneFunction::RigidContactStates
+        | SceneFunction::RigidContactMaps
+        | SceneFunction::RigidContactBiases => !layout.rigid_contacts.is_empty(),
         _ => true,
     };
     let roles = SceneFunction::ALL.into_iter().filter(exists);

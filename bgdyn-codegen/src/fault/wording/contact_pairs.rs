@@ -192,18 +192,33 @@ pub(crate) fn bristles_of_spheres(location: &Location, contact: &str) -> Fault {
         .with_help("write `width` instead of `bristles`")
 }
 
-pub(crate) fn integrator_without_contacts(
+pub(crate) fn canonical_of_rigid_contacts(
     location: &Location,
-    (element, method): (&str, &str),
-    solving: &[&str],
+    element: &str,
+    (method, solving): (&str, &str),
 ) -> Fault {
     let message = format!(
-        "the effect {} is a rigid contact, and `{method}` does not solve for its impulses",
+        "the effect {} is a rigid contact, and `{method}` integrates momenta: scenes with rigid contacts have no canonical form",
         quote(element)
     );
     Fault::new(location, "integration", message).with_help(format!(
-        "write `integration: {{ method: {}, step: 1 ms }}`, or take `compliant_contact`",
-        solving.join(" or ")
+        "write `integration: {{ method: {solving}, step: 1 ms }}`, or take `compliant_contact`"
+    ))
+}
+
+/// `most` from event to event, and in steps for contacts.
+pub(crate) fn too_many_event_contacts(
+    location: &Location,
+    (method, solving): (&str, &str),
+    number: usize,
+    most: (usize, usize),
+) -> Fault {
+    let message = format!(
+        "the scene has {number} rigid contacts, and `{method}` goes from event to event with at most {}; `{solving}` takes {}",
+        most.0, most.1
+    );
+    Fault::new(location, "integration", message).with_help(format!(
+        "write `integration: {{ method: {solving}, step: 1 ms }}`, name fewer of them in `contacts`, or take `compliant_contact`"
     ))
 }
 

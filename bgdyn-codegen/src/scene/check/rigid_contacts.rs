@@ -1,6 +1,6 @@
 //! Checks that a scene with rigid contacts has an integrator for them, and nothing that it cannot solve with them.
 
-use bgdyn_runtime::MOST_CONTACTS;
+use bgdyn_runtime::{MOST_CONTACTS, MOST_EVENT_CONTACTS};
 
 use super::super::{IntegratorName, Scene};
 use crate::fault::{Faults, wording};
@@ -21,17 +21,13 @@ pub(super) fn check(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) {
     let first = scene.elements.iter().find(|e| rigid.contains(&e.name));
     let Some(first) = first else { return };
     let method = scene.integration.method;
-    if !method.solves_contacts() {
-        let location = spec.integration.value().map(|raw| &raw.location);
-        let solving = IntegratorName::ALL.into_iter();
-        let solving: Vec<&str> = solving
-            .filter(|m| m.solves_contacts())
-            .map(IntegratorName::name)
-            .collect();
-        faults.push(wording::integrator_without_contacts(
-            location.unwrap_or(&first.location),
-            (&first.name, method.name()),
-            &solving,
+    let location = spec.integration.value().map(|raw| &raw.location);
+    let location = location.unwrap_or(&first.location);
+    if method.needs_canonical() {
+        faults.push(wording::canonical_of_rigid_contacts(
+            location,
+            &first.name,
+            (method.name(), IntegratorName::Moreau.name()),
         ));
     }
     if rigid.len() > MOST_CONTACTS {
@@ -39,6 +35,13 @@ pub(super) fn check(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) {
             &first.location,
             rigid.len(),
             MOST_CONTACTS,
+        ));
+    } else if rigid.len() > MOST_EVENT_CONTACTS && !method.solves_contacts() {
+        faults.push(wording::too_many_event_contacts(
+            location,
+            (method.name(), IntegratorName::Moreau.name()),
+            rigid.len(),
+            (MOST_EVENT_CONTACTS, MOST_CONTACTS),
         ));
     }
     if let Some(mode) = scene.layout.modes.first() {
