@@ -9,6 +9,7 @@ use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::{Integration, IntegratorName, Scene, StepControl};
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::MOST_EVENT_CONTACTS;
 use clap::Args;
 
 use self::many::{Batch, Many};
@@ -181,6 +182,7 @@ impl Simulate {
     /// Returns the scene's settings of integration, changed by the options.
     fn integration(&self, scene: &Scene, given: &NumericOptions) -> Result<Integration, Usage> {
         let quasi_joint = scene.layout.quasi_joints.first();
+        let contacts = scene.layout.rigid_contacts.len();
         let scene = scene.integration;
         let method = match &self.method {
             None => scene.method,
@@ -195,6 +197,12 @@ impl Simulate {
             return Err(Usage(format!(
                 "`{name}` integrates momenta, and those of the joint `{}` are not canonical (their equations are Lie–Poisson): use `{natural}`",
                 joint.name
+            )));
+        }
+        if contacts > MOST_EVENT_CONTACTS && !method.solves_contacts() {
+            return Err(Usage(format!(
+                "`{}` goes from event to event, and the scene has {contacts} rigid contacts: at most {MOST_EVENT_CONTACTS} are solved so; use `moreau`",
+                method.name()
             )));
         }
         let step_control = match (given.step, given.tolerance) {

@@ -80,7 +80,8 @@ impl<'a> Recorded<'a> for EventDriven<Evaluated<'a>> {
     fn contact_forces(&self, t: f64, y: &Numbers, modes: &Self::Modes) -> Option<Vec<[f64; 3]>> {
         let forces = self.forces(t, y, modes);
         let forces = forces.unwrap_or([[f64::NAN; 3]; MOST_EVENT_CONTACTS]);
-        Some(forces[..self.plant.rigid_contacts()].to_vec())
+        let all = forces.into_iter().take(self.plant.rigid_contacts());
+        Some(all.collect())
     }
 
     fn contact_events(before: &Self::Modes, after: &Self::Modes) -> Vec<ContactEvent> {

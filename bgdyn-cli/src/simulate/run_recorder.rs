@@ -174,7 +174,7 @@ impl<'a, P: Recorded<'a>, M: Integrator<Numbers>> RunRecorder<'a, P, M> {
     }
 
     fn complete(&mut self) -> Result<(), Failed<P>> {
-        let resolved = self.run.resolve_stiction();
+        let resolved = self.resolve_stiction();
         let begin = self.run.y().clone();
         self.keep(0.0, &begin, false);
         resolved?;
@@ -208,6 +208,7 @@ impl<'a, P: Recorded<'a>, M: Integrator<Numbers>> RunRecorder<'a, P, M> {
         let mut zeno_count = 0;
         while target - self.run.t() > rest {
             let left = target - self.run.t();
+            self.resolve_stiction()?;
             let before = self.run.modes().clone();
             let passed = (self.run.events, self.run.kinks);
             if zeno_count < ZENO_LIMIT {
@@ -234,6 +235,16 @@ impl<'a, P: Recorded<'a>, M: Integrator<Numbers>> RunRecorder<'a, P, M> {
                 self.happened(&before);
             }
             (self.watch)(self.run.t() / self.way.integration.end);
+        }
+        Ok(())
+    }
+
+    /// Makes the modes agree with inputs that have jumped, so that they are those of the whole next step.
+    fn resolve_stiction(&mut self) -> Result<(), Failed<P>> {
+        let (before, events) = (self.run.modes().clone(), self.run.events);
+        self.run.resolve_stiction()?;
+        if self.run.events > events {
+            self.happened(&before);
         }
         Ok(())
     }

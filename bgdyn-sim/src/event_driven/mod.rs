@@ -384,7 +384,12 @@ where
             None => Next::new(self, t, y, modes),
         };
         let (after, found) = next.after(&Cause::Outside)?;
-        let same = resolved.is_none() && after == *y && found.contacts == modes.contacts;
+        // Rounding and the direction of a slip are no changes.
+        let kinds =
+            |all: &PerContact<ContactMode<_>>| all.map(|mode| core::mem::discriminant(&mode));
+        let same = resolved.is_none()
+            && kinds(&found.contacts) == kinds(&modes.contacts)
+            && found.jump == Jump::none();
         Ok((!same).then_some((after, found)))
     }
 
