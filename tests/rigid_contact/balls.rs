@@ -1,6 +1,6 @@
 //! Balls that bounce and collide.
 
-use bgdyn::nalgebra::{SVector, Vector3};
+use bgdyn::nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 
 use crate::bounces::Bounces;
 use crate::collides::Collides;
@@ -63,55 +63,60 @@ fn lanes_end_where_contacts_are_rigid() {
 #[test]
 fn balls_collide_off_centre_with_spin() {
     let mut scene = Collides::<f64>::default();
-    for (friction, sticks) in [(0.05, false), (0.6, true)] {
+    for (friction, sticks) in COLLISIONS {
         scene.friction = friction;
-        let mut run = start!(&scene, |y: &mut SVector<f64, 26>| {
-            // The spin of the first ball, rad/s.
-            y.as_mut_slice()[17..20].copy_from_slice(&[11.0, -4.0, 6.0]);
-        });
+        let mut run = start!(&scene, spin_first);
         advance(&mut run, 0.06, 60_000);
-        let y = run.y();
-        let place = |y: &SVector<f64, 26>, at: usize| Vector3::new(y[at], y[at + 1], y[at + 2]);
-        // Centres at the impact: the first moves along x until the distance is 60 mm.
-        let offset = Vector3::new(
-            -(0.06_f64.powi(2) - 0.02_f64.powi(2) - 0.015_f64.powi(2)).sqrt(),
-            0.02,
-            0.015,
-        );
-        let normal = offset.normalize();
-        let (v, w) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(11.0, -4.0, 6.0));
-        let slip = v + w.cross(&(-0.03 * normal));
-        let along = slip - normal * slip.dot(&normal);
-        let (mass, e) = (0.2, 0.9);
-        let pressed = -mass * (1.0 + e) * v.dot(&normal) / 2.0;
-        let stuck = mass * along.norm() / 7.0;
-        assert_eq!(stuck < friction * pressed, sticks);
-        let rubbed = along.normalize() * -stuck.min(friction * pressed);
-        let impulse = normal * pressed + rubbed;
-        // Orientations turn with the spin: compare velocities in world axes.
-        let turned = |y: &SVector<f64, 26>, q: usize, at: usize| {
-            let [x, i, j, k] = [y[q + 3], y[q], y[q + 1], y[q + 2]];
-            let turn = bgdyn::nalgebra::UnitQuaternion::from_quaternion(
-                bgdyn::nalgebra::Quaternion::new(x, i, j, k),
-            );
-            turn * place(y, at)
-        };
-        let (first, second) = (turned(y, 3, 14), turned(y, 10, 20));
-        let close = |found: Vector3<f64>, wanted: Vector3<f64>| {
-            assert!(
-                (found - wanted).norm() < 2e-4,
-                "{friction}: {found} for {wanted}"
-            );
-        };
-        close(first, v + impulse / mass);
-        close(second, -impulse / mass);
-        let inertia = 0.4 * mass * 0.03 * 0.03;
-        let spun = -0.03 * normal.cross(&impulse) / inertia;
-        let (spin, other) = (turned(y, 3, 17), turned(y, 10, 23));
-        assert!((spin - w - spun).norm() < 3e-4, "{spin} for {}", w + spun);
-        assert!((other - spun).norm() < 3e-4, "{other} for {spun}");
-        // Momentum to rounding, whatever the step.
-        let momentum = mass * (first + second);
-        assert!((momentum - mass * v).norm() < 1e-11, "{momentum}");
+        assert_collided(run.y(), (friction, sticks), 3e-4);
     }
+}
+
+/// Coefficients of friction, and whether the balls stick with them.
+pub const COLLISIONS: [(f64, bool); 2] = [(0.05, false), (0.6, true)];
+
+/// Gives the first ball a spin, rad/s.
+pub fn spin_first(y: &mut SVector<f64, 26>) {
+    y.as_mut_slice()[17..20].copy_from_slice(&[11.0, -4.0, 6.0]);
+}
+
+/// Asserts that the velocities after the collision, along axes of the world, are exact up to `bar`.
+pub fn assert_collided(y: &SVector<f64, 26>, (friction, sticks): (f64, bool), bar: f64) {
+    // Centres at the impact: the first moves along x until the distance is 60 mm.
+    let offset = Vector3::new(
+        -(0.06_f64.powi(2) - 0.02_f64.powi(2) - 0.015_f64.powi(2)).sqrt(),
+        0.02,
+        0.015,
+    );
+    let normal = offset.normalize();
+    let (v, w) = (Vector3::new(2.0, 0.0, 0.0), Vector3::new(11.0, -4.0, 6.0));
+    let slip = v + w.cross(&(-0.03 * normal));
+    let along = slip - normal * slip.dot(&normal);
+    let (mass, e) = (0.2, 0.9);
+    let pressed = -mass * (1.0 + e) * v.dot(&normal) / 2.0;
+    let stuck = mass * along.norm() / 7.0;
+    assert_eq!(stuck < friction * pressed, sticks);
+    let rubbed = along.normalize() * -stuck.min(friction * pressed);
+    let impulse = normal * pressed + rubbed;
+    // Orientations turn with the spin: compare velocities in world axes.
+    let turned = |q: usize, at: usize| {
+        let [x, i, j, k] = [y[q + 3], y[q], y[q + 1], y[q + 2]];
+        let turn = UnitQuaternion::from_quaternion(Quaternion::new(x, i, j, k));
+        turn * Vector3::new(y[at], y[at + 1], y[at + 2])
+    };
+    let close = |found: Vector3<f64>, wanted: Vector3<f64>| {
+        assert!(
+            (found - wanted).norm() < bar,
+            "{friction}: {found} for {wanted}"
+        );
+    };
+    let (first, second) = (turned(3, 14), turned(10, 20));
+    close(first, v + impulse / mass);
+    close(second, -impulse / mass);
+    let inertia = 0.4 * mass * 0.03 * 0.03;
+    let spun = -0.03 * normal.cross(&impulse) / inertia;
+    close(turned(3, 17), w + spun);
+    close(turned(10, 23), spun);
+    // Momentum to rounding, whatever the step.
+    let momentum = mass * (first + second);
+    assert!((momentum - mass * v).norm() < 1e-11, "{momentum}");
 }

@@ -1,8 +1,10 @@
-//! Rigid contact by time stepping, against closed forms: bouncing, sliding, sticking, rolling, rocking, collision, rest.
+//! Rigid contact by time stepping and from event to event, against closed forms: bouncing, sliding, sticking, rolling,
+//! rocking, collision, rest.
 
 mod balls;
 mod biases;
 mod drops;
+mod events;
 mod planar;
 mod rest;
 mod sliding;

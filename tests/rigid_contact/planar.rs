@@ -8,10 +8,10 @@ use crate::rolls::Rolls;
 use crate::slips::Slips;
 use crate::{G, advance, start};
 
-type Y = SVector<f64, 6>;
+pub type Y = SVector<f64, 6>;
 
 /// Speed along the incline of the slope 3/4, downhill.
-fn downhill(y: &Y) -> f64 {
+pub fn downhill(y: &Y) -> f64 {
     let (sin, cos) = y[2].sin_cos();
     let (x, z) = (cos * y[3] - sin * y[4], sin * y[3] + cos * y[4]);
     -(4.0 * x + 3.0 * z) / 5.0
@@ -54,14 +54,14 @@ fn a_disc_rolls_or_slips_down_an_incline() {
 }
 
 /// The angle and the distance of a corner of the rocking block from its centre, and p² = 3 g/(4 R).
-fn rocker() -> (f64, f64, f64) {
+pub fn rocker() -> (f64, f64, f64) {
     let (half_width, half_height) = (0.1_f64, 0.4);
     let size = half_width.hypot(half_height);
     (half_width.atan2(half_height), size, 3.0 * G / (4.0 * size))
 }
 
 /// Returns the time from rest at a tilt to the upright position: ∫ dθ/√(2 p² (cos(α − θ₀) − cos(α − θ))), with θ = θ₀ (1 − s²).
-fn quarter(tilt: f64) -> f64 {
+pub fn quarter(tilt: f64) -> f64 {
     let (alpha, _, square) = rocker();
     let rate = |s: f64| {
         let theta = tilt * (1.0 - s * s);

@@ -94,9 +94,11 @@ impl<'a> Recorded<'a> for EventDriven<Evaluated<'a>> {
                 ContactMode::Open if closed(before) => "opens",
                 ContactMode::Open if impulse > 0.0 => "bounces",
                 ContactMode::Stick if !closed(before) => "closes and sticks",
-                ContactMode::Slip(_) if !closed(before) => "closes and slips",
+                ContactMode::Start(_) | ContactMode::Slip(_) if !closed(before) => {
+                    "closes and slips"
+                }
                 ContactMode::Stick if before != after => "sticks",
-                ContactMode::Slip(_) if *before == ContactMode::Stick => "slips",
+                ContactMode::Start(_) if *before == ContactMode::Stick => "slips",
                 _ => return None,
             };
             Some(ContactEvent {

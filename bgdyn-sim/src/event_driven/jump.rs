@@ -3,9 +3,10 @@
 use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
 use super::impact::{impact, note_losses};
-use super::modes::{Closing, ContactMode, ContactModes, Jump, speed, still};
+use super::modes::{self, Closing, ContactMode, ContactModes, Jump, speed, still};
+use super::projection::held;
 use super::settle::{Touch, settled};
-use super::snapshot::{PerContact, Snapshot};
+use super::snapshot::{PerContact, Snapshot, contacts_at};
 use super::system::{Unknowns, solved};
 use super::{ErrorOf, EventDriven, EventError, ModesOf, touching};
 use crate::plant::{Plant, Time};
@@ -236,12 +237,13 @@ where
             mut y, hit, ended, ..
         } = pushed;
         self.of.lift(self.t, &mut y, &self.plant, touch)?;
-        let snapshot = Snapshot::new(&self.of.plant, self.t, &y, &self.plant)?;
+        let mut snapshot = Snapshot::new(&self.of.plant, self.t, &y, &self.plant)?;
         let rates = self.of.plant.rates(self.t, &y, &self.plant);
         let rates = rates.map_err(EventError::Plant)?;
         let free = self
             .of
             .accelerations(self.t, &y, &self.plant, (&snapshot, &rates))?;
+        let zero = Time::<P>::from_f64(0.0);
         let still = resolved(&snapshot).max(resolved_before(&self.y, &snapshot));
         // Beside a contact that comes to rest, speeds like its own are at rest.
         let slow = ended * Time::<P>::from_f64(16.0);
@@ -252,6 +254,15 @@ where
             }
             self.touch(c, velocity, (hit, still.max(slow)), began[c], cause)
         });
+        // What an event leaves of the velocities of contacts at rest would stay for ever.
+        let resting = touches.map(|touch| match touch {
+            Touch::Apart => ContactMode::Open,
+            Touch::Rests => ContactMode::Stick,
+            Touch::Opens => ContactMode::Slip([zero; 2]),
+            Touch::Starts(d) | Touch::Slips(d) => ContactMode::Slip(d),
+        });
+        snapshot.push(&mut y, &held(&snapshot, &resting));
+        snapshot.contacts = contacts_at(&self.of.plant, self.t, &y, &self.plant)?;
         let modes = settled(&snapshot, &free, &touches)?;
         let forces = snapshot
             .forces(&modes, &free)
@@ -285,29 +296,33 @@ where
             return Touch::Opens;
         }
         match before {
-            _ if hit => match slip > slow {
-                true => along(),
-                false => Touch::Rests,
+            _ if hit && slip > slow => along(),
+            _ if hit => Touch::Rests,
+            ContactMode::Stick => began.map_or(Touch::Rests, Touch::Starts),
+            ContactMode::Start(direction) => match cause.fell(c, 1) {
+                true if slip >= modes::slow() => along(),
+                true => Touch::Rests,
+                false => Touch::Starts(direction),
             },
-            ContactMode::Stick => match began {
-                Some(direction) => Touch::Slips(direction),
-                None => Touch::Rests,
-            },
-            // What ends a slip leaves no more than this speed.
-            ContactMode::Slip(_) if cause.fell(c, 1) => {
-                let stops = Time::<P>::EPSILON.sqrt() * Time::<P>::from_f64(0.1);
-                match slip > stops {
-                    true => along(),
-                    false => Touch::Rests,
-                }
-            }
-            ContactMode::Slip(_) if slip > still() => along(),
-            ContactMode::Slip(direction) if matches!(cause, Cause::Events(_)) => {
-                Touch::Slips(direction)
-            }
-            _ if slip > slow => along(),
-            _ => Touch::Rests,
+            ContactMode::Slip(_) if self.stops(cause, slip) => Touch::Rests,
+            ContactMode::Slip(direction) if slip <= still() => Touch::Slips(direction),
+            ContactMode::Slip(_) => along(),
+            ContactMode::Open if slip > slow => along(),
+            ContactMode::Open => Touch::Rests,
         }
+    }
+
+    /// Returns whether a slip ends: its own event or that of another contact leaves no more than a tenth of the speed at which
+    /// slip begins. The corners of a box that slides come to rest together.
+    fn stops(&self, cause: &Cause<'_>, slip: Time<P>) -> bool {
+        let slips = |c: usize| matches!(self.contacts[c], ContactMode::Slip(_));
+        let ended = (0..MOST_EVENT_CONTACTS).any(|d| slips(d) && cause.fell(d, 1));
+        let least = match cause {
+            Cause::Events(_) if ended => modes::slow::<Time<P>>() * Time::<P>::from_f64(0.1),
+            Cause::Events(_) => return false,
+            Cause::Outside => still(),
+        };
+        slip <= least
     }
 
     /// Returns the contacts that separate, but would meet again within next to no time: after 2 γ_n/−γ̇_n, and all over after

@@ -17,7 +17,6 @@ pub use self::impact::ImpactLaw;
 pub use self::modes::{ContactMode, ContactModes, Jump};
 
 use self::jump::{Cause, Next};
-use self::modes::{speed, still};
 use self::snapshot::{PerContact, Snapshot, contacts_at};
 use crate::finite_differences::differences;
 use crate::integrator::Integrator;
@@ -317,18 +316,14 @@ where
         let of_plant = self.plant.events(t, y, &modes.plant);
         let contacts = contacts_at(&self.plant, t, y, &modes.plant)?;
         let forces = self.forces(t, y, modes)?;
-        let [half, one] = [0.5, 1.0].map(Time::<P>::from_f64);
         let of_contacts = core::array::from_fn(|c| {
             let (contact, force) = (contacts[c], forces[c]);
-            match modes.contacts[c] {
-                ContactMode::Open => [modes.closing[c].value(t, contact.gap), one],
-                ContactMode::Stick => [force[2], contact.friction * force[2] - speed(force)],
-                ContactMode::Slip([x, y]) => {
-                    let [vx, vy, _] = contact.velocity;
-                    let along = x.mul_add(vx, y * vy);
-                    [force[2], along - half * speed(contact.velocity) + still()]
-                }
-            }
+            let mode = modes.contacts[c];
+            let first = match mode {
+                ContactMode::Open => modes.closing[c].value(t, contact.gap),
+                _ => force[2],
+            };
+            [first, mode.ends(contact.friction, force, contact.velocity)]
         });
         Ok(ContactEvents {
             of_plant: of_plant.map_err(EventError::Plant)?,

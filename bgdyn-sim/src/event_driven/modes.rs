@@ -11,8 +11,10 @@ pub enum ContactMode<T> {
     Open,
     /// No slip: γ = 0, |λ_t| ≤ μ λ_n.
     Stick,
-    /// Slip: γ_n = 0, λ_t = −μ λ_n d with the direction d of the slip. The mode has the direction at its beginning, along (x, y):
-    /// it decides while there is no speed, and which of d and −d is meant.
+    /// Slip begins, slower than √ε m/s (1.5e-8 in `f64`): γ_n = 0, λ_t = −μ λ_n d with a fixed direction d along (x, y). With
+    /// the direction of the velocity, which at no speed is none, the equations would be stiff without bound.
+    Start([T; 2]),
+    /// Slip: γ_n = 0, λ_t = −μ λ_n γ_t/|γ_t|. The mode has the direction at its beginning.
     Slip([T; 2]),
 }
 
@@ -26,20 +28,36 @@ impl<T: Real> ContactMode<T> {
     ///
     /// It has the orientation of the mode's direction: a step beyond the instant at which slip ends goes on as it began.
     pub(super) fn direction(self, velocity: [T; 3]) -> Option<[T; 2]> {
-        let ContactMode::Slip(first) = self else {
-            return None;
+        let first = match self {
+            ContactMode::Open | ContactMode::Stick => return None,
+            ContactMode::Start(direction) => return Some(direction),
+            ContactMode::Slip(first) => first,
         };
-        let along = first[0].mul_add(velocity[0], first[1] * velocity[1]);
         let speed = speed(velocity);
         if speed <= still::<T>() {
             return Some(first);
         }
-        let speed = if along < T::from_f64(0.0) {
+        let speed = if along(velocity, first) < T::from_f64(0.0) {
             -speed
         } else {
             speed
         };
         Some([velocity[0] / speed, velocity[1] / speed])
+    }
+
+    /// Returns what falls through 0 at the end of a closed mode besides λ_n: what friction may grow by, how far a beginning
+    /// slip is from its end, or how far a slip is from standing still or from having turned by 60°.
+    pub(super) fn ends(self, friction: T, force: [T; 3], velocity: [T; 3]) -> T {
+        match self {
+            ContactMode::Open => T::from_f64(1.0),
+            ContactMode::Stick => friction * force[2] - speed(force),
+            ContactMode::Start(d) => {
+                (slow::<T>() - speed(velocity)).min(along(velocity, d) + still())
+            }
+            ContactMode::Slip(d) => {
+                along(velocity, d) - T::from_f64(0.5) * speed(velocity) + still()
+            }
+        }
     }
 }
 
@@ -118,6 +136,16 @@ pub(super) fn speed<T: Real>(velocity: [T; 3]) -> T {
     velocity[0]
         .mul_add(velocity[0], velocity[1] * velocity[1])
         .sqrt()
+}
+
+/// Returns the component along a direction in the plane of contact.
+pub(super) fn along<T: Real>(velocity: [T; 3], d: [T; 2]) -> T {
+    velocity[0].mul_add(d[0], velocity[1] * d[1])
+}
+
+/// Slip begins below this speed, m/s: 1.5e-8 in `f64`.
+pub(super) fn slow<T: Real>() -> T {
+    T::EPSILON.sqrt()
 }
 
 /// Speeds up to this, m/s, are rounding: 1e-13 in `f64`.

@@ -34,7 +34,7 @@ where
             let held = match modes.contacts[c] {
                 ContactMode::Open => &all[..0],
                 ContactMode::Stick => &all[..],
-                ContactMode::Slip(_) => &all[2..],
+                ContactMode::Start(_) | ContactMode::Slip(_) => &all[2..],
             };
             held.iter().any(|v| v.abs() > negligible)
         };
@@ -87,7 +87,7 @@ where
 }
 
 /// Returns the impulses that stop closed contacts along their normals, and those that stick altogether.
-fn held<Y: StateVector>(
+pub(super) fn held<Y: StateVector>(
     snapshot: &Snapshot<Y>,
     modes: &PerContact<ContactMode<Y::Scalar>>,
 ) -> PerContact<[Y::Scalar; 3]>
@@ -100,7 +100,9 @@ where
         match modes[c] {
             ContactMode::Open => {}
             ContactMode::Stick => unknowns.add_all(c, velocity.map(|v| -v)),
-            ContactMode::Slip(_) => unknowns.add_axis(c, 2, -velocity[2]),
+            ContactMode::Start(_) | ContactMode::Slip(_) => {
+                unknowns.add_axis(c, 2, -velocity[2]);
+            }
         }
     }
     solved(&unknowns, &snapshot.delassus)

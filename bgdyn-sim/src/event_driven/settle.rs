@@ -8,7 +8,7 @@
 use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
 use super::EventError;
-use super::modes::{ContactMode, speed};
+use super::modes::{ContactMode, along, speed};
 use super::snapshot::{PerContact, Snapshot};
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::real::{Of, Real};
@@ -22,7 +22,9 @@ pub(super) enum Touch<T> {
     Opens,
     /// It touches without slip.
     Rests,
-    /// It slips, or begins to, in this direction.
+    /// It begins to slip in this direction.
+    Starts([T; 2]),
+    /// It slips in this direction.
     Slips([T; 2]),
 }
 
@@ -75,14 +77,14 @@ where
     let zero = Of::<Y>::from_f64(0.0);
     let fast = Of::<Y>::from_f64(FAST).min(Of::<Y>::from_f64(1.0) / Of::<Y>::EPSILON.sqrt())
         * largest(accelerations, touches);
-    let active = touches.map(|touch| matches!(touch, Touch::Rests | Touch::Slips(_)));
+    let active = touches.map(|touch| !matches!(touch, Touch::Apart | Touch::Opens));
     let mut modes = [ContactMode::Open; MOST_EVENT_CONTACTS];
     if !active.contains(&true) {
         return Ok(modes);
     }
     let mut start = *accelerations;
     for (start, touch) in start.iter_mut().zip(touches) {
-        if let Touch::Slips(d) = touch {
+        if let Touch::Starts(d) | Touch::Slips(d) = touch {
             for (start, &d) in start.iter_mut().zip(d) {
                 *start = fast.mul_add(d, *start);
             }
@@ -105,6 +107,7 @@ where
                 return Err(EventError::Paradox { contact: c });
             }
             Touch::Slips(d) => ContactMode::Slip(d),
+            Touch::Starts(d) => ContactMode::Start(d),
             _ => rests_or_slips(friction[c], forces[c], after),
         };
     }
@@ -116,14 +119,9 @@ fn rests_or_slips<T: Real>(friction: T, force: [T; 3], acceleration: [T; 3]) -> 
     let limit = friction * force[2];
     let inside = speed(force) < limit * (T::from_f64(1.0) - T::EPSILON.sqrt());
     match against(force, acceleration) {
-        Some(direction) if !inside => ContactMode::Slip(direction),
+        Some(direction) if !inside => ContactMode::Start(direction),
         _ => ContactMode::Stick,
     }
-}
-
-/// Returns the component along a direction in the plane of contact.
-fn along<T: Real>(velocity: [T; 3], d: [T; 2]) -> T {
-    velocity[0].mul_add(d[0], velocity[1] * d[1])
 }
 
 /// Returns the direction against a force of friction, or, without friction, along the acceleration.
@@ -171,6 +169,7 @@ where
                 if -after[2] > negligible {
                     let mode = match touches[c] {
                         Touch::Slips(d) => ContactMode::Slip(d),
+                        Touch::Starts(d) => ContactMode::Start(d),
                         _ => ContactMode::Stick,
                     };
                     found(-after[2], c, mode);
@@ -181,10 +180,10 @@ where
                 if excess > zero {
                     let direction = against(force, after).unwrap_or([zero; 2]);
                     let side = own[0][0].max(own[1][1]);
-                    found(excess * side, c, ContactMode::Slip(direction));
+                    found(excess * side, c, ContactMode::Start(direction));
                 }
             }
-            ContactMode::Slip(d) if touches[c] == Touch::Rests => {
+            ContactMode::Start(d) => {
                 let along = along(after, d);
                 if -along > negligible {
                     found(-along, c, ContactMode::Stick);
