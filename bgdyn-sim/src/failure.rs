@@ -67,7 +67,7 @@ impl<E: fmt::Debug> fmt::Display for Reason<E> {
                 "the method's matrix is singular; a smaller step may help",
             ),
             Self::RigidContacts => f.write_str(
-                "the method does not know so many rigid contacts: use `moreau`, which knows 32, or a compliant law of contact",
+                "the method does not know so many rigid contacts: use `Moreau`, which knows 32, go from event to event with `EventDriven`, which knows 8, or use a compliant law of contact",
             ),
             Self::NoJacobian => f.write_str(
                 "the method needs the slopes of the rates; generate the scene with them, or take them from differences",

@@ -12,7 +12,7 @@
 //! | `rodas4` | 4(3) | stiff scenes, fixed or controlled steps |
 //! | `dopri5` | 5(4) | controlled steps, not stiff |
 //! | `dop853` | 8(5,3) | the same at small tolerances |
-//! | `moreau` | 2, with impacts 1 | rigid contacts, fixed steps |
+//! | `moreau` | 2, with impacts 1 | rigid contacts, fixed steps; others go from event to event with [`EventDriven`] |
 //! | `extrapolation12` | 12 | references in double-double |
 //!
 //! [`rk4_step`] takes a step of any [`Dynamics`](bgdyn_runtime::Dynamics) model without a scene. Positions
@@ -48,7 +48,7 @@
 //! ```
 //!
 //! [`ilqr`] finds efforts and feedback for a motion of least cost, [`cone`] the impulses of rigid contacts with Coulomb
-//! friction; [`Moreau`] steps scenes with such contacts.
+//! friction; [`Moreau`] steps scenes with such contacts, and [`EventDriven`] goes from event to event.
 //!
 //! SI units and radians, time in s, energy in J. Frames, signs and the order of spatial vectors are those
 //! of the models: see [`bgdyn_runtime`].

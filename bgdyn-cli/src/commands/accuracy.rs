@@ -67,7 +67,7 @@ impl Accuracy {
         }
         if let Some(contact) = system.scene.layout.rigid_contacts.first() {
             bail!(
-                "studies do not support the rigid contact `{contact}` yet: no method but `moreau` solves for its impulses. `bgdyn simulate` compares a run with one of half the step; `compliant_contact` can be studied"
+                "studies do not support the rigid contact `{contact}` yet: they have no modes of contacts. `bgdyn simulate` compares a run with one of half the step; `compliant_contact` can be studied"
             );
         }
         let study = self.study(&system, end)?;

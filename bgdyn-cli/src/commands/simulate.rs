@@ -199,6 +199,12 @@ impl Simulate {
                 joint.name
             )));
         }
+        if contacts > 0 && method.needs_canonical() {
+            let (name, natural) = (method.name(), method.on_velocities().name());
+            return Err(Usage(format!(
+                "`{name}` integrates momenta, and impulses of rigid contacts are known for velocities only: use `{natural}`"
+            )));
+        }
         if contacts > MOST_EVENT_CONTACTS && !method.solves_contacts() {
             return Err(Usage(format!(
                 "`{}` goes from event to event, and the scene has {contacts} rigid contacts: at most {MOST_EVENT_CONTACTS} are solved so; use `moreau`",

@@ -295,6 +295,10 @@ impl<'a, P: Recorded<'a>, M: Integrator<Numbers>> RunRecorder<'a, P, M> {
             let quality = self.quality.get_or_insert_default();
             quality.residual = quality.residual.max(residual);
             quality.by_poisson += usize::from(by_poisson);
+            // A slip that has begun is no news.
+            if contacts.is_empty() && P::scene_modes(before) == P::scene_modes(after) {
+                return;
+            }
         }
         let [before, after] = [before, after].map(|modes| P::scene_modes(modes).clone());
         self.events.push(Event {

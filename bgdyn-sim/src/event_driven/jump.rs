@@ -2,13 +2,15 @@
 
 use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
-use super::impact::{impact, note_losses};
-use super::modes::{self, Closing, ContactMode, ContactModes, Jump, speed, still};
+use super::equations::{ErrorOf, EventDriven, PlantModes, touching};
+use super::error::EventError;
+use super::impact::impact;
+use super::impulses::note_losses;
+use super::modes::{self, Closing, ContactMode, ContactModes, Jump, PerContact, speed, still};
 use super::projection::held;
 use super::settle::{Touch, settled};
-use super::snapshot::{PerContact, Snapshot, contacts_at};
+use super::snapshot::{Snapshot, contacts_at};
 use super::system::{Unknowns, solved};
-use super::{ErrorOf, EventDriven, EventError, ModesOf, touching};
 use crate::plant::{Plant, Time};
 use crate::real::Real;
 
@@ -59,6 +61,9 @@ struct Pushed<P: Plant> {
     ended: Time<P>,
 }
 
+/// The directions in which contacts begin to slip.
+type Began<P> = PerContact<Option<[Time<P>; 2]>>;
+
 /// Where a jump ends: its state, modes and accelerations.
 struct Landed<P: Plant> {
     y: P::State,
@@ -77,7 +82,7 @@ where
         of: &'a EventDriven<P>,
         t: Time<P>,
         y: &P::State,
-        modes: &ModesOf<P>,
+        modes: &PlantModes<P>,
     ) -> Self {
         Next {
             of,
@@ -95,7 +100,7 @@ where
 
     /// Returns state and modes after the jump: impulses where contacts approach, then the modes. If a contact would meet
     /// again after next to no time, it comes to rest instead, and the jump is repeated.
-    pub(super) fn after(self, cause: &Cause<'_>) -> Result<(P::State, ModesOf<P>), ErrorOf<P>> {
+    pub(super) fn after(self, cause: &Cause<'_>) -> Result<(P::State, PlantModes<P>), ErrorOf<P>> {
         let snapshot = Snapshot::new(&self.of.plant, self.t, &self.y, &self.plant)?;
         let touch = self.touching(&snapshot, cause);
         let began = self.began(&snapshot, cause)?;
@@ -159,7 +164,7 @@ where
         &self,
         snapshot: &Snapshot<P::State>,
         cause: &Cause<'_>,
-    ) -> Result<PerContact<Option<[Time<P>; 2]>>, ErrorOf<P>> {
+    ) -> Result<Began<P>, ErrorOf<P>> {
         let stuck = |c: usize| self.contacts[c] == ContactMode::Stick && cause.fell(c, 1);
         let mut began = [None; MOST_EVENT_CONTACTS];
         if !(0..snapshot.number).any(stuck) {
@@ -230,7 +235,7 @@ where
     fn landed(
         &self,
         pushed: Pushed<P>,
-        (touch, began): (&PerContact<bool>, &PerContact<Option<[Time<P>; 2]>>),
+        (touch, began): (&PerContact<bool>, &Began<P>),
         cause: &Cause<'_>,
     ) -> Result<Landed<P>, ErrorOf<P>> {
         let Pushed {

@@ -1,6 +1,9 @@
 //! Rigid contacts from event to event: between two events each contact is open, sticks or slips.
 
+mod equations;
+mod error;
 mod impact;
+mod impulses;
 mod jump;
 mod modes;
 mod poisson;
@@ -9,15 +12,17 @@ mod settle;
 mod snapshot;
 mod system;
 
-use core::fmt::Debug;
+use bgdyn_runtime::{HybridSystem, MOST_EVENT_CONTACTS, StateVector};
 
-use bgdyn_runtime::{HybridSystem, MOST_EVENT_CONTACTS, Scalar as _, StateVector};
-
+pub use self::equations::EventDriven;
+pub use self::error::EventError;
 pub use self::impact::ImpactLaw;
 pub use self::modes::{ContactMode, ContactModes, Jump};
 
+use self::equations::{ErrorOf, PlantModes, closes};
 use self::jump::{Cause, Next};
-use self::snapshot::{PerContact, Snapshot, contacts_at};
+use self::modes::PerContact;
+use self::snapshot::{Snapshot, contacts_at};
 use crate::finite_differences::differences;
 use crate::integrator::Integrator;
 use crate::ode::Jacobian;
@@ -25,76 +30,6 @@ use crate::plant::{EventValues, FixedModes, Plant, Power, Time};
 use crate::real::Real;
 use crate::run::{HybridState, Run};
 use crate::scene_plant::ScenePlant;
-
-/// A plant whose rigid contacts are solved from event to event, with any integrator: at most 8
-/// ([`MOST_EVENT_CONTACTS`]).
-///
-/// Between events each contact has a [`ContactMode`], and the forces λ of all are those of the linear equations γ̇_n = 0 where a
-/// contact is closed, γ̇_t = 0 where it sticks and λ_t = −μ λ_n γ_t/|γ_t| where it slips; of redundant contacts those of least
-/// norm. Then the plant is smooth, and runs have the order of their integrator. Events are: a gap falls to 0; λ_n falls to 0;
-/// |λ_t| reaches μ λ_n; a slip ends. At each event the modes of all touching contacts are found at once, from Coulomb's cones
-/// for accelerations (Glocker 2001; Acary and Brogliato 2008, chapter 8).
-///
-/// Impacts are jumps by impulses of all contacts that touch, by an [`ImpactLaw`]. A series of impacts that would end within
-/// 1e-2 √ε s (1.5e-10 s in `f64`) is over at once, and the contact is closed. What impacts and friction take is in the balance of energy. Positions
-/// and velocities of closed contacts are put right at the end of a step, in the metric of M.
-///
-/// ```
-/// use bgdyn_sim::{Dop853, EventDriven, Tolerance};
-///
-/// bgdyn::bgdyn!("../specs/contact/hopper_hops.scene.yaml");
-///
-/// let scene = hopper_hops::HopperHops::<f64>::default();
-/// let mut run = EventDriven::run(&scene, Dop853).with_tolerance(Tolerance { absolute: 1e-10, relative: 1e-10 });
-/// run.step(0.5).expect("it hops");
-/// assert!(run.audit().drift().abs() < 1e-8);
-/// ```
-#[derive(Clone, Debug)]
-pub struct EventDriven<P> {
-    /// The plant with its contacts.
-    pub plant: P,
-    /// The law of restitution.
-    pub law: ImpactLaw,
-}
-
-/// Why there are no rates or modes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum EventError<E> {
-    /// The plant has none.
-    Plant(E),
-    /// Painlevé's paradox: a contact slips, and no finite force keeps it from overlapping. Only an impulse does, which
-    /// [`crate::Moreau`] finds.
-    Paradox {
-        /// The contact, in the order of the plant's.
-        contact: usize,
-    },
-    /// No modes fulfil all inequalities to rounding.
-    NoModes,
-    /// There are more contacts than this solver takes.
-    TooManyContacts {
-        /// The number of contacts.
-        number: usize,
-    },
-}
-
-impl<E: core::fmt::Debug> core::fmt::Display for EventError<E> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Plant(error) => write!(f, "{error:?}"),
-            Self::Paradox { contact } => write!(
-                f,
-                "contact {contact} slips, and no finite force keeps it from overlapping (Painlevé's paradox); `moreau` finds an impulse"
-            ),
-            Self::NoModes => f.write_str(
-                "no choice of open, sticking and slipping contacts fulfils all conditions; `moreau` may go on",
-            ),
-            Self::TooManyContacts { number } => write!(
-                f,
-                "{number} rigid contacts are more than the {MOST_EVENT_CONTACTS} that are solved from event to event; `moreau` takes more"
-            ),
-        }
-    }
-}
 
 /// The values of events: two of each contact, then those of the plant.
 #[derive(Clone, Debug)]
@@ -130,95 +65,12 @@ impl<'a, S: HybridSystem<T>, T: Real> EventDriven<ScenePlant<'a, S, T>> {
     }
 }
 
-/// A state, modes and errors of a plant with contacts.
-type ModesOf<P> = ContactModes<<P as Plant>::Modes, Time<P>>;
-type ErrorOf<P> = EventError<<P as Plant>::Error>;
-
-impl<P: Plant> EventDriven<P>
-where
-    Time<P>: Real,
-{
-    /// Returns the plant with Newton's law of restitution.
-    pub fn new(plant: P) -> Self {
-        let law = ImpactLaw::default();
-        EventDriven { plant, law }
-    }
-
-    /// Returns the forces of the contacts, N along (x, y, normal) of each.
-    ///
-    /// # Errors
-    /// If there are none.
-    pub fn forces(
-        &self,
-        t: Time<P>,
-        y: &P::State,
-        modes: &ModesOf<P>,
-    ) -> Result<[[Time<P>; 3]; MOST_EVENT_CONTACTS], ErrorOf<P>> {
-        if !closes(modes) {
-            return Ok([[Time::<P>::from_f64(0.0); 3]; MOST_EVENT_CONTACTS]);
-        }
-        let rates = self.plant.rates(t, y, &modes.plant);
-        let snapshot = Snapshot::new(&self.plant, t, y, &modes.plant)?;
-        self.forces_at(t, y, modes, (&snapshot, &rates.map_err(EventError::Plant)?))
-    }
-
-    /// Returns the forces with what is known of the state: its contacts and the rates without forces.
-    fn forces_at(
-        &self,
-        t: Time<P>,
-        y: &P::State,
-        modes: &ModesOf<P>,
-        (snapshot, rates): (&Snapshot<P::State>, &P::State),
-    ) -> Result<PerContact<[Time<P>; 3]>, ErrorOf<P>> {
-        let accelerations = self.accelerations(t, y, &modes.plant, (snapshot, rates))?;
-        snapshot
-            .forces(&modes.contacts, &accelerations)
-            .map_err(|contact| EventError::Paradox { contact })
-    }
-
-    /// Returns the accelerations of the contacts with the given rates: γ̇ = J v̇ + J̇ v.
-    fn accelerations(
-        &self,
-        t: Time<P>,
-        y: &P::State,
-        modes: &P::Modes,
-        (snapshot, rates): (&Snapshot<P::State>, &P::State),
-    ) -> Result<PerContact<[Time<P>; 3]>, ErrorOf<P>> {
-        let mut all = [[Time::<P>::from_f64(0.0); 3]; MOST_EVENT_CONTACTS];
-        self.plant
-            .rigid_contact_biases(t, y, modes, &mut all[..snapshot.number])
-            .map_err(EventError::Plant)?;
-        for (c, bias) in all.iter_mut().enumerate().take(snapshot.number) {
-            for (sum, part) in bias.iter_mut().zip(snapshot.along(c, rates)) {
-                *sum = *sum + part;
-            }
-        }
-        Ok(all)
-    }
-}
-
-/// Returns whether a contact is closed.
-fn closes<M, T: Real>(modes: &ContactModes<M, T>) -> bool {
-    modes.contacts.iter().any(|mode| mode.is_closed())
-}
-
-/// Returns the gap, m, below which surfaces touch: what rounding of the positions leaves.
-fn touching<P: Plant>(plant: &P, y: &P::State) -> Time<P>
-where
-    Time<P>: Real,
-{
-    let one = Time::<P>::from_f64(1.0);
-    let positions = &y.entries()[..plant.positions()];
-    let size = positions.iter().fold(one, |most, x| most.max(x.abs()));
-    Time::<P>::EPSILON * Time::<P>::from_f64(64.0) * size
-}
-
 impl<P: Plant> Plant for EventDriven<P>
 where
     Time<P>: Real,
 {
     type State = P::State;
-    type Modes = ModesOf<P>;
+    type Modes = PlantModes<P>;
     type Values = ContactEvents<P::Values, Time<P>>;
     type Entries = P::Entries;
     type Error = ErrorOf<P>;

@@ -4,6 +4,9 @@ use bgdyn_runtime::MOST_EVENT_CONTACTS;
 
 use crate::real::Real;
 
+/// A value for each contact; those after the plant's own contacts are zero, open or `None`.
+pub(super) type PerContact<X> = [X; MOST_EVENT_CONTACTS];
+
 /// What a rigid contact does between two events.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContactMode<T> {

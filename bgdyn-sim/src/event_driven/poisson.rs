@@ -2,9 +2,9 @@
 
 use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
-use super::impact::by_cones;
-use super::modes::{Jump, speed};
-use super::snapshot::{PerContact, Snapshot};
+use super::impulses::by_cones;
+use super::modes::{Jump, PerContact, speed};
+use super::snapshot::Snapshot;
 use crate::real::{Of, Real};
 
 /// The largest number of sweeps over the contacts.

@@ -2,10 +2,11 @@
 
 use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
-use super::modes::ContactMode;
-use super::snapshot::{PerContact, Snapshot, contacts_at};
+use super::equations::{ErrorOf, EventDriven, PlantModes, touching};
+use super::error::EventError;
+use super::modes::{ContactMode, PerContact};
+use super::snapshot::{Snapshot, contacts_at};
 use super::system::{Unknowns, solved};
-use super::{ErrorOf, EventDriven, EventError, ModesOf, touching};
 use crate::motion::moved;
 use crate::plant::{FixedModes, Plant, Time};
 use crate::real::Real;
@@ -23,7 +24,7 @@ where
         &self,
         t: Time<P>,
         y: &mut P::State,
-        modes: &ModesOf<P>,
+        modes: &PlantModes<P>,
         negligible: Time<P>,
     ) -> Result<bool, ErrorOf<P>> {
         let closed = modes.contacts.map(ContactMode::is_closed);

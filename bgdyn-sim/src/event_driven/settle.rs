@@ -7,9 +7,9 @@
 
 use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
-use super::EventError;
-use super::modes::{ContactMode, along, speed};
-use super::snapshot::{PerContact, Snapshot};
+use super::error::EventError;
+use super::modes::{ContactMode, PerContact, along, speed};
+use super::snapshot::Snapshot;
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::real::{Of, Real};
 
@@ -28,6 +28,9 @@ pub(super) enum Touch<T> {
     Slips([T; 2]),
 }
 
+/// Modes of contacts.
+type Settled<T> = PerContact<ContactMode<T>>;
+
 /// The speed of contacts that slip, in parts of the largest acceleration.
 const FAST: f64 = 1e6;
 
@@ -39,7 +42,7 @@ pub(super) fn settled<Y: StateVector, E>(
     snapshot: &Snapshot<Y>,
     accelerations: &PerContact<[Of<Y>; 3]>,
     touches: &PerContact<Touch<Of<Y>>>,
-) -> Result<PerContact<ContactMode<Of<Y>>>, EventError<E>>
+) -> Result<Settled<Of<Y>>, EventError<E>>
 where
     Of<Y>: Real,
 {
@@ -70,7 +73,7 @@ fn by_cones<Y: StateVector, E>(
     snapshot: &Snapshot<Y>,
     accelerations: &PerContact<[Of<Y>; 3]>,
     touches: &PerContact<Touch<Of<Y>>>,
-) -> Result<PerContact<ContactMode<Of<Y>>>, EventError<E>>
+) -> Result<Settled<Of<Y>>, EventError<E>>
 where
     Of<Y>: Real,
 {
@@ -141,7 +144,7 @@ fn violation<Y: StateVector>(
     snapshot: &Snapshot<Y>,
     accelerations: &PerContact<[Of<Y>; 3]>,
     touches: &PerContact<Touch<Of<Y>>>,
-    (modes, forces): (&PerContact<ContactMode<Of<Y>>>, &PerContact<[Of<Y>; 3]>),
+    (modes, forces): (&Settled<Of<Y>>, &PerContact<[Of<Y>; 3]>),
 ) -> Option<(usize, ContactMode<Of<Y>>)>
 where
     Of<Y>: Real,

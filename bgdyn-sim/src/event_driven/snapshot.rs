@@ -2,17 +2,11 @@
 
 use bgdyn_runtime::{ContactMap, MOST_EVENT_CONTACTS, RigidContact, Scalar as _, StateVector};
 
-use super::EventError;
-use super::modes::ContactMode;
-use super::system::{Constraint, Unknowns, solved};
+use super::error::EventError;
+use super::modes::{ContactMode, PerContact};
+use super::system::{Constraint, Delassus, Unknowns, solved};
 use crate::plant::{Plant, Time};
 use crate::real::{Of, Real};
-
-/// A value for each contact; those after the plant's own contacts are zero, open or `None`.
-pub(super) type PerContact<X> = [X; MOST_EVENT_CONTACTS];
-
-/// γ̇ = G λ + a for each pair of contacts, 3 × 3 blocks.
-pub(super) type Delassus<T> = PerContact<PerContact<[[T; 3]; 3]>>;
 
 /// The contacts in a state.
 pub(super) struct Snapshot<Y: StateVector> {

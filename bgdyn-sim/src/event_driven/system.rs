@@ -2,9 +2,12 @@
 
 use bgdyn_runtime::MOST_EVENT_CONTACTS;
 
-use super::snapshot::{Delassus, PerContact};
+use super::modes::PerContact;
 use crate::lu::{factor, solve};
 use crate::real::Real;
+
+/// γ̇ = G λ + a for each pair of contacts, 3 × 3 blocks.
+pub(super) type Delassus<T> = PerContact<PerContact<[[T; 3]; 3]>>;
 
 /// The largest number of equations.
 const MOST: usize = 3 * MOST_EVENT_CONTACTS;
@@ -134,7 +137,7 @@ pub(super) fn solved<T: Real>(
         }
         // Rounding only: it does not fall any more.
         let negligible = T::EPSILON * size(&x[..n]);
-        if change <= negligible || !(change < before) {
+        if change <= negligible || change >= before || !change.is_finite() {
             break;
         }
         before = change;

@@ -156,5 +156,5 @@ fn other_integrators_refuse_contacts() {
     let mut run = Run::by(Rk4, sphere, start);
     let failure = run.step(1e-3).expect_err("rk4 knows no contacts");
     assert_eq!(failure.reason, Reason::RigidContacts);
-    assert!(failure.to_string().contains("use `moreau`"), "{failure}");
+    assert!(failure.to_string().contains("use `Moreau`"), "{failure}");
 }
