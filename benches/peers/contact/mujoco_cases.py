@@ -19,6 +19,7 @@ import time
 import mujoco
 
 import cases
+import quadruped
 
 # How many steps a contact of the ball that bounces lasts.
 BOUNCE = 20
@@ -82,10 +83,13 @@ MODELS = {
     "rolls": (DISC, "-3 0 4", 0.3, [0, 0.25, 0], [0] * 3, lambda d: d.qvel[:2]),
     "slips": (DISC, "-3 0 4", 0.1, [0, 0.25, 0], [0] * 3, lambda d: d.qvel[:2]),
     "rocks": (ROCKER, "0 0 1", 0.5, cases.TILTED, [0] * 3, lambda d: [d.qpos[2]]),
+    "stands": (None, None, None, quadruped.POSITIONS, [0] * 18, quadruped.values),
 }
 
 
 def xml(name, setting, h):
+    if name == "stands":
+        return quadruped.xml(h, *settings(setting, h))
     body, normal, friction, *_ = MODELS[name]
     softness, options = settings(setting, h)
     rubs = 'condim="1"' if friction is None else f'condim="3" friction="{friction} 0 0"'
@@ -102,12 +106,13 @@ def run(name, setting, more, steps):
     model = mujoco.MjModel.from_xml_string(xml(name, setting, h))
     data = mujoco.MjData(model)
     q, v, values = MODELS[name][3:]
+    controls = quadruped.TARGETS if name == "stands" else []
     seconds, begun = math.inf, time.perf_counter()
     for repeat in range(REPEATS[1]):
         if repeat >= REPEATS[0] and time.perf_counter() - begun > PATIENCE:
             break
         mujoco.mj_resetData(model, data)
-        data.qpos[:], data.qvel[:] = q, v
+        data.qpos[:], data.qvel[:], data.ctrl[:] = q, v, controls
         start = time.perf_counter()
         mujoco.mj_step(model, data, nstep=steps)
         seconds = min(seconds, time.perf_counter() - start)

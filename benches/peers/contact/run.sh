@@ -14,7 +14,7 @@ export PEERS_DIR=${PEERS_DIR:-$root/target/peers}
 mkdir -p "$PEERS_DIR/bin"
 PEERS_DIR=$(cd "$PEERS_DIR" && pwd)
 . "$here/../venv.sh"
-venv contact mujoco==4.0.0 drake==1.51.1
+venv contact mujoco==4.0.0 drake==1.51.1 pyyaml==6.0.2
 . "$here/../cargo.sh"
 cargo_release "-C target-cpu=native" -p peers_contact -p peers_plots
 cp "$PEERS_DIR/rust/$host/release"/{contact,plots} "$PEERS_DIR/bin/"

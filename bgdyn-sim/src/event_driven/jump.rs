@@ -323,7 +323,7 @@ where
         let slips = |c: usize| matches!(self.contacts[c], ContactMode::Slip(_));
         let ended = (0..MOST_EVENT_CONTACTS).any(|d| slips(d) && cause.fell(d, 1));
         let least = match cause {
-            Cause::Events(_) if ended => modes::slow::<Time<P>>() * Time::<P>::from_f64(0.1),
+            Cause::Events(_) if ended => modes::stopped(),
             Cause::Events(_) => return false,
             Cause::Outside => still(),
         };

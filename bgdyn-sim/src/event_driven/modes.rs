@@ -148,7 +148,12 @@ pub(super) fn along<T: Real>(velocity: [T; 3], d: [T; 2]) -> T {
 
 /// Slip begins below this speed, m/s: 1.5e-8 in `f64`.
 pub(super) fn slow<T: Real>() -> T {
-    T::EPSILON.sqrt()
+    T::EPSILON.sqrt().max(T::from_f64(64.0) * still())
+}
+
+/// What the event of its end leaves of a slip, m/s, at the most: 1.5e-9 in `f64`.
+pub(super) fn stopped<T: Real>() -> T {
+    T::from_f64(0.1) * slow()
 }
 
 /// Speeds up to this, m/s, are rounding: 1e-13 in `f64`.

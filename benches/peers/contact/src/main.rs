@@ -20,6 +20,7 @@ bgdyn::bgdyn!("../../../tests/rigid_contact/bowls.scene.yaml");
 bgdyn::bgdyn!("../../../tests/rigid_contact/rolls.scene.yaml");
 bgdyn::bgdyn!("../../../tests/rigid_contact/slips.scene.yaml");
 bgdyn::bgdyn!("../../../tests/rigid_contact/rocks.scene.yaml");
+bgdyn::bgdyn!("../../../specs/contact/quadruped_rigid.scene.yaml");
 bgdyn::bgdyn!("bounces_compliant.scene.yaml");
 
 /// Repetitions of a run at the most.
@@ -130,6 +131,12 @@ fn planar(y: &SVector<f64, 6>) -> Vec<f64> {
     vec![cos * y[3] - sin * y[4], sin * y[3] + cos * y[4]]
 }
 
+/// Place of the quadruped's trunk, and its joints.
+fn quadruped(y: &SVector<f64, 37>) -> Vec<f64> {
+    let all = y.as_slice();
+    [&all[..3], &all[7..19]].concat()
+}
+
 /// Puts the rocking block on its right corner, turned by 0.2 rad.
 fn tilt(y: &mut SVector<f64, 6>) {
     let (alpha, size) = (0.1_f64.atan2(0.4), 0.1_f64.hypot(0.4));
@@ -177,6 +184,10 @@ fn main() {
             "rolls" => rigid(&rolls::Rolls::<f64>::default(), order, as_it_is, planar),
             "slips" => rigid(&slips::Slips::<f64>::default(), order, as_it_is, planar),
             "rocks" => rigid(&rocks::Rocks::<f64>::default(), order, tilt, |y| vec![y[2]]),
+            "stands" => {
+                let scene = quadruped_rigid::QuadrupedRigid::<f64>::default();
+                rigid(&scene, order, |_| {}, quadruped);
+            }
             "compliant" => {
                 let scene = bounces_compliant::BouncesCompliant::<f64>::default();
                 compliant(&scene, order, given, |y| vec![y[2]]);
