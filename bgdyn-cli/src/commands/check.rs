@@ -5,13 +5,17 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, anyhow};
 use bgdyn_codegen::fault::{Fault, Location, Severity};
 use bgdyn_codegen::mechanism::{Coupling, Joint, Mechanism, Parameter, Snapped};
-use bgdyn_codegen::scene::{Solved, Variable};
-use bgdyn_codegen::system::SceneEquations;
+use bgdyn_codegen::scene::{Solved, StepControl, Variable};
+use bgdyn_codegen::system::{ContactTime, SceneEquations};
 use clap::Args;
 use serde_json::{Value, json};
 
 use crate::output::{print, tell};
+use crate::simulate::report::short;
 use crate::spec_file::{SpecFile, shown};
+
+/// Fewer steps than this in an impact do not resolve it.
+const LEAST_STEPS: f64 = 5.0;
 
 /// Check specs; report every fault with its location
 #[derive(Args)]
@@ -203,6 +207,7 @@ fn scene(spec: &SpecFile, loops: bool) -> CheckedFile {
         lines: std::iter::once(ok)
             .chain(closure_lines(&system.scene.mechanism, loops))
             .chain(solved)
+            .chain(contact_line(&system))
             .collect(),
         message: spec.render(&faults),
         tally: None,
@@ -248,7 +253,7 @@ fn scene_model(system: &SceneEquations, loops: bool) -> Value {
         .iter()
         .map(|s| json!({ "elements": s.elements, "nodes": s.nodes, "how": s.how }))
         .collect();
-    json!({
+    let mut model = json!({
         "name": scene.name,
         "nq": layout.nq(),
         "nv": layout.nv(),
@@ -260,7 +265,46 @@ fn scene_model(system: &SceneEquations, loops: bool) -> Value {
         "effects": effects,
         "solved": solved,
         "closure": closure(&scene.mechanism, loops),
-    })
+    });
+    let contact_times: Vec<Value> = system
+        .contact_times()
+        .iter()
+        .map(|t| json!({ "name": t.name, "mass": t.mass, "seconds": t.seconds }))
+        .collect();
+    if !contact_times.is_empty() {
+        model["contact_times"] = contact_times.into();
+    }
+    model
+}
+
+/// Returns the line about the duration of impacts at compliant contacts beside the step.
+fn contact_line(system: &SceneEquations) -> Option<String> {
+    let times = system.contact_times();
+    let by_time = |a: &&ContactTime, b: &&ContactTime| a.seconds.total_cmp(&b.seconds);
+    let (shortest, longest) = (times.iter().min_by(by_time)?, times.iter().max_by(by_time)?);
+    let duration = |time: &ContactTime| {
+        let ms = short(1e3 * time.seconds);
+        format!("{ms} ms at `{}` ({} kg)", time.name, short(time.mass))
+    };
+    let durations = match shortest.name == longest.name {
+        true => duration(shortest),
+        false => format!("{} to {}", duration(shortest), duration(longest)),
+    };
+    let steps = match system.scene.integration.step_control {
+        StepControl::Tolerance(_) => "the tolerance chooses the steps".to_owned(),
+        StepControl::Step(h) => {
+            let ratio = shortest.seconds / h;
+            let words = if ratio < LEAST_STEPS {
+                ": too few, take shorter steps, a tolerance or a softer contact"
+            } else {
+                ""
+            };
+            format!("{} steps in the shortest{words}", short(ratio))
+        }
+    };
+    Some(format!(
+        "compliant contacts: an impact at 1 m/s lasts {durations}; {steps}"
+    ))
 }
 
 /// Returns the lines about loops; with `ranges` those of `--loops`.

@@ -106,6 +106,47 @@ fn findings_as_json() {
     assert_eq!(good["findings"], Value::Array(vec![]));
 }
 
+/// The duration of an impact is that of a half oscillation of a linear spring, or of Hertz's law, for the mass that moves.
+#[test]
+fn compliant_contacts_tell_their_time() {
+    let linear = 1e3 * std::f64::consts::PI * (2.0_f64 / 1e5).sqrt();
+    let hertz = 1e3 * 3.218 * (1.3_f64 * 1.3 / 4e12).powf(0.2);
+    let one = |file: &str, ms: f64, end: &str| {
+        let printed = bgdyn(&["check", file]).good();
+        let line = printed.lines().nth(1).expect("a second line");
+        let start = "compliant contacts: an impact at 1 m/s lasts ";
+        let rest = line.strip_prefix(start).expect(start);
+        let (found, rest) = rest.split_once(" ms at ").expect("a time");
+        let found: f64 = found.parse().expect("a number");
+        assert!((found - ms).abs() < 1e-4, "{found} {ms}");
+        assert!(rest.ends_with(end), "{rest}");
+    };
+    one(
+        "tests/contact/linear.scene.yaml",
+        linear,
+        "`touch` (2 kg); 14.0496 steps in the shortest",
+    );
+    one(
+        "tests/contact/bowling.scene.yaml",
+        hertz,
+        " steps in the shortest",
+    );
+    let scene = format!(
+        "scene: 1\nmechanism: {}/tests/contact/weight.yaml\neffects:\n  - inertia\n  - touch: {{ type: compliant_contact, contact: foot, linear_stiffness: 1e5 N/m }}\ninitial: {{ height: 1 mm }}\nintegration: {{ step: 10 ms }}\n",
+        env!("CARGO_MANIFEST_DIR").trim_end_matches("/bgdyn-cli")
+    );
+    let file = scratch("check_contact", "coarse.scene.yaml", &scene);
+    let too_few = "; 1.40496 steps in the shortest: too few, take shorter steps, a tolerance or a softer contact";
+    one(&file, linear, too_few);
+    let json = bgdyn(&["check", &file, "--json"]).good();
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    let time = &json["scene"]["contact_times"][0];
+    assert_eq!(
+        (&time["name"], &time["mass"]),
+        (&"touch".into(), &2.0.into())
+    );
+}
+
 #[test]
 fn files_that_cannot_be_read() {
     let stderr = bgdyn(&["check", "nowhere.yaml"]).bad_input();

@@ -30,7 +30,7 @@ pub(crate) use attitude::angular_velocity;
 pub use contact_motion::ContactMotion;
 pub use gear::{LossyGear, load_event};
 pub(crate) use parts::Condition;
-pub use parts::{ActuatorEfforts, Balance, Contact, Hold, Port, Reading, RigidLaw};
+pub use parts::{ActuatorEfforts, Balance, Contact, ContactSpring, Hold, Port, Reading, RigidLaw};
 
 /// The sums to which the laws of a scene's effects add.
 pub struct EffortSums<'g, 'a> {
@@ -74,6 +74,8 @@ pub struct EffortSums<'g, 'a> {
     contact_forces: Vec<(Vec3<Expr<'g>>, Vec3<Expr<'g>>)>,
     /// Rigid contacts.
     rigid: Vec<RigidLaw<'g>>,
+    /// Springs of compliant contacts.
+    springs: Vec<ContactSpring<'g>>,
     /// Moment and force of contacts at the origins of links, world axes.
     wrenches: BTreeMap<SiteId, [Expr<'g>; 6]>,
 }
@@ -126,6 +128,7 @@ impl<'g, 'a> EffortSums<'g, 'a> {
             jacobians: BTreeMap::new(),
             contact_forces: Vec::new(),
             rigid: Vec::new(),
+            springs: Vec::new(),
             wrenches: BTreeMap::new(),
         };
         sums.push_drives_of_dependents();

@@ -132,6 +132,19 @@ pub enum ActuatorEfforts {
     Each,
 }
 
+/// The spring of a compliant contact.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactSpring<'g> {
+    /// The index of its element.
+    pub element: usize,
+    /// The index of its contact among those of the mechanism.
+    pub contact: usize,
+    /// k, N/m^1.5 or N/m.
+    pub stiffness: Expr<'g>,
+    /// Whether the force is k δ^{3/2} (Hertz), and not k δ.
+    pub hertz: bool,
+}
+
 /// The law of a rigid contact.
 #[derive(Clone, Copy, Debug)]
 pub struct RigidLaw<'g> {

@@ -7,6 +7,7 @@
 mod balance;
 mod canonical;
 mod contact_forces;
+mod contact_times;
 mod controller_model;
 mod coordinate_rows;
 mod dynamics;
@@ -45,6 +46,7 @@ use crate::mechanism::Mechanism;
 use crate::method::{Method, SceneFunction};
 use crate::passes::{cheapest, factor, finish};
 use crate::scene::{Override, Scene};
+pub use contact_times::ContactTime;
 pub use equations::{Named, SceneEquations};
 
 impl SceneEquations {

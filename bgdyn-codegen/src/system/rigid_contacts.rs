@@ -1,6 +1,6 @@
 //! The functions of rigid contacts, and the check of their gaps at the start.
 
-use super::{EffortSums, RigidLaw, SceneEquations};
+use super::{EffortSums, SceneEquations};
 use crate::expr::{Builder, Expr};
 use crate::fault::{Faults, wording};
 use crate::method::{CONTACT_DIRECTIONS, ContactMethod};
@@ -16,7 +16,7 @@ pub(super) fn states<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     let mut all = Vec::new();
     for law in sums.rigid_contacts() {
         all.push(gaps[law.contact]);
-        all.extend(&velocities[directions(law)]);
+        all.extend(&velocities[directions(law.contact)]);
         all.extend([law.friction, law.restitution]);
     }
     all
@@ -37,10 +37,10 @@ pub(super) fn maps<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g>>
         all.extend((n..nv).map(|_| b.zero()));
     };
     for law in sums.rigid_contacts() {
-        for r in directions(law) {
+        for r in directions(law.contact) {
             add(&mut jacobian[r * n..(r + 1) * n].iter().copied());
         }
-        for r in directions(law) {
+        for r in directions(law.contact) {
             add(&mut (0..n).map(|j| response[j * width + r]));
         }
     }
@@ -52,13 +52,13 @@ pub(super) fn biases<'g>(system: &SceneEquations, b: &'g Builder) -> Vec<Expr<'g
     let sums = system.effort_sums(b);
     let biases = sums.of_contacts(ContactMethod::Bias);
     let laws = sums.rigid_contacts().iter();
-    laws.flat_map(|law| biases[directions(law)].to_vec())
+    laws.flat_map(|law| biases[directions(law.contact)].to_vec())
         .collect()
 }
 
 /// Returns the rows of a contact in the methods of contacts.
-fn directions(law: &RigidLaw<'_>) -> std::ops::Range<usize> {
-    let first = CONTACT_DIRECTIONS * law.contact;
+pub(super) fn directions(contact: usize) -> std::ops::Range<usize> {
+    let first = CONTACT_DIRECTIONS * contact;
     first..first + CONTACT_DIRECTIONS
 }
 

@@ -110,6 +110,7 @@ impl Effect for CompliantContact {
 
     fn law(&self, element: &Element, sums: &mut EffortSums<'_, '_>) {
         let motion = sums.contact_motion(element);
+        normal::note_spring(element, sums);
         let normal = normal::force(element, sums, (motion.gap, motion.rate));
         sums.store(normal.stored);
         sums.dissipate(normal.push.dissipated);

@@ -127,6 +127,13 @@ pub(super) fn force<'g>(
     }
 }
 
+/// Notes the spring of the contact.
+pub(super) fn note_spring(element: &Element, sums: &mut EffortSums<'_, '_>) {
+    let linear = sums.optional(element, &LINEAR_STIFFNESS);
+    let stiffness = linear.unwrap_or_else(|| sums.number(element, &STIFFNESS));
+    sums.spring_at_contact(element, stiffness, linear.is_none());
+}
+
 /// Returns μ, s/m.
 fn damping<'g>(element: &Element, sums: &EffortSums<'g, '_>) -> Expr<'g> {
     let value = |key| element.quantity(key).map(|q| q.value);
