@@ -69,6 +69,7 @@ pub mod batch;
 mod coefficient;
 pub mod cone;
 mod contact_step;
+mod contacts_at;
 mod control;
 mod dense;
 mod discrete;

@@ -177,7 +177,7 @@ def text(result):
 
 {result["processor"]}, {result["cores"]} cores, {result["date"]}, commit `{result["commit"]}`. {result["versions"]}. Written by `benches/peers/contact/run.sh --docs`.{quick}
 
-Motions with rigid contact that have a closed form, in bgdyn (`moreau`), MuJoCo and Drake, in steps from {1e3 * STEPS[0]:g} to {1e3 * STEPS[-1]:g} ms. An error is the largest of {RUNS} runs, with n, n + 1, … steps, because an impact may fall anywhere in a step. A time is that of a simulated second in µs, of the run with n steps: the shortest of several repetitions in {result["rounds"]} round{"s" if result["rounds"] > 1 else ""} in which all systems take turns, {quiet}; the load of the machine was {min(loads):.1f} to {max(loads):.1f}. All steps are taken by the libraries' own loops, in C, C++ and Rust, without rendering, logging and, in bgdyn, without account of energy.
+Motions with rigid contact that have a closed form, and a quadruped, in bgdyn (`moreau`), MuJoCo and Drake, in steps from {1e3 * STEPS[0]:g} to {1e3 * STEPS[-1]:g} ms. An error is the largest of {RUNS} runs, with n, n + 1, … steps, because an impact may fall anywhere in a step. A time is that of a simulated second in µs, of the run with n steps: the shortest of several repetitions in {result["rounds"]} round{"s" if result["rounds"] > 1 else ""} in which all systems take turns, {quiet}; the load of the machine was {min(loads):.1f} to {max(loads):.1f}. All steps are taken by the libraries' own loops, in C, C++ and Rust, without rendering, logging and, in bgdyn, without account of energy.
 
 {notes.split("<!-- tables -->")[0].strip()}
 

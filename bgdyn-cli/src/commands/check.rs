@@ -200,6 +200,7 @@ fn scene(spec: &SpecFile, loops: bool) -> CheckedFile {
         layout.modes.len(),
         layout.inputs.len()
     );
+    let contact_times = system.contact_times();
     let solved = system.scene.solved();
     let solved = solved.iter().map(|s| format!("solved: {}", words(s)));
     CheckedFile {
@@ -207,11 +208,11 @@ fn scene(spec: &SpecFile, loops: bool) -> CheckedFile {
         lines: std::iter::once(ok)
             .chain(closure_lines(&system.scene.mechanism, loops))
             .chain(solved)
-            .chain(contact_line(&system))
+            .chain(contact_line(&system, &contact_times))
             .collect(),
         message: spec.render(&faults),
         tally: None,
-        model: Some(("scene", scene_model(&system, loops))),
+        model: Some(("scene", scene_model(&system, &contact_times, loops))),
         findings: faults.0.iter().map(finding).collect(),
         names_its_file: false,
     }
@@ -242,7 +243,7 @@ fn words(solved: &Solved) -> String {
     format!("{elements}{nodes}: {}", solved.how)
 }
 
-fn scene_model(system: &SceneEquations, loops: bool) -> Value {
+fn scene_model(system: &SceneEquations, times: &[ContactTime], loops: bool) -> Value {
     let scene = &system.scene;
     let layout = &scene.layout;
     let names = |parts: &[Variable]| parts.iter().map(|p| p.name.clone()).collect::<Vec<_>>();
@@ -266,8 +267,7 @@ fn scene_model(system: &SceneEquations, loops: bool) -> Value {
         "solved": solved,
         "closure": closure(&scene.mechanism, loops),
     });
-    let contact_times: Vec<Value> = system
-        .contact_times()
+    let contact_times: Vec<Value> = times
         .iter()
         .map(|t| json!({ "name": t.name, "mass": t.mass, "seconds": t.seconds }))
         .collect();
@@ -278,8 +278,7 @@ fn scene_model(system: &SceneEquations, loops: bool) -> Value {
 }
 
 /// Returns the line about the duration of impacts at compliant contacts beside the step.
-fn contact_line(system: &SceneEquations) -> Option<String> {
-    let times = system.contact_times();
+fn contact_line(system: &SceneEquations, times: &[ContactTime]) -> Option<String> {
     let by_time = |a: &&ContactTime, b: &&ContactTime| a.seconds.total_cmp(&b.seconds);
     let (shortest, longest) = (times.iter().min_by(by_time)?, times.iter().max_by(by_time)?);
     let duration = |time: &ContactTime| {

@@ -28,6 +28,16 @@ impl Evaluated<'_> {
         }
     }
 
+    /// Returns the deepest overlap of rigid contacts at y, m.
+    pub(super) fn deepest_overlap(&self, t: f64, y: &Numbers, modes: &Numbers) -> f64 {
+        let Some(rigid) = &self.functions.rigid else {
+            return 0.0;
+        };
+        let (values, _) = self.driven(t, y, modes, |at| rigid.states.value(at));
+        let gaps = values.chunks_exact(6).map(|v| v[0]);
+        gaps.fold(0.0, |most, gap| f64::max(most, -gap))
+    }
+
     /// Writes the map of each rigid contact at y.
     pub(super) fn maps_of_contacts(
         &self,

@@ -251,12 +251,16 @@ impl<'a, P: Recorded<'a>, M: Integrator<Numbers>> RunRecorder<'a, P, M> {
 
     /// Records the rigid contacts in a step of this length.
     fn take_contacts(&mut self, h: f64) {
-        let Some(contacts) = self.run.contact_step() else {
-            return;
-        };
         if self.forces.is_empty() {
             return;
         }
+        let Some(contacts) = self.run.contact_step() else {
+            let (scene, modes) = (self.run.plant().scene(), P::scene_modes(self.run.modes()));
+            let depth = scene.deepest_overlap(self.run.t(), self.run.y(), modes);
+            let quality = self.quality.get_or_insert_default();
+            quality.depth = quality.depth.max(depth);
+            return;
+        };
         for (force, impulse) in self.forces.iter_mut().zip(&contacts.impulses) {
             *force = impulse.map(|p| p / h);
         }

@@ -46,10 +46,19 @@ fn other_methods_go_from_event_to_event() {
         "events: 2",
         "  t = 0.2 s: `tyres_rear_tyre` slips",
         "  t = 1.25769 s: `tyres_rear_tyre` sticks",
-        "rigid contacts: deepest overlap 0 m",
     ] {
         assert!(printed.contains(line), "{line}: {printed}");
     }
+    let (_, rest) = printed
+        .split_once("rigid contacts: deepest overlap ")
+        .expect("the overlap");
+    let depth: f64 = rest
+        .split(' ')
+        .next()
+        .expect("a number")
+        .parse()
+        .expect("m");
+    assert!(depth < 1e-12, "{depth}");
     // The weight is on the tyres at every instant, and the wheel that spins has its limit of friction.
     let text = std::fs::read_to_string(format!("{out}/cart_grips_contacts.csv"));
     for row in table_rows(&text.expect("the forces")).iter().skip(1) {

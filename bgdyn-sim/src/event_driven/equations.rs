@@ -12,15 +12,15 @@ use crate::real::Real;
 /// A plant whose rigid contacts are solved from event to event, with any integrator: at most 8
 /// ([`MOST_EVENT_CONTACTS`]).
 ///
-/// Between events each contact has a [`ContactMode`](super::ContactMode), and the forces λ of all are those of the linear equations γ̇_n = 0 where a
-/// contact is closed, γ̇_t = 0 where it sticks and λ_t = −μ λ_n γ_t/|γ_t| where it slips; of redundant contacts those of least
-/// norm. Then the plant is smooth, and runs have the order of their integrator. Events are: a gap falls to 0; λ_n falls to 0;
-/// |λ_t| reaches μ λ_n; a slip ends. At each event the modes of all touching contacts are found at once, from Coulomb's cones
-/// for accelerations (Glocker 2001; Acary and Brogliato 2008, chapter 8).
+/// Between events each contact has a [`ContactMode`](super::ContactMode), and the forces λ of all are those of the linear
+/// equations γ̇_n = 0 where a contact is closed, γ̇_t = 0 where it sticks and λ_t = −μ λ_n γ_t/|γ_t| where it slips; of
+/// redundant contacts those of least norm. Then the plant is smooth, and runs have the order of their integrator. Events are:
+/// a gap falls to 0; λ_n falls to 0; |λ_t| reaches μ λ_n; a slip ends. At each event the modes of all touching contacts are
+/// found at once, from Coulomb's cones for accelerations (Glocker 2001; Acary and Brogliato 2008, chapter 8).
 ///
 /// Impacts are jumps by impulses of all contacts that touch, by an [`ImpactLaw`]. A series of impacts that would end within
-/// 1e-2 √ε s (1.5e-10 s in `f64`) is over at once, and the contact is closed. What impacts and friction take is in the balance of energy. Positions
-/// and velocities of closed contacts are put right at the end of a step, in the metric of M.
+/// 1e-2 √ε s (1.5e-10 s in `f64`) is over at once, and the contact is closed. What impacts and friction take is in the balance
+/// of energy. Positions and velocities of closed contacts are put right at the end of a step, in the metric of M.
 ///
 /// ```
 /// use bgdyn_sim::{Dop853, EventDriven, Tolerance};

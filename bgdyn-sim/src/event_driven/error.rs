@@ -15,6 +15,11 @@ pub enum EventError<E> {
         /// The contact, in the order of the plant's.
         contact: usize,
     },
+    /// The plant does not say how a contact and its velocities act on each other: one in canonical form.
+    NoMap {
+        /// The contact.
+        contact: usize,
+    },
     /// No modes fulfil all inequalities to rounding.
     NoModes,
     /// There are more contacts than this solver takes.
@@ -31,6 +36,10 @@ impl<E: fmt::Debug> fmt::Display for EventError<E> {
             Self::Paradox { contact } => write!(
                 f,
                 "contact {contact} slips, and no finite force keeps it from overlapping (Painlevé's paradox); `moreau` finds an impulse"
+            ),
+            Self::NoMap { contact } => write!(
+                f,
+                "the plant has no map of the contact {contact}: contacts are solved in velocities, not in momenta"
             ),
             Self::NoModes => f.write_str(
                 "no choice of open, sticking and slipping contacts fulfils all conditions; `moreau` may go on",

@@ -9,7 +9,7 @@ use super::impulses::note_losses;
 use super::modes::{self, Closing, ContactMode, ContactModes, Jump, PerContact, speed, still};
 use super::projection::held;
 use super::settle::{Touch, settled};
-use super::snapshot::{Snapshot, contacts_at};
+use super::snapshot::{Snapshot, contacts_of};
 use super::system::{Unknowns, solved};
 use crate::plant::{Plant, Time};
 use crate::real::Real;
@@ -267,7 +267,7 @@ where
             Touch::Starts(d) | Touch::Slips(d) => ContactMode::Slip(d),
         });
         snapshot.push(&mut y, &held(&snapshot, &resting));
-        snapshot.contacts = contacts_at(&self.of.plant, self.t, &y, &self.plant)?;
+        snapshot.contacts = contacts_of(&self.of.plant, self.t, &y, &self.plant)?;
         let modes = settled(&snapshot, &free, &touches)?;
         let forces = snapshot
             .forces(&modes, &free)

@@ -22,7 +22,7 @@ pub use self::modes::{ContactMode, ContactModes, Jump};
 use self::equations::{ErrorOf, PlantModes, closes};
 use self::jump::{Cause, Next};
 use self::modes::PerContact;
-use self::snapshot::{Snapshot, contacts_at};
+use self::snapshot::{Snapshot, contacts_of};
 use crate::finite_differences::differences;
 use crate::integrator::Integrator;
 use crate::ode::Jacobian;
@@ -166,7 +166,7 @@ where
         modes: &Self::Modes,
     ) -> Result<Self::Values, Self::Error> {
         let of_plant = self.plant.events(t, y, &modes.plant);
-        let contacts = contacts_at(&self.plant, t, y, &modes.plant)?;
+        let contacts = contacts_of(&self.plant, t, y, &modes.plant)?;
         let forces = self.forces(t, y, modes)?;
         let of_contacts = core::array::from_fn(|c| {
             let (contact, force) = (contacts[c], forces[c]);
@@ -272,7 +272,7 @@ where
         let power = self.plant.power(t, y, &modes.plant);
         let mut power = power.map_err(EventError::Plant)?;
         if closes(modes) {
-            let contacts = contacts_at(&self.plant, t, y, &modes.plant)?;
+            let contacts = contacts_of(&self.plant, t, y, &modes.plant)?;
             let forces = self.forces(t, y, modes)?;
             for c in 0..self.plant.rigid_contacts() {
                 let entry = self.plant.rigid_contact_entry(c);

@@ -5,7 +5,7 @@ use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 use super::equations::{ErrorOf, EventDriven, PlantModes, touching};
 use super::error::EventError;
 use super::modes::{ContactMode, PerContact};
-use super::snapshot::{Snapshot, contacts_at};
+use super::snapshot::{Snapshot, contacts_of};
 use super::system::{Unknowns, solved};
 use crate::motion::moved;
 use crate::plant::{FixedModes, Plant, Time};
@@ -29,7 +29,7 @@ where
     ) -> Result<bool, ErrorOf<P>> {
         let closed = modes.contacts.map(ContactMode::is_closed);
         let moved = self.lift(t, y, &modes.plant, &closed)?;
-        let contacts = contacts_at(&self.plant, t, y, &modes.plant)?;
+        let contacts = contacts_of(&self.plant, t, y, &modes.plant)?;
         let off = |c: usize| {
             let all = contacts[c].velocity;
             let held = match modes.contacts[c] {
@@ -61,7 +61,7 @@ where
         let negligible = touching(&self.plant, y) * Time::<P>::from_f64(1.0 / 16.0);
         let positions = self.plant.positions();
         for step in 0..MOST_STEPS {
-            let contacts = contacts_at(&self.plant, t, y, modes)?;
+            let contacts = contacts_of(&self.plant, t, y, modes)?;
             let worst = (0..MOST_EVENT_CONTACTS).filter(|&c| closed[c]);
             let worst = worst.fold(zero, |most, c| most.max(contacts[c].gap.abs()));
             if worst <= negligible {

@@ -5,7 +5,8 @@ use bgdyn_runtime::{ContactMap, MOST_EVENT_CONTACTS, RigidContact, Scalar as _, 
 use super::error::EventError;
 use super::modes::{ContactMode, PerContact};
 use super::system::{Constraint, Delassus, Unknowns, solved};
-use crate::plant::{Plant, Time};
+use crate::contacts_at::{contacts_at, dot};
+use crate::plant::{FixedModes, Plant, Time};
 use crate::real::{Of, Real};
 
 /// The contacts in a state.
@@ -23,27 +24,17 @@ pub(super) struct Snapshot<Y: StateVector> {
 }
 
 /// Returns the gaps and velocities of the contacts.
-pub(super) fn contacts_at<P: Plant>(
+pub(super) fn contacts_of<P: Plant>(
     plant: &P,
     t: Time<P>,
     y: &P::State,
     modes: &P::Modes,
 ) -> Result<PerContact<RigidContact<Time<P>>>, EventError<P::Error>> {
-    let zero = Time::<P>::from_f64(0.0);
-    let mut contacts = [RigidContact {
-        gap: zero,
-        velocity: [zero; 3],
-        friction: zero,
-        restitution: zero,
-    }; MOST_EVENT_CONTACTS];
     let number = plant.rigid_contacts();
     if number > MOST_EVENT_CONTACTS {
         return Err(EventError::TooManyContacts { number });
     }
-    plant
-        .rigid_contact_states(t, y, modes, &mut contacts[..number])
-        .map_err(EventError::Plant)?;
-    Ok(contacts)
+    contacts_at(&FixedModes { plant, modes }, t, y).map_err(EventError::Plant)
 }
 
 impl<Y: StateVector> Snapshot<Y>
@@ -58,11 +49,14 @@ where
         modes: &P::Modes,
     ) -> Result<Self, EventError<P::Error>> {
         let number = plant.rigid_contacts();
-        let contacts = contacts_at(plant, t, y, modes)?;
+        let contacts = contacts_of(plant, t, y, modes)?;
         let mut maps = [const { None }; MOST_EVENT_CONTACTS];
         plant
             .rigid_contact_maps(t, y, modes, &mut maps[..number])
             .map_err(EventError::Plant)?;
+        if let Some(contact) = maps[..number].iter().position(Option::is_none) {
+            return Err(EventError::NoMap { contact });
+        }
         let zero = Of::<Y>::from_f64(0.0);
         let mut snapshot = Snapshot {
             number,
@@ -166,11 +160,3 @@ where
 
 /// Friction that leaves less than this part of the normal acceleration by a normal force jams: forces grow without bound.
 const JAMS: f64 = 1e-6;
-
-/// Returns the scalar product of the velocities of two states.
-fn dot<Y: StateVector>(positions: usize, a: &Y, b: &Y) -> Of<Y> {
-    let pairs = a.entries()[positions..]
-        .iter()
-        .zip(&b.entries()[positions..]);
-    pairs.fold(Of::<Y>::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
-}

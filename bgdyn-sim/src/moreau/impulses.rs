@@ -5,6 +5,7 @@ use bgdyn_runtime::{ContactMap, MOST_CONTACTS, RigidContact, Scalar as _, StateV
 use super::middle::Middle;
 use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, solve};
 use crate::contact_step::ContactStep;
+use crate::contacts_at::{contacts_at, dot};
 use crate::failure::Reason;
 use crate::integrator::Start;
 use crate::ode::Ode;
@@ -56,8 +57,8 @@ where
         Ok(Impulses {
             options,
             number,
-            before: contacts_at(ode, from.t, from.y)?,
-            middle: contacts_at(ode, middle.t, &middle.y)?,
+            before: contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?,
+            middle: contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?,
             active: [false; MOST_CONTACTS],
             slow: [false; MOST_CONTACTS],
             maps: [const { None }; MOST_CONTACTS],
@@ -107,7 +108,7 @@ where
         };
         let mut end = known.clone();
         middle.advance(ode, &mut end)?;
-        let ahead = contacts_at(ode, middle.end(), &end)?;
+        let ahead = contacts_at(ode, middle.end(), &end).map_err(Reason::Singular)?;
         self.find_active(&ahead, first);
         if first {
             for (c, slow) in self.slow.iter_mut().enumerate() {
@@ -286,33 +287,4 @@ pub(super) fn listed(marked: &[bool; MOST_CONTACTS]) -> ([usize; MOST_CONTACTS],
         n += 1;
     }
     (list, n)
-}
-
-/// Returns the scalar product of the velocities of two states.
-fn dot<Y: StateVector>(positions: usize, a: &Y, b: &Y) -> Of<Y> {
-    let pairs = a.entries()[positions..]
-        .iter()
-        .zip(&b.entries()[positions..]);
-    pairs.fold(Of::<Y>::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
-}
-
-/// Returns the contacts in a state.
-pub(super) fn contacts_at<O: Ode>(
-    ode: &O,
-    t: Of<O::State>,
-    y: &O::State,
-) -> Result<Contacts<Of<O::State>>, Reason<O::Error>> {
-    let zero = Of::<O::State>::from_f64(0.0);
-    let mut contacts = [RigidContact {
-        gap: zero,
-        velocity: [zero; 3],
-        friction: zero,
-        restitution: zero,
-    }; MOST_CONTACTS];
-    let number = ode.rigid_contacts();
-    if number > 0 {
-        ode.rigid_contact_states(t, y, &mut contacts[..number])
-            .map_err(Reason::Singular)?;
-    }
-    Ok(contacts)
 }

@@ -6,9 +6,10 @@
 
 use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 
-use super::impulses::{Contacts, Impulses, contacts_at, listed};
+use super::impulses::{Contacts, Impulses, listed};
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::contact_step::ContactStep;
+use crate::contacts_at::contacts_at;
 use crate::failure::Reason;
 use crate::motion::moved;
 use crate::ode::Ode;
@@ -29,7 +30,7 @@ where
     if number == 0 {
         return Ok(());
     }
-    let mut contacts = contacts_at(ode, t, end)?;
+    let mut contacts = contacts_at(ode, t, end).map_err(Reason::Singular)?;
     let zero = Of::<O::State>::from_f64(0.0);
     let size = end.entries()[..ode.positions()].iter();
     let size = size.fold(Of::<O::State>::from_f64(1.0), |most, x| most.max(x.abs()));
@@ -50,7 +51,7 @@ where
             9..=16 => shift::<O, 16>(ode, t, end, given)?,
             _ => shift::<O, MOST_CONTACTS>(ode, t, end, given)?,
         }
-        contacts = contacts_at(ode, t, end)?;
+        contacts = contacts_at(ode, t, end).map_err(Reason::Singular)?;
     }
     step.depth = deepest(&contacts, &[true; MOST_CONTACTS]);
     Ok(())

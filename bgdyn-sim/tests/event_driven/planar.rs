@@ -26,6 +26,11 @@ impl Planar {
         [cos * a - sin * b, sin * a + cos * b]
     }
 
+    /// The height of a corner.
+    pub fn gap(&self, c: usize, y: &Y) -> f64 {
+        y[1] + self.arm(c, y)[1]
+    }
+
     pub fn energy_of(&self, y: &Y) -> f64 {
         0.5 * (y[3] * y[3] + y[4] * y[4] + self.inertia * y[5] * y[5]) + GRAVITY * y[1]
     }
@@ -64,7 +69,7 @@ impl Plant for Planar {
         for (c, contact) in contacts.iter_mut().enumerate() {
             let [rx, ry] = self.arm(c, y);
             *contact = RigidContact {
-                gap: y[1] + ry,
+                gap: self.gap(c, y),
                 velocity: [y[3] - y[5] * ry, 0.0, y[4] + y[5] * rx],
                 friction: self.friction,
                 restitution: self.restitution,
