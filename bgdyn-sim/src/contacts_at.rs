@@ -32,3 +32,23 @@ pub(crate) fn dot<Y: StateVector>(positions: usize, a: &Y, b: &Y) -> Of<Y> {
         .zip(&b.entries()[positions..]);
     pairs.fold(Of::<Y>::from_f64(0.0), |sum, (&a, &b)| a.mul_add(b, sum))
 }
+
+/// Returns the scalar products of the velocities of three states with those of three others.
+pub(crate) fn products<Y: StateVector>(
+    positions: usize,
+    rows: &[Y; 3],
+    columns: &[Y; 3],
+) -> [[Of<Y>; 3]; 3] {
+    // Nine sums at once: one alone would wait for each of its additions.
+    let [a, b, c] = rows.each_ref().map(|y| y.entries()[positions..].iter());
+    let [x, y, z] = columns.each_ref().map(|y| y.entries()[positions..].iter());
+    let mut sums = [[Of::<Y>::from_f64(0.0); 3]; 3];
+    for (((&a, &b), &c), ((&x, &y), &z)) in a.zip(b).zip(c).zip(x.zip(y).zip(z)) {
+        for (sums, row) in sums.iter_mut().zip([a, b, c]) {
+            for (sum, column) in sums.iter_mut().zip([x, y, z]) {
+                *sum = row.mul_add(column, *sum);
+            }
+        }
+    }
+    sums
+}

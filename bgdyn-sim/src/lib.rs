@@ -123,7 +123,7 @@ pub use gauss::{Gauss, Gauss2, Gauss3, Gauss4, Midpoint};
 pub use integrator::{Integrator, IntegratorInfo, Start, Step};
 pub use integrators::{INTEGRATORS, WithIntegrator, with_integrator};
 pub use model_step::rk4_step;
-pub use moreau::Moreau;
+pub use moreau::{Moreau, MoreauStages};
 pub use ode::{Jacobian, Ode, ScalarOf};
 pub use plant::{EventValues, FixedModes, Plant, Power};
 pub use real::{Of, Real};

@@ -60,14 +60,14 @@ pub(crate) fn factor<T: Real>(a: &mut [T], pivots: &mut [usize], n: usize) -> bo
         for column in a.chunks_mut(n) {
             column.swap(k, p);
         }
-        for i in k + 1..n {
-            a[k * n + i] = a[k * n + i] / pivot;
+        let (done, rest) = a.split_at_mut((k + 1) * n);
+        let multipliers = &mut done[k * n + k + 1..];
+        for x in &mut *multipliers {
+            *x = *x / pivot;
         }
-        for j in k + 1..n {
-            let top = a[j * n + k];
-            for i in k + 1..n {
-                a[j * n + i] = a[j * n + i] - a[k * n + i] * top;
-            }
+        for column in rest.chunks_mut(n) {
+            let top = column[k];
+            eliminate(&mut column[k + 1..], multipliers, top);
         }
     }
     true
@@ -80,15 +80,20 @@ pub(crate) fn solve<T: Real>(a: &[T], pivots: &[usize], x: &mut [T]) {
     for (k, &p) in pivots.iter().enumerate() {
         x.swap(k, p);
     }
-    for k in 0..n {
-        for i in k + 1..n {
-            x[i] = x[i] - a[k * n + i] * x[k];
-        }
+    for (k, column) in a.chunks(n.max(1)).enumerate() {
+        let top = x[k];
+        eliminate(&mut x[k + 1..], &column[k + 1..], top);
     }
-    for k in (0..n).rev() {
-        x[k] = x[k] / a[k * n + k];
-        for i in 0..k {
-            x[i] = x[i] - a[k * n + i] * x[k];
-        }
+    for (k, column) in a.chunks(n.max(1)).enumerate().rev() {
+        let top = x[k] / column[k];
+        x[k] = top;
+        eliminate(&mut x[..k], &column[..k], top);
+    }
+}
+
+/// Computes x ← x − top · column.
+fn eliminate<T: Real>(x: &mut [T], column: &[T], top: T) {
+    for (x, &factor) in x.iter_mut().zip(column) {
+        *x = *x - factor * top;
     }
 }

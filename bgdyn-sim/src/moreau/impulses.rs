@@ -5,9 +5,8 @@ use bgdyn_runtime::{ContactMap, MOST_CONTACTS, RigidContact, Scalar as _, StateV
 use super::middle::Middle;
 use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, solve};
 use crate::contact_step::ContactStep;
-use crate::contacts_at::{contacts_at, dot};
+use crate::contacts_at::{contacts_at, dot, products};
 use crate::failure::Reason;
-use crate::integrator::Start;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
@@ -26,9 +25,12 @@ pub(super) struct Impulses<Y: StateVector> {
     /// Those that approach by less than forces add in the step: after a bounce they would touch again within it. They do
     /// not bounce, but close what is left of their gap.
     pub(super) slow: [bool; MOST_CONTACTS],
-    /// Their Jacobian, and B⁻¹ M⁻¹ Jᵀ, in the middle.
+    /// Their Jacobian, and M⁻¹ Jᵀ, in the middle; B⁻¹ M⁻¹ Jᵀ of the contacts that are `implicit`.
     pub(super) maps: [Option<ContactMap<Y>>; MOST_CONTACTS],
+    implicit: [bool; MOST_CONTACTS],
     impulses: [Components<Of<Y>>; MOST_CONTACTS],
+    /// Whether the velocities γ⁺ are linear in the impulses, with G in the middle of the step.
+    linear: bool,
     outcome: Option<ContactOutcome<Of<Y>>>,
 }
 
@@ -39,44 +41,40 @@ impl<Y: StateVector> Impulses<Y>
 where
     Of<Y>: Real,
 {
-    /// Returns the contacts of a step from a state. The search for impulses begins at those of the step before.
-    pub(super) fn new<O: Ode<State = Y>>(
-        ode: &O,
-        (from, middle): (&Start<'_, Y, ContactStep<Of<Y>>>, &Middle<Y>),
+    /// Returns the impulses of a step, of so many contacts `before` it and in its `middle`. The search for them begins at
+    /// those of the last step, times a factor.
+    ///
+    /// It cannot fail, so that the maps are made where they stay: a `Result` of so many would be copied.
+    pub(super) fn new(
         options: ContactOptions<Of<Y>>,
-    ) -> Result<Self, Reason<O::Error>> {
-        let number = ode.rigid_contacts();
+        number: usize,
+        (before, middle): (Contacts<Of<Y>>, Contacts<Of<Y>>),
+        last: Option<([Components<Of<Y>>; MOST_CONTACTS], Of<Y>)>,
+    ) -> Self {
         let zero = Of::<Y>::from_f64(0.0);
-        let impulses = match from.before {
-            Some(step) => {
-                let scale = middle.h / step.h;
-                step.stages.impulses.map(|p| p.map(|p| scale * p))
-            }
+        let impulses = match last {
+            Some((impulses, scale)) => impulses.map(|p| p.map(|p| scale * p)),
             None => [[zero; 3]; MOST_CONTACTS],
         };
-        Ok(Impulses {
+        Impulses {
             options,
             number,
-            before: contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?,
-            middle: contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?,
+            before,
+            middle,
             active: [false; MOST_CONTACTS],
             slow: [false; MOST_CONTACTS],
             maps: [const { None }; MOST_CONTACTS],
+            implicit: [false; MOST_CONTACTS],
             impulses,
+            linear: false,
             outcome: None,
-        })
+        }
     }
 
-    /// Makes the maps anew, since B changed.
-    pub(super) fn remake_maps<O: Ode<State = Y>>(
-        &mut self,
-        ode: &O,
-        middle: &Middle<Y>,
-    ) -> Result<(), Reason<O::Error>> {
-        match self.maps.iter().any(Option::is_some) {
-            true => self.make_maps(ode, middle),
-            false => Ok(()),
-        }
+    /// Makes the velocities γ⁺ linear in the impulses from now on: γ⁺ = γ⁺(0) + G p, as in the scheme of Jean. Where contacts
+    /// jam, the impulses of γ⁺ with axes that the same impulses turn may jump to and fro.
+    pub(super) fn linearise(&mut self) {
+        self.linear = true;
     }
 
     /// Marks the impulses as not solved. Returns whether there are active contacts.
@@ -101,7 +99,8 @@ where
             return Ok(free.clone());
         }
         let first = self.outcome.is_none();
-        let known = if first {
+        let without = first || self.linear;
+        let known = if without {
             free.clone()
         } else {
             self.with_impulses(free)
@@ -123,7 +122,8 @@ where
         if self.maps[at[0]].is_none() {
             self.make_maps(ode, middle)?;
         }
-        let given = (middle, &ahead, first);
+        self.make_implicit(middle, &at[..n]);
+        let given = (middle, &ahead, without);
         match n {
             1 => self.solve::<1>(given, &at[..n]),
             2..=4 => self.solve::<4>(given, &at[..n]),
@@ -169,6 +169,20 @@ where
         self.before[c].restitution * self.before[c].velocity[2]
     }
 
+    /// Makes the maps anew, since B changed.
+    pub(super) fn remake_maps<O: Ode<State = Y>>(
+        &mut self,
+        ode: &O,
+        middle: &Middle<Y>,
+    ) -> Result<(), Reason<O::Error>> {
+        if self.maps.iter().any(Option::is_some) {
+            self.make_maps(ode, middle)?;
+            let (at, n) = listed(&self.active);
+            self.make_implicit(middle, &at[..n]);
+        }
+        Ok(())
+    }
+
     fn make_maps<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -176,22 +190,27 @@ where
     ) -> Result<(), Reason<O::Error>> {
         ode.rigid_contact_maps(middle.t, &middle.y, &mut self.maps[..self.number])
             .map_err(Reason::Singular)?;
-        for column in self
-            .maps
-            .iter_mut()
-            .flatten()
-            .flat_map(|map| &mut map.columns)
-        {
-            middle.solve(column);
-        }
+        self.implicit = [false; MOST_CONTACTS];
         Ok(())
     }
 
+    /// Turns M⁻¹ Jᵀ of the contacts `at` into B⁻¹ M⁻¹ Jᵀ.
+    fn make_implicit(&mut self, middle: &Middle<Y>, at: &[usize]) {
+        for &c in at {
+            if let (false, Some(map)) = (self.implicit[c], &mut self.maps[c]) {
+                map.columns
+                    .iter_mut()
+                    .for_each(|column| middle.solve(column));
+                self.implicit[c] = true;
+            }
+        }
+    }
+
     /// Solves for the impulses of the contacts `at`, of which there are at most K. `ahead` are the contacts at the end of
-    /// the step with the last impulses, or, the `first` time, without impulses.
+    /// the step with the last impulses, or `without` impulses.
     fn solve<const K: usize>(
         &mut self,
-        (middle, ahead, first): (&Middle<Y>, &Contacts<Of<Y>>, bool),
+        (middle, ahead, without): (&Middle<Y>, &Contacts<Of<Y>>, bool),
         at: &[usize],
     ) {
         let zero = Of::<Y>::from_f64(0.0);
@@ -205,7 +224,7 @@ where
             (friction[i], active[i]) = (self.before[c].friction, true);
             impulses[i] = self.impulses[c];
         }
-        if !first {
+        if !without {
             for (c, velocity) in velocities.iter_mut().enumerate() {
                 for (d, p) in impulses.iter().enumerate() {
                     for (sum, row) in velocity.iter_mut().zip(&delassus[c][d]) {
@@ -242,9 +261,10 @@ where
                 let (Some(map), Some(other)) = (&self.maps[c], &self.maps[d]) else {
                     continue;
                 };
-                for (k, row) in map.rows.iter().enumerate() {
-                    for (l, column) in other.columns.iter().enumerate() {
-                        let part = half * dot(positions, row, column);
+                let block = products(positions, &map.rows, &other.columns);
+                for (k, row) in block.iter().enumerate() {
+                    for (l, &product) in row.iter().enumerate() {
+                        let part = half * product;
                         all[i][j][k][l] = all[i][j][k][l] + part;
                         all[j][i][l][k] = all[j][i][l][k] + part;
                     }

@@ -21,35 +21,61 @@ pub(super) struct Middle<Y: StateVector> {
     pub(super) y: Y,
     /// The number of positions.
     pub(super) positions: usize,
-    /// The factors of B = 1 − (h/2) ∂v̇/∂v, n × n for n velocities at the beginning of the matrix; without them B = 1.
-    factors: Option<(MatrixOf<Y>, ArrayOf<Y, usize>)>,
+    /// The factors of B = 1 − (h/2) ∂v̇/∂v, of this step or of one before; without them B = 1.
+    factors: Option<Factors<Y>>,
     linearised: bool,
+}
+
+/// The factors of B: n × n for n velocities at the beginning of the matrix.
+#[derive(Clone, Debug)]
+pub(super) struct Factors<Y: StateVector> {
+    matrix: MatrixOf<Y>,
+    pivots: ArrayOf<Y, usize>,
+}
+
+/// Returns a state with the positions in the middle of the step of length `h` from it, at a time.
+pub(super) fn positions_in_middle<O: Ode>(
+    ode: &O,
+    (t, from): (Of<O::State>, &O::State),
+    h: Of<O::State>,
+) -> Result<O::State, Reason<O::Error>>
+where
+    Of<O::State>: Real,
+{
+    let half = h * Of::<O::State>::from_f64(0.5);
+    let positions = ode.positions();
+    let mut y = from.clone();
+    moved(ode, t, &mut y, half).map_err(Reason::Singular)?;
+    ode.project(t + half, &mut y).map_err(Reason::Singular)?;
+    y.entries_mut()[positions..].copy_from_slice(&from.entries()[positions..]);
+    Ok(y)
 }
 
 impl<Y: StateVector> Middle<Y>
 where
     Of<Y>: Real,
 {
-    /// Returns the middle of the step of length `h` from a state at a time.
-    pub(super) fn new<O: Ode<State = Y>>(
-        ode: &O,
-        (t, from): (Of<Y>, &Y),
+    /// Returns the middle, with the positions of [`positions_in_middle`], of the step of length `h` from a time. B, which
+    /// changes little from step to step, is that of a step before of the same length, if it was needed there.
+    pub(super) fn new(
+        (t, y): (Of<Y>, Y),
         h: Of<Y>,
-    ) -> Result<Self, Reason<O::Error>> {
-        let half = h * Of::<Y>::from_f64(0.5);
-        let positions = ode.positions();
-        let mut y = from.clone();
-        moved(ode, t, &mut y, half).map_err(Reason::Singular)?;
-        ode.project(t + half, &mut y).map_err(Reason::Singular)?;
-        y.entries_mut()[positions..].copy_from_slice(&from.entries()[positions..]);
-        Ok(Middle {
-            t: t + half,
+        positions: usize,
+        factors: Option<&Factors<Y>>,
+    ) -> Self {
+        Middle {
+            t: t + h * Of::<Y>::from_f64(0.5),
             h,
             y,
             positions,
-            factors: None,
+            factors: factors.cloned(),
             linearised: false,
-        })
+        }
+    }
+
+    /// Returns the factors of B for the next step.
+    pub(super) fn into_factors(self) -> Option<Factors<Y>> {
+        self.factors
     }
 
     /// Returns the velocities at the end without impulses, from a guess of those with impulses: one step of Newton's method
@@ -111,13 +137,13 @@ where
         if !factor(&mut entries[..n * n], &mut pivots.as_mut()[..n], n) {
             return Err(Reason::SingularMatrix);
         }
-        self.factors = Some((matrix, pivots));
+        self.factors = Some(Factors { matrix, pivots });
         Ok(true)
     }
 
     /// Replaces velocities x by B⁻¹ x.
     pub(super) fn solve(&self, x: &mut Y) {
-        if let Some((matrix, pivots)) = &self.factors {
+        if let Some(Factors { matrix, pivots }) = &self.factors {
             let x = &mut x.entries_mut()[self.positions..];
             let n = x.len();
             solve(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], x);

@@ -8,9 +8,10 @@ use bgdyn_runtime::{Scalar as _, StateVector};
 
 use self::impulses::Impulses;
 use self::lift::lifted;
-use self::middle::Middle;
+use self::middle::{Factors, Middle, positions_in_middle};
 use crate::cone::ContactOptions;
 use crate::contact_step::ContactStep;
+use crate::contacts_at::contacts_at;
 use crate::dense::Dense;
 use crate::failure::Reason;
 use crate::integrator::{Integrator, IntegratorInfo, Start, Step};
@@ -55,12 +56,22 @@ impl<T: Real> Default for Moreau<T> {
     }
 }
 
+/// Data of a step of [`Moreau`] for the next one.
+#[derive(Clone, Debug)]
+pub struct MoreauStages<Y: StateVector> {
+    contacts: ContactStep<Of<Y>>,
+    factors: Option<Factors<Y>>,
+}
+
 /// So many changes that do not fall any more end the iteration: impulses of redundant contacts have rounding errors of
 /// their own, which levers and small inertias multiply. They may be up to √ε of the velocities.
 const STALLS: usize = 2;
 
-/// Changes that fall by less than this factor are reason for Newton's method.
-const SLOW: f64 = 0.25;
+/// Changes that fall by less than this factor are reason for Newton's method: its slopes serve the steps after this one, too.
+const SLOW: f64 = 0.02;
+
+/// After so many evaluations of the rates the velocities at the contacts are linear in the impulses.
+const MOST_NONLINEAR: usize = 16;
 
 /// The largest number of evaluations of the rates in a step.
 const MOST_ITERATIONS: usize = 40;
@@ -69,7 +80,7 @@ impl<Y: StateVector> Integrator<Y> for Moreau<Of<Y>>
 where
     Of<Y>: Real,
 {
-    type Stages = ContactStep<Of<Y>>;
+    type Stages = MoreauStages<Y>;
 
     fn info(&self) -> IntegratorInfo {
         IntegratorInfo {
@@ -90,7 +101,7 @@ where
     }
 
     fn contact_step<'s>(&self, stages: &'s Self::Stages) -> Option<&'s ContactStep<Of<Y>>> {
-        Some(stages)
+        Some(&stages.contacts)
     }
 
     fn step<O: Ode<State = Y>>(
@@ -99,10 +110,20 @@ where
         from: &Start<'_, Y, Self::Stages>,
         h: Of<Y>,
     ) -> Result<Step<Y, Self::Stages>, Reason<O::Error>> {
-        let mut middle = Middle::new(ode, (from.t, from.y), h)?;
-        let mut impulses = Impulses::new(ode, (from, &middle), self.options)?;
+        let y = positions_in_middle(ode, (from.t, from.y), h)?;
+        let same = from.before.filter(|before| before.h == h);
+        let factors = same.and_then(|before| before.stages.factors.as_ref());
+        let mut middle = Middle::new((from.t, y), h, ode.positions(), factors);
+        let before = contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?;
+        let halfway = contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?;
+        let number = ode.rigid_contacts();
+        let given = (before, halfway);
+        let last = from
+            .before
+            .map(|step| (step.stages.contacts.impulses, h / step.h));
+        let mut impulses = Impulses::new(self.options, number, given, last);
         let mut end = middle.y.clone();
-        let (mut before, mut stalls) = (f64::INFINITY, 0);
+        let (mut before, mut slowest, mut stalls) = (f64::INFINITY, 1.0_f64, 0);
         let rough =
             Of::<Y>::EPSILON.to_f64().sqrt() / middle::NEGLIGIBLE / Of::<Y>::EPSILON.to_f64();
         for iteration in 1.. {
@@ -110,11 +131,17 @@ where
             let next = impulses.pushed(ode, &middle, &free)?;
             let change = middle.change(&next, &end, &free);
             end = next;
-            if change > 0.5 * before {
+            // What is left of changes that fall like a geometric series, by the slower of the last two ratios (Hairer and
+            // Wanner 1996, section IV.8).
+            let ratio = change / before;
+            let slower = slowest.max(ratio);
+            let left = change * slower / (1.0 - slower);
+            slowest = ratio;
+            if ratio > 0.5 {
                 stalls += 1;
             }
             let settled = stalls >= STALLS && change < rough;
-            if change <= 1.0 || settled {
+            if change <= 1.0 || (slower < 1.0 && left <= 1.0) || settled {
                 break;
             }
             if iteration == MOST_ITERATIONS {
@@ -125,17 +152,24 @@ where
                 let iterations = iteration;
                 return Err(Reason::NoConvergence { iterations, change });
             }
-            // Substitution that is slow, or that does not converge.
-            if change > SLOW * before && middle.linearise(ode, &end)? {
+            if iteration == MOST_NONLINEAR {
+                impulses.linearise();
+                stalls = 0;
+            }
+            // Substitution that is slow, or that does not converge. The second change has impulses that the first had not: it
+            // does not tell.
+            if iteration > 2 && ratio > SLOW && middle.linearise(ode, &end)? {
                 impulses.remake_maps(ode, &middle)?;
                 stalls = 0;
             }
             before = change;
         }
-        let mut stages = impulses.result(&middle, &end);
+        let mut contacts = impulses.result(&middle, &end);
         middle.advance(ode, &mut end)?;
-        lifted(ode, (from.t + h, h), &mut end, &impulses, &mut stages)?;
+        lifted(ode, (from.t + h, h), &mut end, &impulses, &mut contacts)?;
         let change = end.plus(-Of::<Y>::from_f64(1.0), from.y);
+        let factors = middle.into_factors();
+        let stages = MoreauStages { contacts, factors };
         Ok(Step { h, change, stages })
     }
 
