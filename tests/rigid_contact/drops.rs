@@ -2,10 +2,14 @@
 
 use bgdyn::runtime::random::Random;
 use bgdyn::runtime::{HybridSystem, Slope};
-use bgdyn_sim::{Moreau, Real, Run, ScenePlant};
+use bgdyn_sim::{Moreau, Real, Run, ScenePlant, StateVector};
 
 use crate::falls::Falls;
+use crate::quadruped_rigid::QuadrupedRigid;
 use crate::tumbles::Tumbles;
+
+/// One degree, rad.
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 /// What a drop ended with.
 #[derive(Clone, Copy, Debug, Default)]
@@ -25,8 +29,10 @@ struct Drop {
 
 /// How a scene is dropped: the base is floating, its pose comes first in the state.
 struct Fall {
-    /// Positions of joints after the base: their largest size, rad.
+    /// Positions of joints after the base are those of the scene and a random part: its largest size, rad.
     bend: f64,
+    /// Stiffness and target of the control of these positions, one after the other, N·m/rad and rad: it stores energy.
+    springs: &'static [(f64, f64)],
     /// Height of the base, m.
     height: f64,
     /// Time of a run, s, and the step.
@@ -43,7 +49,7 @@ fn dropped<T: Real, S: HybridSystem<T> + Slope<T>>(
     let mut random = Random(seed);
     let mut start = Run::<ScenePlant<'_, S, T>>::begin(scene);
     let nq = scene.positions();
-    let y = bgdyn_sim::StateVector::entries_mut(&mut start.y);
+    let y = start.y.entries_mut();
     let mut unit: [f64; 4] = core::array::from_fn(|_| random.signed());
     let length = unit.iter().map(|x| x * x).sum::<f64>().sqrt();
     unit = unit.map(|x| x / length);
@@ -52,7 +58,7 @@ fn dropped<T: Real, S: HybridSystem<T> + Slope<T>>(
         *q = T::from_f64(x);
     }
     for q in &mut y[7..nq] {
-        *q = T::from_f64(fall.bend * random.signed());
+        *q = *q + T::from_f64(fall.bend * random.signed());
     }
     for v in &mut y[nq..nq + 6] {
         *v = T::from_f64(3.0 * random.signed());
@@ -63,7 +69,12 @@ fn dropped<T: Real, S: HybridSystem<T> + Slope<T>>(
     let energy = |run: &Run<ScenePlant<'_, S, T>, Moreau<T>>| {
         let none = bgdyn::runtime::FixedVector::zero_vector();
         let all = scene.energy(run.y(), run.modes(), &none, run.t());
-        all.as_ref().iter().map(|x| x.to_f64()).sum::<f64>()
+        let springs = run.y().entries()[7.min(nq)..nq]
+            .iter()
+            .zip(fall.springs.iter().cycle());
+        let stored =
+            springs.map(|(q, (stiffness, target))| 0.5 * stiffness * (q.to_f64() - target).powi(2));
+        all.as_ref().iter().map(|x| x.to_f64()).sum::<f64>() + stored.sum::<f64>()
     };
     let begun = energy(&run);
     let mut least = begun;
@@ -85,7 +96,7 @@ fn dropped<T: Real, S: HybridSystem<T> + Slope<T>>(
             drop.residual = drop.residual.max(contacts.residual.to_f64());
         }
     }
-    let y = bgdyn_sim::StateVector::entries(run.y());
+    let y = run.y().entries();
     drop.speed = y[nq..].iter().map(|v| v.abs().to_f64()).fold(0.0, f64::max);
     drop.drift = run.audit().drift().to_f64().abs();
     Some(drop)
@@ -129,13 +140,23 @@ fn drops<T: Real + Send, S: HybridSystem<T> + Slope<T> + Sync>(
 
 const CRATE: Fall = Fall {
     bend: 0.0,
+    springs: &[],
     height: 0.6,
     time: 6.0,
     step: 1e-3,
 };
 const CHAIN: Fall = Fall {
     bend: 1.0,
+    springs: &[],
     height: 1.6,
+    time: 6.0,
+    step: 1e-3,
+};
+/// Standing legs under PD control: it falls on its feet, on its back or on a side.
+const QUADRUPED: Fall = Fall {
+    bend: 0.3,
+    springs: &[(60.0, 0.0), (60.0, 45.84 * DEGREE), (80.0, -94.71 * DEGREE)],
+    height: 0.8,
     time: 6.0,
     step: 1e-3,
 };
@@ -154,6 +175,13 @@ fn crates_and_chains_fall_and_rest() {
     assert_rests(drops("crate", (&crates, &CRATE), 12), 1e-9, 1e-9, 0.05);
     let chain = Falls::<f64>::default();
     assert_rests(drops("chain", (&chain, &CHAIN), 2), 1e-2, 1e-6, 0.05);
+    let quadruped = QuadrupedRigid::<f64>::default();
+    assert_rests(
+        drops("quadruped", (&quadruped, &QUADRUPED), 2),
+        1e-2,
+        1e-6,
+        0.05,
+    );
 }
 
 #[test]
@@ -173,6 +201,20 @@ fn ten_thousand_drops() {
     let chain = Falls::<f32>::default();
     assert_rests(
         drops("chain, f32", (&chain, &CHAIN), 10_000),
+        1e-2,
+        1e-4,
+        0.05,
+    );
+    let quadruped = QuadrupedRigid::<f64>::default();
+    assert_rests(
+        drops("quadruped", (&quadruped, &QUADRUPED), 10_000),
+        1e-2,
+        1e-6,
+        0.05,
+    );
+    let quadruped = QuadrupedRigid::<f32>::default();
+    assert_rests(
+        drops("quadruped, f32", (&quadruped, &QUADRUPED), 10_000),
         1e-2,
         1e-4,
         0.05,

@@ -20,6 +20,7 @@ bgdyn::bgdyn!("collides.scene.yaml");
 bgdyn::bgdyn!("tumbles.scene.yaml");
 bgdyn::bgdyn!("falls.scene.yaml");
 bgdyn::bgdyn!("jams.scene.yaml");
+bgdyn::bgdyn!("../../specs/contact/quadruped_rigid.scene.yaml");
 
 use bgdyn_sim::{Moreau, Run, ScenePlant};
 

@@ -63,6 +63,24 @@ pub fn solve<T: Real, const K: usize>(
     options: &ContactOptions<T>,
     impulses: &mut [[T; 3]; K],
 ) -> ContactOutcome<T> {
+    search(problem, options, impulses, true)
+}
+
+/// Searches as [`solve`] from the given impulses alone, not once more from 0.
+pub(crate) fn improve<T: Real, const K: usize>(
+    problem: &ContactProblem<'_, T, K>,
+    options: &ContactOptions<T>,
+    impulses: &mut [[T; 3]; K],
+) -> ContactOutcome<T> {
+    search(problem, options, impulses, false)
+}
+
+fn search<T: Real, const K: usize>(
+    problem: &ContactProblem<'_, T, K>,
+    options: &ContactOptions<T>,
+    impulses: &mut [[T; 3]; K],
+    once_more: bool,
+) -> ContactOutcome<T> {
     let none = [[T::from_f64(0.0); 3]; K];
     let start: [[T; 3]; K] = core::array::from_fn(|c| {
         let p = project(problem.friction[c], &impulses[c]);
@@ -70,7 +88,7 @@ pub fn solve<T: Real, const K: usize>(
         if usable { p } else { none[c] }
     });
     let mut search = Search::new(problem, options);
-    if !search.run(&start) && start != none {
+    if !search.run(&start) && once_more && start != none {
         search.run(&none);
     }
     let (best, outcome) = search.end();

@@ -3,12 +3,17 @@
 use bgdyn_runtime::{ContactMap, MOST_CONTACTS, RigidContact, Scalar as _, StateVector};
 
 use super::middle::Middle;
-use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, solve};
+use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, improve, solve};
 use crate::contact_step::ContactStep;
 use crate::contacts_at::{contacts_at, dot, products};
 use crate::failure::Reason;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
+
+/// The effort for impulses while the velocities still change. Contacts that hold each other have no impulses at which all
+/// stick if the velocities do not agree, and the search goes on for long.
+const ROUGH_SWEEPS: usize = 24;
+const ROUGH_NEWTON_STEPS: usize = 10;
 
 /// Three components at a contact.
 type Components<T> = [T; 3];
@@ -29,6 +34,8 @@ pub(super) struct Impulses<Y: StateVector> {
     pub(super) maps: [Option<ContactMap<Y>>; MOST_CONTACTS],
     implicit: [bool; MOST_CONTACTS],
     impulses: [Components<Of<Y>>; MOST_CONTACTS],
+    /// Whether the impulses are sought with little effort, while the velocities still change.
+    rough: bool,
     /// Whether the velocities γ⁺ are linear in the impulses, with G in the middle of the step.
     linear: bool,
     outcome: Option<ContactOutcome<Of<Y>>>,
@@ -66,13 +73,24 @@ where
             maps: [const { None }; MOST_CONTACTS],
             implicit: [false; MOST_CONTACTS],
             impulses,
+            rough: true,
             linear: false,
             outcome: None,
         }
     }
 
-    /// Makes the velocities γ⁺ linear in the impulses from now on: γ⁺ = γ⁺(0) + G p, as in the scheme of Jean. Where contacts
-    /// jam, the impulses of γ⁺ with axes that the same impulses turn may jump to and fro.
+    /// Says whether the next impulses are sought with little effort.
+    pub(super) fn set_rough(&mut self, rough: bool) {
+        self.rough = rough;
+    }
+
+    /// Returns whether the last impulses meet the tolerance.
+    pub(super) fn is_solved(&self) -> bool {
+        self.outcome.is_none_or(|outcome| outcome.solved)
+    }
+
+    /// Makes the velocities γ⁺ linear from now on: J v⁺ in the middle, as in the scheme of Jean. With the axes
+    /// at the end, which the impulses turn, those of contacts that jam may jump to and fro.
     pub(super) fn linearise(&mut self) {
         self.linear = true;
     }
@@ -107,7 +125,7 @@ where
         };
         let mut end = known.clone();
         middle.advance(ode, &mut end)?;
-        let ahead = contacts_at(ode, middle.end(), &end).map_err(Reason::Singular)?;
+        let mut ahead = contacts_at(ode, middle.end(), &end).map_err(Reason::Singular)?;
         self.find_active(&ahead, first);
         if first {
             for (c, slow) in self.slow.iter_mut().enumerate() {
@@ -123,6 +141,12 @@ where
             self.make_maps(ode, middle)?;
         }
         self.make_implicit(middle, &at[..n]);
+        if self.linear {
+            let gained = free.plus(-Of::<Y>::from_f64(1.0), &middle.y);
+            for &c in &at[..n] {
+                ahead[c].velocity = self.after(c, middle, &gained);
+            }
+        }
         let given = (middle, &ahead, without);
         match n {
             1 => self.solve::<1>(given, &at[..n]),
@@ -241,7 +265,10 @@ where
             friction: &friction,
             active: &active,
         };
-        self.outcome = Some(solve(&problem, &self.options, &mut impulses));
+        self.outcome = Some(match self.rough {
+            true => improve(&problem, &rough(&self.options), &mut impulses),
+            false => solve(&problem, &self.options, &mut impulses),
+        });
         for (&c, p) in at.iter().zip(impulses) {
             self.impulses[c] = p;
         }
@@ -274,6 +301,17 @@ where
         all
     }
 
+    /// Returns the velocity of a contact with J in the middle, where the velocities have `gained` so much in the step.
+    fn after(&self, c: usize, middle: &Middle<Y>, gained: &Y) -> Components<Of<Y>> {
+        let mut velocity = self.middle[c].velocity;
+        if let Some(map) = &self.maps[c] {
+            for (velocity, row) in velocity.iter_mut().zip(&map.rows) {
+                *velocity = *velocity + dot(middle.positions, row, gained);
+            }
+        }
+        velocity
+    }
+
     /// Returns impulses and losses, with the velocities at the end.
     pub(super) fn result(&self, middle: &Middle<Y>, end: &Y) -> ContactStep<Of<Y>> {
         let zero = Of::<Y>::from_f64(0.0);
@@ -287,15 +325,21 @@ where
         let gained = end.plus(-Of::<Y>::from_f64(1.0), &middle.y);
         let half = Of::<Y>::from_f64(0.5);
         for c in (0..self.number).filter(|&c| self.active[c]) {
-            let Some(map) = &self.maps[c] else { continue };
             let (p, before) = (self.impulses[c], self.middle[c].velocity);
-            let work = (0..3).fold(zero, |work, k| {
-                let gain = dot(middle.positions, &map.rows[k], &gained);
-                work + p[k] * (before[k] + half * gain)
-            });
+            let after = self.after(c, middle, &gained);
+            let work = (0..3).fold(zero, |work, k| work + p[k] * half * (before[k] + after[k]));
             (step.impulses[c], step.losses[c]) = (p, -work);
         }
         step
+    }
+}
+
+/// Returns options with a small part of the effort.
+fn rough<T: Real>(options: &ContactOptions<T>) -> ContactOptions<T> {
+    ContactOptions {
+        tolerance: options.tolerance,
+        most_sweeps: options.most_sweeps.min(ROUGH_SWEEPS),
+        most_newton_steps: options.most_newton_steps.min(ROUGH_NEWTON_STEPS),
     }
 }
 

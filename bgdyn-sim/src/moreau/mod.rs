@@ -128,6 +128,7 @@ where
             Of::<Y>::EPSILON.to_f64().sqrt() / middle::NEGLIGIBLE / Of::<Y>::EPSILON.to_f64();
         for iteration in 1.. {
             let free = middle.free(ode, &end)?;
+            impulses.set_rough(before > rough && iteration < MOST_ITERATIONS);
             let next = impulses.pushed(ode, &middle, &free)?;
             let change = middle.change(&next, &end, &free);
             end = next;
@@ -141,7 +142,8 @@ where
                 stalls += 1;
             }
             let settled = stalls >= STALLS && change < rough;
-            if change <= 1.0 || (slower < 1.0 && left <= 1.0) || settled {
+            let converged = change <= 1.0 || (slower < 1.0 && left <= 1.0) || settled;
+            if converged && (impulses.is_solved() || before <= rough) {
                 break;
             }
             if iteration == MOST_ITERATIONS {
