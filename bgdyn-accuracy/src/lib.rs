@@ -60,12 +60,12 @@ pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 #[cfg(feature = "plot")]
 pub use figures::{Figure, figures};
 pub use format::escaped;
-pub use integrate::{Integrate, Measured};
+pub use integrate::{Integrate, Measured, event_driven};
 pub use order_check::{Finding, Verdict, verdicts};
 #[cfg(feature = "plot")]
 pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
-pub use priced::{Call, Priced};
+pub use priced::{Call, Priced, StepCount};
 pub use row::{Row, Status, rows_csv};
 pub use step_sequence::Effort;
 pub use study::{Failed, Study, StudyInfo, study};
