@@ -47,10 +47,13 @@ pub fn measured(system: &SceneEquations) -> Option<SceneEquations> {
     let outputs = &system.scene.outputs;
     let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
     let joints = &system.graph.coordinates;
-    let is_joint = |name: &str| joints.iter().any(|c| c.name == name);
+    let positions = &system.scene.layout.positions;
+    let is_joint = |name: &str| {
+        joints.iter().any(|c| c.name == name) || positions.iter().any(|p| p.name == name)
+    };
     let first = |holds: &dyn Fn(&str) -> bool| outputs.iter().find(|o| holds(&o.value)).cloned();
     let coordinate = || {
-        let value = joints.first()?.name.clone();
+        let value = positions.first()?.name.clone();
         let location = Location::file();
         Some(Located { value, location })
     };

@@ -333,6 +333,10 @@ impl Measured for Counted {
     fn measured(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
         self.plant.output(t, y, modes)
     }
+
+    fn in_words(error: &Undefined) -> String {
+        format!("{error:?}")
+    }
 }
 
 /// Returns the scene as a test case, computed by an engine; `None` if it has nothing to measure.
