@@ -1,6 +1,7 @@
 //! Measures the cost of an effect: operations and time of `derivative` with and without it, and steps of a
 //! run.
 
+use std::fmt::Debug;
 use std::hint::black_box;
 
 use bgdyn_runtime::HybridSystem;
@@ -10,7 +11,7 @@ use bgdyn_sim::{
 
 use crate::clock::{Spread, calls};
 use crate::configuration::RunError;
-use crate::integrate::{Measured, event_driven, in_short};
+use crate::integrate::{event_driven, in_short, named};
 use crate::priced::{Call, Priced, StepCount};
 use crate::step_sequence::Effort;
 use crate::table::write_csv;
@@ -67,9 +68,10 @@ pub struct CountSteps<P: Plant> {
     pub end: f64,
 }
 
-impl<P: Measured> WithIntegrator<P::State> for CountSteps<P>
+impl<P: Plant> WithIntegrator<P::State> for CountSteps<P>
 where
     Of<P::State>: Real,
+    P::Error: Debug,
 {
     type Output = Result<usize, RunError>;
 
@@ -89,7 +91,7 @@ where
             let taken = run.advance_densely(number(left));
             taken.map_err(|failure| RunError {
                 t: failure.t.to_f64(),
-                why: in_short::<P>(&failure.reason),
+                why: in_short(&failure.reason, named),
             })?;
         }
         let why = format!("more than {STEPS:e} steps");

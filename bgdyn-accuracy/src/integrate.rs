@@ -42,15 +42,15 @@ where
     }
 }
 
+/// A plant and its start.
+pub type PlantAtStart<P> = (P, HybridState<<P as Plant>::State, <P as Plant>::Modes>);
+
 /// Returns a scene whose rigid contacts are solved from event to event, and its start. Runs find the modes of the contacts
 /// there.
 pub fn event_driven<P: Plant>(
     plant: P,
     begin: HybridState<P::State, P::Modes>,
-) -> (
-    EventDriven<P>,
-    HybridState<P::State, ContactModes<P::Modes, Of<P::State>>>,
-)
+) -> PlantAtStart<EventDriven<P>>
 where
     Of<P::State>: Real,
 {
@@ -105,7 +105,7 @@ where
             for _ in 0..steps {
                 run.step(h).map_err(|failure| RunError {
                     t: failure.t.to_f64(),
-                    why: in_short::<P>(&failure.reason),
+                    why: in_short(&failure.reason, P::in_words),
                 })?;
             }
             samples.push(run.plant().measured(run.t(), run.y(), run.modes()));
@@ -114,10 +114,10 @@ where
     }
 }
 
-/// Describes a reason in a few words.
-pub(crate) fn in_short<P: Measured>(reason: &Reason<P::Error>) -> String {
+/// Describes a reason in a few words; `words` describes why there are no rates.
+pub(crate) fn in_short<E>(reason: &Reason<E>, words: impl Fn(&E) -> String) -> String {
     match reason {
-        Reason::Singular(error) => P::in_words(error),
+        Reason::Singular(error) => words(error),
         Reason::NotFinite => "unstable: not finite".into(),
         Reason::NoConvergence { .. } => "stages not solved".into(),
         Reason::SingularMatrix => "matrix of the stages singular".into(),
@@ -129,7 +129,7 @@ pub(crate) fn in_short<P: Measured>(reason: &Reason<P::Error>) -> String {
 }
 
 /// Describes an error that is, or prints as, the name of what has no rate.
-fn named<E: Debug>(error: &E) -> String {
+pub(crate) fn named<E: Debug>(error: &E) -> String {
     format!("no rate of {}", format!("{error:?}").trim_matches('"'))
 }
 

@@ -65,7 +65,7 @@ pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 #[cfg(feature = "plot")]
 pub use figures::{Figure, figures};
 pub use format::escaped;
-pub use integrate::{Integrate, Measured, event_driven};
+pub use integrate::{Integrate, Measured, PlantAtStart, event_driven};
 pub use order_check::{Finding, Verdict, verdicts};
 #[cfg(feature = "plot")]
 pub use page::{Machine, page, readme};
