@@ -2,6 +2,10 @@
 
 use std::process::Command;
 
+use bgdyn_accuracy::generate::variants;
+use bgdyn_codegen::files::{beside, stem};
+use bgdyn_codegen::read_scene;
+
 use super::{bgdyn, root, scratch, table_rows};
 
 /// Runs the command without cargo.
@@ -192,6 +196,40 @@ fn from_event_to_event_methods_keep_their_orders() {
         let last = errors_of(&rows, method).pop();
         assert!(last.is_none_or(|(_, error)| error < 1e-7), "{method}");
     }
+}
+
+/// The program that is compiled runs each scene with rigid contacts from event to event, but for `moreau`, and no scene in
+/// momenta that it does not have.
+#[test]
+fn compiled_studies_go_from_event_to_event_where_they_have_to() {
+    let calls = |file: &str| {
+        let path = root().join(file);
+        let text = |path: &std::path::Path| std::fs::read_to_string(path).expect("a file");
+        let load = |mechanism: &str| Ok(text(&beside(&path, mechanism)));
+        let read = read_scene(&text(&path), &stem(&path), load);
+        let system = read.unwrap_or_else(|_| panic!("{file} is refused")).0;
+        variants(&system, None)
+    };
+    let hopper = calls("specs/contact/hopper_hops.scene.yaml").expect("a module");
+    for call in [
+        "contact_methods(all::",
+        "contact_single(all::",
+        "contact_reference(all::",
+        "contact_formulation(\"recursion\"",
+        "contact_price(\"all\"",
+        "test_case.price(\"all but contact\"",
+        // The scene's own integrator is `moreau`.
+        "test_case.ablation_with_slope(\"all\"",
+    ] {
+        assert!(hopper.contains(call), "{call}");
+    }
+    assert!(!hopper.contains("momenta("));
+    let top = calls("tests/free_scenes/heavy_top_run.scene.yaml").expect("a module");
+    assert!(top.contains("test_case.methods(all::") && !top.contains("momenta("));
+    let pendulum = calls("specs/scenes/stick_slip.scene.yaml").expect("a module");
+    assert!(pendulum.contains("test_case.momenta(all::") && !pendulum.contains("contact_"));
+    let quadruped = calls("specs/contact/quadruped_rigid.scene.yaml");
+    assert!(quadruped.is_err_and(|why| why.contains("12 rigid contacts")));
 }
 
 #[test]
