@@ -5,14 +5,14 @@ use std::rc::Rc;
 
 use bgdyn_runtime::{Canonical, Dd, FixedVector, HybridSystem, Slope};
 use bgdyn_sim::{
-    CanonicalPlant, Dopri5, Extrapolation12, HybridState, INTEGRATORS, Integrator, Of, Real, Rk4,
-    Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
+    CanonicalPlant, Dopri5, EventDriven, Extrapolation12, HybridState, INTEGRATORS, Integrator,
+    Moreau, Of, Plant, Real, Rk4, Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
 };
 
 use crate::configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 use crate::dyn_plant::{DynPlant, PlantObject};
-use crate::integrate::{Integrate, Measured, numbers};
-use crate::test_case::{TestCase, order};
+use crate::integrate::{Integrate, Measured, event_driven, numbers};
+use crate::test_case::{References, TestCase, order};
 
 /// Name of the equations with the default formulations.
 const CHEAPEST: &str = "cheapest";
@@ -55,10 +55,13 @@ impl<S: Canonical<T>, T: Real> Measured for CanonicalPlant<'_, S, T> {
     }
 }
 
-/// A plant with its start and its integrator.
-struct Started<Y: StateVector, M, E> {
-    plant: DynPlant<Y, M, E>,
-    begin: HybridState<Y, M>,
+/// A plant behind a pointer, with its start.
+type Started<Y, M, E> = Contender<DynPlant<Y, M, E>>;
+
+/// A plant with its start.
+struct Contender<P: Plant> {
+    plant: P,
+    begin: HybridState<P::State, P::Modes>,
 }
 
 impl<Y, M, E> Started<Y, M, E>
@@ -69,25 +72,36 @@ where
 {
     fn new(plant: impl PlantObject<Y, M, E> + 'static, begin: HybridState<Y, M>) -> Rc<Self> {
         let plant = DynPlant(Rc::new(plant));
-        Rc::new(Started { plant, begin })
+        Rc::new(Contender { plant, begin })
     }
 
+    /// Returns the same with its rigid contacts solved from event to event.
+    fn event_driven(&self) -> Rc<Contender<EventDriven<DynPlant<Y, M, E>>>> {
+        let (plant, begin) = event_driven(self.plant.clone(), self.begin);
+        Rc::new(Contender { plant, begin })
+    }
+}
+
+impl<P> Contender<P>
+where
+    P: Measured + Clone + 'static,
+    Of<P::State>: Real,
+{
     /// Runs the plant with any integrator.
-    fn integrate<'g>(
-        &self,
-        grid: &'g Grid,
-        step_control: StepControl,
-    ) -> Integrate<'g, DynPlant<Y, M, E>> {
+    fn integrate<'g>(&self, grid: &'g Grid, step_control: StepControl) -> Integrate<'g, P> {
         Integrate {
             plant: self.plant.clone(),
-            begin: black_box(self.begin),
+            begin: black_box(self.begin.clone()),
             grid,
             step_control: black_box(step_control),
         }
     }
 
     /// Returns the runner of a contender with an integrator.
-    fn runner<I: Integrator<Y>>(self: &Rc<Self>, integrator: impl Fn() -> I + 'static) -> Runner {
+    fn runner<I: Integrator<P::State>>(
+        self: &Rc<Self>,
+        integrator: impl Fn() -> I + 'static,
+    ) -> Runner {
         let started = self.clone();
         Box::new(move |grid, step_control| {
             let run = started.integrate(grid, step_control);
@@ -106,6 +120,20 @@ where
     }
 }
 
+impl<P> Contender<P>
+where
+    P: Measured + Clone + 'static,
+    P::State: StateVector<Scalar = Dd>,
+{
+    /// Returns the reference: order 12 with controlled steps.
+    fn reference(self: Rc<Self>) -> References {
+        Box::new(move |grid, tolerance| {
+            let run = self.integrate(grid, StepControl::Tolerance(tolerance));
+            run.with(Extrapolation12::default())
+        })
+    }
+}
+
 /// Leaks a scene: studies are few and their scenes small.
 fn leak<S: 'static>(scene: S) -> &'static S {
     Box::leak(Box::new(scene))
@@ -119,10 +147,7 @@ impl TestCase {
     pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        self.reference = Some(Box::new(move |grid, tolerance| {
-            let run = started.integrate(grid, StepControl::Tolerance(tolerance));
-            run.with(Extrapolation12::default())
-        }));
+        self.reference = Some(started.reference());
     }
 
     /// Adds every integrator of bgdyn-sim except that of the reference.
@@ -214,5 +239,79 @@ impl TestCase {
             effects: effects.into(),
             ..ablation
         });
+    }
+}
+
+/// Scenes with rigid contacts: every integrator goes from event to event, except `moreau`, which solves for the impulses of
+/// its steps.
+impl TestCase {
+    /// [`TestCase::reference`] of a scene with rigid contacts.
+    pub fn contact_reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
+        let scene = leak(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        self.reference = Some(started.event_driven().reference());
+    }
+
+    /// [`TestCase::methods`] of a scene with rigid contacts.
+    pub fn contact_methods<S: Slope<f64> + 'static>(&mut self, scene: S) {
+        let scene = leak(scene);
+        let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
+        let events = started.event_driven();
+        for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
+            let run = match *name {
+                "moreau" => started.runner(Moreau::new),
+                name => events.runner_by_name(name),
+            };
+            self.configurations
+                .push(configuration(name, F64, CHEAPEST, run));
+        }
+    }
+
+    /// Adds `moreau` and an explicit integrator in `f32`, both with fixed steps: the instants of events in `f32` have
+    /// errors that estimates of steps take for theirs.
+    pub fn contact_single<S: HybridSystem<f32> + 'static>(&mut self, scene: S) {
+        let scene = leak(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        let runs: [(&str, Runner); 2] = [
+            ("rk4", started.event_driven().runner(|| Rk4)),
+            ("moreau", started.runner(Moreau::new)),
+        ];
+        for (method, run) in runs {
+            self.configurations
+                .push(configuration(method, F32, CHEAPEST, run));
+        }
+    }
+
+    /// [`TestCase::formulation`] of a scene with rigid contacts.
+    pub fn contact_formulation<S: HybridSystem<f64> + 'static>(&mut self, name: &str, scene: S) {
+        let scene = leak(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        let run = started.event_driven().runner(|| Rk4);
+        self.configurations
+            .push(configuration("rk4", F64, name, run));
+    }
+
+    /// [`TestCase::ablation`] of a scene with rigid contacts, from event to event.
+    pub fn contact_ablation<S: HybridSystem<f64> + 'static, I: Integrator<S::State>>(
+        &mut self,
+        effects: &str,
+        scene: S,
+        integrator: impl Fn() -> I + 'static,
+    ) {
+        let scene = leak(scene);
+        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
+        self.add_ablation(effects, started.event_driven().runner(integrator));
+    }
+
+    /// [`TestCase::ablation_with_slope`] of a scene with rigid contacts, from event to event.
+    pub fn contact_ablation_with_slope<S: Slope<f64> + 'static, I: Integrator<S::State>>(
+        &mut self,
+        effects: &str,
+        scene: S,
+        integrator: impl Fn() -> I + 'static,
+    ) {
+        let scene = leak(scene);
+        let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
+        self.add_ablation(effects, started.event_driven().runner(integrator));
     }
 }

@@ -11,8 +11,8 @@ use bgdyn_sim::{
 
 use crate::clock::{Spread, calls};
 use crate::configuration::RunError;
-use crate::integrate::in_short;
-use crate::priced::{Call, Priced};
+use crate::integrate::{event_driven, in_short, named};
+use crate::priced::{Call, Priced, StepCount};
 use crate::step_sequence::Effort;
 use crate::table::write_csv;
 use crate::test_case::TestCase;
@@ -91,7 +91,7 @@ where
             let taken = run.advance_densely(number(left));
             taken.map_err(|failure| RunError {
                 t: failure.t.to_f64(),
-                why: in_short(&failure.reason),
+                why: in_short(&failure.reason, named),
             })?;
         }
         let why = format!("more than {STEPS:e} steps");
@@ -108,6 +108,36 @@ impl TestCase {
         S: HybridSystem<f64> + 'static,
     {
         let scene: &'static S = Box::leak(Box::new(scene));
+        let steps = move |end| {
+            let (plant, begin) = (ScenePlant::new(scene), Run::begin(scene));
+            CountSteps { plant, begin, end }.with(Dopri5)
+        };
+        self.add_price(effects, operations, scene, Box::new(steps));
+    }
+
+    /// Adds the same of a scene whose rigid contacts are solved from event to event. The operations and the time are those
+    /// of `derivative`, without the contacts.
+    pub fn contact_price<S>(&mut self, effects: &str, operations: usize, scene: S)
+    where
+        S: HybridSystem<f64> + 'static,
+    {
+        let scene: &'static S = Box::leak(Box::new(scene));
+        let steps = move |end| {
+            let (plant, begin) = event_driven(ScenePlant::new(scene), Run::begin(scene));
+            CountSteps { plant, begin, end }.with(Dopri5)
+        };
+        self.add_price(effects, operations, scene, Box::new(steps));
+    }
+
+    fn add_price<S>(
+        &mut self,
+        effects: &str,
+        operations: usize,
+        scene: &'static S,
+        steps: StepCount,
+    ) where
+        S: HybridSystem<f64> + 'static,
+    {
         let begin = Run::begin(scene);
         let plant = ScenePlant::new(scene);
         let input = plant.input(begin.t, &begin.y, &begin.modes);
@@ -126,14 +156,7 @@ impl TestCase {
             effects: effects.into(),
             operations,
             call: Call::Compiled(Box::new(call)),
-            steps: Box::new(move |end| {
-                let count = CountSteps {
-                    plant: ScenePlant::new(scene),
-                    begin: Run::begin(scene),
-                    end,
-                };
-                count.with(Dopri5)
-            }),
+            steps,
         });
     }
 }

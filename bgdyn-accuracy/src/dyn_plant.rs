@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use bgdyn_runtime::FixedVector;
+use bgdyn_runtime::{ContactMap, FixedVector, RigidContact};
 use bgdyn_sim::{Jacobian, Of, Plant, Power, StateVector};
 use nalgebra::SVector;
 
@@ -39,6 +39,27 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     ) -> Result<Option<(Y, M)>, String>;
     fn next_corner(&self, t: Of<Y>) -> Option<Of<Y>>;
     fn rigid_contacts(&self) -> usize;
+    fn rigid_contact_states(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        contacts: &mut [RigidContact<Of<Y>>],
+    ) -> Result<(), String>;
+    fn rigid_contact_maps(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        maps: &mut [Option<ContactMap<Y>>],
+    ) -> Result<(), String>;
+    fn rigid_contact_biases(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        biases: &mut [[Of<Y>; 3]],
+    ) -> Result<(), String>;
     fn measured(&self, t: Of<Y>, y: &Y, modes: &M) -> Vec<Of<Y>>;
 }
 
@@ -141,6 +162,36 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         Plant::rigid_contacts(self)
     }
 
+    fn rigid_contact_states(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+        contacts: &mut [RigidContact<Of<P::State>>],
+    ) -> Result<(), String> {
+        with_text_error(Plant::rigid_contact_states(self, t, y, modes, contacts))
+    }
+
+    fn rigid_contact_maps(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+        maps: &mut [Option<ContactMap<P::State>>],
+    ) -> Result<(), String> {
+        with_text_error(Plant::rigid_contact_maps(self, t, y, modes, maps))
+    }
+
+    fn rigid_contact_biases(
+        &self,
+        t: Of<P::State>,
+        y: &P::State,
+        modes: &P::Modes,
+        biases: &mut [[Of<P::State>; 3]],
+    ) -> Result<(), String> {
+        with_text_error(Plant::rigid_contact_biases(self, t, y, modes, biases))
+    }
+
     fn measured(&self, t: Of<P::State>, y: &P::State, modes: &P::Modes) -> Vec<Of<P::State>> {
         Measured::measured(self, t, y, modes)
     }
@@ -238,6 +289,36 @@ where
 
     fn rigid_contacts(&self) -> usize {
         self.0.rigid_contacts()
+    }
+
+    fn rigid_contact_states(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        contacts: &mut [RigidContact<Of<Y>>],
+    ) -> Result<(), String> {
+        self.0.rigid_contact_states(t, y, modes, contacts)
+    }
+
+    fn rigid_contact_maps(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        maps: &mut [Option<ContactMap<Y>>],
+    ) -> Result<(), String> {
+        self.0.rigid_contact_maps(t, y, modes, maps)
+    }
+
+    fn rigid_contact_biases(
+        &self,
+        t: Of<Y>,
+        y: &Y,
+        modes: &M,
+        biases: &mut [[Of<Y>; 3]],
+    ) -> Result<(), String> {
+        self.0.rigid_contact_biases(t, y, modes, biases)
     }
 
     fn nothing(&self) -> Self::Entries {

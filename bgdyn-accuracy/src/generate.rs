@@ -14,6 +14,7 @@ use bgdyn_codegen::options::Options;
 use bgdyn_codegen::scene::{IntegratorName, Scene, StepControl};
 use bgdyn_codegen::selection::scene_functions;
 use bgdyn_codegen::system::SceneEquations;
+use bgdyn_runtime::MOST_EVENT_CONTACTS;
 
 /// Largest number of coordinates for which the literal sum is generated: it grows with the cube of their
 /// number.
@@ -46,10 +47,13 @@ pub fn measured(system: &SceneEquations) -> Option<SceneEquations> {
     let outputs = &system.scene.outputs;
     let is_site = |name: &str| system.graph.sites.iter().any(|s| s.name == name);
     let joints = &system.graph.coordinates;
-    let is_joint = |name: &str| joints.iter().any(|c| c.name == name);
+    let positions = &system.scene.layout.positions;
+    let is_joint = |name: &str| {
+        joints.iter().any(|c| c.name == name) || positions.iter().any(|p| p.name == name)
+    };
     let first = |holds: &dyn Fn(&str) -> bool| outputs.iter().find(|o| holds(&o.value)).cloned();
     let coordinate = || {
-        let value = joints.first()?.name.clone();
+        let value = positions.first()?.name.clone();
         let location = Location::file();
         Some(Located { value, location })
     };
@@ -113,13 +117,38 @@ pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
     (own_integrator(system).name(), step_control)
 }
 
+/// Checks that a scene has a reference: rigid contacts that can be solved from event to event.
+///
+/// # Errors
+/// A sentence, if there are more than [`MOST_EVENT_CONTACTS`].
+pub fn check(system: &SceneEquations) -> Result<(), String> {
+    let number = system.scene.layout.rigid_contacts.len();
+    if number <= MOST_EVENT_CONTACTS {
+        return Ok(());
+    }
+    Err(format!(
+        "the scene `{}` has {number} rigid contacts: the reference of a study goes from event to event, which takes at most {MOST_EVENT_CONTACTS}. Leave contacts out or use `compliant_contact`; `bgdyn simulate` compares a run with one of half the step",
+        system.scene.name
+    ))
+}
+
+/// Returns the first part of the names of the functions of [`TestCase`](crate::TestCase) that go from event to event, for a
+/// scene with rigid contacts.
+fn by_events(system: &SceneEquations) -> &'static str {
+    match system.scene.layout.rigid_contacts.is_empty() {
+        true => "",
+        false => "contact_",
+    }
+}
+
 /// Returns the text of a module with the scene's name: its variants, and `test_case()`, which returns
 /// their [`TestCase`](crate::TestCase). The crate that includes it depends on `bgdyn` and
 /// `bgdyn-accuracy`; `end` replaces the scene's own, s.
 ///
 /// # Errors
-/// A sentence, if the scene has nothing to measure.
+/// A sentence, if the scene has nothing to measure or too many rigid contacts.
 pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, String> {
+    check(system)?;
     let name = &system.scene.name;
     let full =
         measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
@@ -134,28 +163,33 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     };
     let functions = scene_functions(&full, &all);
     text += &module(&full, &functions, "all")?;
-    for call in ["methods", "momenta"] {
+    let contact = by_events(&full);
+    let role = |f: &Function| matches!(f.method, Method::Scene(SceneFunction::CanonicalRates));
+    let momenta = functions
+        .iter()
+        .any(role)
+        .then_some(("momenta".into(), "f64"));
+    let of_all = [
+        Some((format!("{contact}methods"), "f64")),
+        momenta,
+        Some((format!("{contact}single"), "f32")),
+        Some((format!("{contact}reference"), "bgdyn_accuracy::Dd")),
+    ];
+    for (call, scalar) in of_all.into_iter().flatten() {
         writeln!(
             calls,
-            "test_case.{call}(all::{structure}::<f64>::default());"
+            "test_case.{call}(all::{structure}::<{scalar}>::default());"
         )
         .expect("text");
     }
-    writeln!(
-        calls,
-        "test_case.single(all::{structure}::<f32>::default());"
-    )
-    .expect("text");
-    let dd = "bgdyn_accuracy::Dd";
-    writeln!(
-        calls,
-        "test_case.reference(all::{structure}::<{dd}>::default());"
-    )
-    .expect("text");
     for (formulation, functions) in formulations(&full) {
         text += &module(&full, &functions, formulation)?;
         let model = format!("{formulation}::{structure}::<f64>::default()");
-        writeln!(calls, "test_case.formulation({formulation:?}, {model});").expect("text");
+        writeln!(
+            calls,
+            "test_case.{contact}formulation({formulation:?}, {model});"
+        )
+        .expect("text");
     }
     let options = Options {
         jacobian: own.needs_jacobian(),
@@ -168,15 +202,27 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     // Types of bgdyn-sim have the names of the integrators.
     let integrator = struct_ident(own.name());
     let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default");
-    let add = |effects: &str, model: &str, text: &mut String| {
-        writeln!(text, "test_case.{call}({effects:?}, {model}, {method});").expect("text");
+    let add = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
+        let contact = match own.solves_contacts() {
+            true => "",
+            false => by_events(system),
+        };
+        writeln!(
+            text,
+            "test_case.{contact}{call}({effects:?}, {model}, {method});"
+        )
+        .expect("text");
     };
     let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
-        let count = operations(system);
-        writeln!(text, "test_case.price({effects:?}, {count}, {model});").expect("text");
+        let (count, contact) = (operations(system), by_events(system));
+        writeln!(
+            text,
+            "test_case.{contact}price({effects:?}, {count}, {model});"
+        )
+        .expect("text");
     };
     let model = format!("all::{structure}::<f64>::default()");
-    add("all", &model, &mut calls);
+    add("all", &full, &model, &mut calls);
     price("all", &full, &model, &mut calls);
     for (i, ablation) in ablations(&full).iter().enumerate() {
         let Some(system) = &ablation.system else {
@@ -186,7 +232,7 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
         let inner = format!("ablation_{i}");
         text += &module(system, &scene_functions(system, &options), &inner)?;
         let model = format!("{inner}::{structure}::<f64>::default()");
-        add(&ablation.effects, &model, &mut calls);
+        add(&ablation.effects, system, &model, &mut calls);
         if ablation.effects.starts_with(ALL_BUT) {
             price(&ablation.effects, system, &model, &mut calls);
         }

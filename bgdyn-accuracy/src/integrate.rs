@@ -1,7 +1,11 @@
 //! Runs a plant with an integrator, and samples it at given times.
 
-use bgdyn_sim::{HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator};
 use std::fmt::Debug;
+
+use bgdyn_sim::event_driven::{ContactModes, EventError};
+use bgdyn_sim::{
+    EventDriven, HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator,
+};
 
 use crate::configuration::{Grid, RunError, StepControl};
 
@@ -14,6 +18,45 @@ pub trait Measured: Plant {
         state: &Self::State,
         modes: &Self::Modes,
     ) -> Vec<Of<Self::State>>;
+
+    /// Describes the reason for which there are no rates, in a few words.
+    fn in_words(error: &Self::Error) -> String {
+        named(error)
+    }
+}
+
+/// A scene whose rigid contacts are solved from event to event.
+impl<P: Measured> Measured for EventDriven<P>
+where
+    Of<P::State>: Real,
+{
+    fn measured(&self, t: Of<P::State>, y: &P::State, modes: &Self::Modes) -> Vec<Of<P::State>> {
+        self.plant.measured(t, y, &modes.plant)
+    }
+
+    fn in_words(error: &Self::Error) -> String {
+        match error {
+            EventError::Plant(error) => P::in_words(error),
+            error => error.to_string(),
+        }
+    }
+}
+
+/// A plant and its start.
+pub type PlantAtStart<P> = (P, HybridState<<P as Plant>::State, <P as Plant>::Modes>);
+
+/// Returns a scene whose rigid contacts are solved from event to event, and its start. Runs find the modes of the contacts
+/// there.
+pub fn event_driven<P: Plant>(
+    plant: P,
+    begin: HybridState<P::State, P::Modes>,
+) -> PlantAtStart<EventDriven<P>>
+where
+    Of<P::State>: Real,
+{
+    let HybridState { t, y, modes } = begin;
+    let modes = ContactModes::open(modes);
+    (EventDriven::new(plant), HybridState { t, y, modes })
 }
 
 /// A run to be made, by any integrator.
@@ -62,7 +105,7 @@ where
             for _ in 0..steps {
                 run.step(h).map_err(|failure| RunError {
                     t: failure.t.to_f64(),
-                    why: in_short(&failure.reason),
+                    why: in_short(&failure.reason, P::in_words),
                 })?;
             }
             samples.push(run.plant().measured(run.t(), run.y(), run.modes()));
@@ -71,10 +114,10 @@ where
     }
 }
 
-/// Describes a reason in a few words.
-pub(crate) fn in_short<E: Debug>(reason: &Reason<E>) -> String {
+/// Describes a reason in a few words; `words` describes why there are no rates.
+pub(crate) fn in_short<E>(reason: &Reason<E>, words: impl Fn(&E) -> String) -> String {
     match reason {
-        Reason::Singular(at) => format!("no rate of {}", format!("{at:?}").trim_matches('"')),
+        Reason::Singular(error) => words(error),
         Reason::NotFinite => "unstable: not finite".into(),
         Reason::NoConvergence { .. } => "stages not solved".into(),
         Reason::SingularMatrix => "matrix of the stages singular".into(),
@@ -83,6 +126,11 @@ pub(crate) fn in_short<E: Debug>(reason: &Reason<E>) -> String {
         Reason::StepTooSmall { h, .. } => format!("steps below {h:.0e} s"),
         Reason::TooManyEvents { .. } => "too many events".into(),
     }
+}
+
+/// Describes an error that is, or prints as, the name of what has no rate.
+pub(crate) fn named<E: Debug>(error: &E) -> String {
+    format!("no rate of {}", format!("{error:?}").trim_matches('"'))
 }
 
 /// Returns the largest distance between two sequences of an output.

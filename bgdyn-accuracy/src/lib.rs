@@ -24,7 +24,12 @@
 //! A scene has one measured output: the first site among its outputs, else the first coordinate among
 //! them. The error of a run is the largest distance, over equally spaced sample times, of that output from
 //! the reference, in the output's own unit (m or rad). For fewer effects it is the change of the motion:
-//! the distance from the reference of the scene with all effects.
+//! the distance from the reference of the scene with all effects. A quaternion is continuous along a run, so
+//! that the error of a component is a difference as well.
+//!
+//! # Rigid contacts
+//! `moreau` solves for their impulses in fixed steps; every other integrator and the reference go from event to
+//! event ([`event_driven`]), which takes at most [`bgdyn_runtime::MOST_EVENT_CONTACTS`] contacts.
 #![forbid(unsafe_code)]
 
 mod clock;
@@ -60,12 +65,12 @@ pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 #[cfg(feature = "plot")]
 pub use figures::{Figure, figures};
 pub use format::escaped;
-pub use integrate::{Integrate, Measured};
+pub use integrate::{Integrate, Measured, PlantAtStart, event_driven};
 pub use order_check::{Finding, Verdict, verdicts};
 #[cfg(feature = "plot")]
 pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
-pub use priced::{Call, Priced};
+pub use priced::{Call, Priced, StepCount};
 pub use row::{Row, Status, rows_csv};
 pub use step_sequence::Effort;
 pub use study::{Failed, Study, StudyInfo, study};

@@ -54,6 +54,8 @@ pub enum Failed {
     NoReference,
     /// Its reference's run ends early.
     Reference(RunError),
+    /// The measured output, of this name, does not move.
+    Still(String),
     /// Two references differ by this fraction of the motion.
     Uncertain(f64),
 }
@@ -63,9 +65,13 @@ impl fmt::Display for Failed {
         match self {
             Failed::NoReference => f.write_str("the scene has no reference"),
             Failed::Reference(stop) => write!(f, "the reference ends early: {stop}"),
+            Failed::Still(output) => write!(
+                f,
+                "the measured output `{output}` does not move, so that its errors say nothing: the first site among the scene's `outputs` is measured, else the first coordinate, else the first; name one that moves"
+            ),
             Failed::Uncertain(part) => write!(
                 f,
-                "two references differ by {part:.1e} of the motion: the scene is chaotic; a shorter end (`--end`) may help"
+                "two references differ by {part:.1e} of the motion of the measured output: it hardly moves, or the scene is chaotic; a shorter end (`--end`) may help"
             ),
         }
     }
@@ -75,6 +81,9 @@ impl std::error::Error for Failed {}
 
 /// References that differ by more than this fraction of the motion are not usable.
 const MAX_REFERENCE_ERROR: f64 = 1e-6;
+
+/// An output that moves by no more than this fraction of its distance from its origin is at rest: the motion is rounding.
+const STILL: f64 = 1e-14;
 
 /// Studies a scene.
 ///
@@ -90,13 +99,16 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
     let reference = run(&grid, fine).map_err(Failed::Reference)?;
     let error = distance(&reference, &run(&grid, coarse).map_err(Failed::Reference)?);
     let reference = numbers(reference);
-    let size = largest_motion(&reference);
+    let zero = vec![vec![0.0; reference[0].len()]; reference.len()];
+    let (size, largest) = (largest_motion(&reference), distance(&reference, &zero));
+    if size <= STILL * largest {
+        return Err(Failed::Still(test_case.output.clone()));
+    }
     if error.is_nan() || error > MAX_REFERENCE_ERROR * size {
         return Err(Failed::Uncertain(error / size));
     }
-    let zero = vec![vec![0.0; reference[0].len()]; reference.len()];
     let scale = ErrorScale {
-        largest: distance(&reference, &zero).max(size),
+        largest: largest.max(size),
         reference: &reference,
         error,
         size,
@@ -136,7 +148,7 @@ pub fn study(test_case: &TestCase, effort: &Effort) -> Result<Study, Failed> {
 /// Returns the distance of an output from its first sample.
 fn largest_motion(reference: &[Vec<f64>]) -> f64 {
     let still = vec![reference[0].clone(); reference.len()];
-    distance(reference, &still).max(f64::MIN_POSITIVE)
+    distance(reference, &still)
 }
 
 /// Returns the scene's own step control; a fixed step is adjusted to the interval between samples.

@@ -5,14 +5,14 @@ use std::rc::Rc;
 
 use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Configuration, CountSteps, Integrate, Measured, Priced, Runner, STEPS_METHOD, Samples,
-    StepControl, TestCase, order,
+    Call, Configuration, CountSteps, Grid, Integrate, Measured, Priced, RunError, Runner,
+    STEPS_METHOD, Samples, StepControl, TestCase, event_driven, order,
 };
 use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::Dd;
-use bgdyn_sim::{INTEGRATORS, Jacobian, Plant, Power, with_integrator};
+use bgdyn_runtime::{ContactMap, Dd, RigidContact};
+use bgdyn_sim::{INTEGRATORS, Integrator, Jacobian, Plant, Power, WithIntegrator, with_integrator};
 
 use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
 use crate::timing::estimate;
@@ -31,6 +31,9 @@ struct Calls {
     rates: f64,
     slopes: f64,
     events: f64,
+    contact_states: f64,
+    contact_maps: f64,
+    contact_biases: f64,
 }
 
 impl Calls {
@@ -48,6 +51,9 @@ impl Calls {
             rates: derivative + inputs,
             slopes: one(SceneFunction::Jacobian),
             events: one(SceneFunction::Events) + inputs,
+            contact_states: one(SceneFunction::RigidContactStates) + inputs,
+            contact_maps: one(SceneFunction::RigidContactMaps) + inputs,
+            contact_biases: one(SceneFunction::RigidContactBiases) + inputs,
         }
     }
 }
@@ -85,12 +91,11 @@ impl Counted {
             operations: self.calls.operations,
             call: Call::Estimated(self.calls.derivative),
             steps: Box::new(move |end| {
-                let run = CountSteps {
-                    plant: counted.clone(),
-                    begin: counted.plant.begin(),
+                let count = StepsOf {
+                    counted: &counted,
                     end,
                 };
-                with_integrator(STEPS_METHOD, run).expect("a method of bgdyn-sim")
+                with_integrator(STEPS_METHOD, count).expect("a method of bgdyn-sim")
             }),
         }
     }
@@ -100,15 +105,77 @@ impl Counted {
         let (counted, method) = (self.clone(), method.to_owned());
         Box::new(move |grid, step_control| {
             counted.spent.set(0.0);
-            let run = Integrate {
-                plant: counted.clone(),
-                begin: counted.plant.begin(),
+            let run = RunOf {
+                counted: &counted,
                 grid,
                 step_control,
             };
             let values = with_integrator(&method, run).expect("a method of bgdyn-sim")?;
             Samples::finite(values, Some(counted.spent.get()))
         })
+    }
+
+    /// Returns whether an integrator takes the scene from event to event: it has rigid contacts, for whose impulses the
+    /// integrator does not solve.
+    fn goes_by_events(&self, method: &impl Integrator<Numbers>) -> bool {
+        self.rigid_contacts() > 0 && !method.solves_contacts()
+    }
+}
+
+/// A run of a scene, from event to event if it has to.
+struct RunOf<'a> {
+    counted: &'a Counted,
+    grid: &'a Grid,
+    step_control: StepControl,
+}
+
+impl WithIntegrator<Numbers> for RunOf<'_> {
+    type Output = Result<Vec<Vec<f64>>, RunError>;
+
+    fn with<M: Integrator<Numbers>>(self, method: M) -> Self::Output {
+        let RunOf {
+            counted,
+            grid,
+            step_control,
+        } = self;
+        let (plant, begin) = (counted.clone(), counted.plant.begin());
+        if counted.goes_by_events(&method) {
+            let (plant, begin) = event_driven(plant, begin);
+            let run = Integrate {
+                plant,
+                begin,
+                grid,
+                step_control,
+            };
+            return run.with(method);
+        }
+        let run = Integrate {
+            plant,
+            begin,
+            grid,
+            step_control,
+        };
+        run.with(method)
+    }
+}
+
+/// The steps of a scene's run, from event to event if it has to.
+struct StepsOf<'a> {
+    counted: &'a Counted,
+    end: f64,
+}
+
+impl WithIntegrator<Numbers> for StepsOf<'_> {
+    type Output = Result<usize, RunError>;
+
+    fn with<M: Integrator<Numbers>>(self, method: M) -> Self::Output {
+        let StepsOf { counted, end } = self;
+        let (plant, begin) = (counted.clone(), counted.plant.begin());
+        if counted.goes_by_events(&method) {
+            let (plant, begin) = event_driven(plant, begin);
+            return CountSteps { plant, begin, end }.with(method);
+        }
+        CountSteps { plant, begin, end }.with(method)
     }
 }
 
@@ -134,16 +201,74 @@ impl Plant for Counted {
         self.plant.jacobian(t, y, modes)
     }
 
-    fn rigid_contacts(&self) -> usize {
-        self.plant.rigid_contacts()
-    }
-
     fn positions(&self) -> usize {
         self.plant.positions()
     }
 
     fn position_rates(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
         self.plant.position_rates(t, y, modes)
+    }
+
+    fn position_change(&self, t: f64, y: &Numbers, modes: &Numbers, h: f64) -> Evaluation<Numbers> {
+        self.plant.position_change(t, y, modes, h)
+    }
+
+    fn project(&self, t: f64, y: &mut Numbers, modes: &Numbers) -> Evaluation<bool> {
+        self.plant.project(t, y, modes)
+    }
+
+    fn project_in_two(
+        &self,
+        t: f64,
+        y: (&mut Numbers, &mut Numbers),
+        modes: &Numbers,
+    ) -> Evaluation<bool> {
+        self.plant.project_in_two(t, y, modes)
+    }
+
+    fn strays(&self, y: &Numbers) -> bool {
+        self.plant.strays(y)
+    }
+
+    fn rigid_contacts(&self) -> usize {
+        self.plant.rigid_contacts()
+    }
+
+    fn rigid_contact_entry(&self, contact: usize) -> usize {
+        self.plant.rigid_contact_entry(contact)
+    }
+
+    fn rigid_contact_states(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+        contacts: &mut [RigidContact<f64>],
+    ) -> Evaluation<()> {
+        self.spend(self.calls.contact_states);
+        self.plant.rigid_contact_states(t, y, modes, contacts)
+    }
+
+    fn rigid_contact_maps(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+        maps: &mut [Option<ContactMap<Numbers>>],
+    ) -> Evaluation<()> {
+        self.spend(self.calls.contact_maps);
+        self.plant.rigid_contact_maps(t, y, modes, maps)
+    }
+
+    fn rigid_contact_biases(
+        &self,
+        t: f64,
+        y: &Numbers,
+        modes: &Numbers,
+        biases: &mut [[f64; 3]],
+    ) -> Evaluation<()> {
+        self.spend(self.calls.contact_biases);
+        self.plant.rigid_contact_biases(t, y, modes, biases)
     }
 
     fn events(&self, t: f64, y: &Numbers, modes: &Numbers) -> Evaluation<Numbers> {
@@ -163,6 +288,14 @@ impl Plant for Counted {
         fell: impl Fn(usize) -> bool,
     ) -> Evaluation<(Numbers, Numbers)> {
         self.plant.change(t, y, modes, fell)
+    }
+
+    fn jump_losses(&self, modes: &Numbers) -> impl Iterator<Item = (usize, f64)> {
+        self.plant.jump_losses(modes)
+    }
+
+    fn most_events(&self) -> usize {
+        self.plant.most_events()
     }
 
     fn resolve_stiction(
@@ -199,6 +332,10 @@ impl Plant for Counted {
 impl Measured for Counted {
     fn measured(&self, t: f64, y: &Numbers, modes: &Numbers) -> Vec<f64> {
         self.plant.output(t, y, modes)
+    }
+
+    fn in_words(error: &Undefined) -> String {
+        format!("{error:?}")
     }
 }
 

@@ -8,6 +8,7 @@ mod events;
 mod planar;
 mod rest;
 mod sliding;
+mod studies;
 
 bgdyn::bgdyn!("bounces.scene.yaml");
 bgdyn::bgdyn!("bowls.scene.yaml");

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use bgdyn_accuracy::generate::variants;
+use bgdyn_accuracy::generate::{check, variants};
 use bgdyn_accuracy::{Effort, Study, costs_csv, rows_csv, study, targets, verdicts};
 #[cfg(feature = "plot")]
 use bgdyn_accuracy::{Machine, figures, page};
@@ -59,17 +59,7 @@ impl Accuracy {
         }
         let end = positive("end", self.end.as_ref(), Dimension::Time)?;
         let system = file.scene()?;
-        if let Some(joint) = system.scene.layout.quasi_joints.first() {
-            bail!(
-                "studies do not support the joint `{}` yet: errors of quaternions are not differences of components. `bgdyn simulate` compares a run with one of half the step",
-                joint.name
-            );
-        }
-        if let Some(contact) = system.scene.layout.rigid_contacts.first() {
-            bail!(
-                "studies do not support the rigid contact `{contact}` yet: they have no modes of contacts. `bgdyn simulate` compares a run with one of half the step; `compliant_contact` can be studied"
-            );
-        }
+        check(&system).map_err(|e| anyhow!(e))?;
         let study = self.study(&system, end)?;
         write(&study, &self.out)?;
         print(&summary(&study, &self.out))?;

@@ -95,15 +95,13 @@ fn a_run_begins_in_a_pose() {
 }
 
 #[test]
-fn momenta_and_studies_are_refused_by_name() {
+fn momenta_are_refused_by_name() {
     let method = ["--method", "canonical_gauss2"];
     let error = simulated("free_momenta", "buoy_run", &method).1.bad_usage();
     assert!(
         error.contains("`free`") && error.contains("use `gauss2`"),
         "{error}"
     );
-    let error = bgdyn(&["accuracy", &scene("cart_run")]).bad_input();
-    assert!(error.contains("`drive`"), "{error}");
     let error = bgdyn(&["generate", &scene("cart_run"), "--canonical"]).bad_usage();
     assert!(error.contains("Lie–Poisson"), "{error}");
 }
