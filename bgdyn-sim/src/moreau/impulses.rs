@@ -18,6 +18,9 @@ const ROUGH_NEWTON_STEPS: usize = 10;
 /// Three components at a contact.
 type Components<T> = [T; 3];
 
+/// The impulses of all contacts.
+type AllImpulses<T> = [Components<T>; MOST_CONTACTS];
+
 /// The contacts of a step and their impulses.
 pub(super) struct Impulses<Y: StateVector> {
     options: ContactOptions<Of<Y>>,
@@ -33,7 +36,7 @@ pub(super) struct Impulses<Y: StateVector> {
     /// Their Jacobian, and M⁻¹ Jᵀ, in the middle; B⁻¹ M⁻¹ Jᵀ of the contacts that are `implicit`.
     pub(super) maps: [Option<ContactMap<Y>>; MOST_CONTACTS],
     implicit: [bool; MOST_CONTACTS],
-    impulses: [Components<Of<Y>>; MOST_CONTACTS],
+    impulses: AllImpulses<Of<Y>>,
     /// Whether the impulses are sought with little effort, while the velocities still change.
     rough: bool,
     /// Whether the velocities γ⁺ are linear in the impulses, with G in the middle of the step.
@@ -56,7 +59,7 @@ where
         options: ContactOptions<Of<Y>>,
         number: usize,
         (before, middle): (Contacts<Of<Y>>, Contacts<Of<Y>>),
-        last: Option<([Components<Of<Y>>; MOST_CONTACTS], Of<Y>)>,
+        last: Option<(AllImpulses<Of<Y>>, Of<Y>)>,
     ) -> Self {
         let zero = Of::<Y>::from_f64(0.0);
         let impulses = match last {
