@@ -5,13 +5,14 @@ use std::rc::Rc;
 
 use bgdyn_runtime::{Canonical, Dd, FixedVector, HybridSystem, Slope};
 use bgdyn_sim::{
-    CanonicalPlant, Dopri5, EventDriven, Extrapolation12, HybridState, INTEGRATORS, Integrator,
-    Moreau, Of, Plant, Real, Rk4, Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
+    CanonicalPlant, Dopri5, Extrapolation12, HybridState, INTEGRATORS, Integrator, Moreau, Of,
+    Plant, Real, Rk4, Run, ScenePlant, StateVector, WithIntegrator, with_integrator,
 };
 
 use crate::configuration::{Configuration, Grid, RunError, Runner, Samples, StepControl};
 use crate::dyn_plant::{DynPlant, PlantObject};
-use crate::integrate::{Integrate, Measured, event_driven, numbers};
+use crate::integrate::{Integrate, Measured, numbers};
+use crate::scheme::Scheme;
 use crate::test_case::{References, TestCase, order};
 
 /// Name of the equations with the default formulations.
@@ -75,9 +76,9 @@ where
         Rc::new(Contender { plant, begin })
     }
 
-    /// Returns the same with its rigid contacts solved from event to event.
-    fn event_driven(&self) -> Rc<Contender<EventDriven<DynPlant<Y, M, E>>>> {
-        let (plant, begin) = event_driven(self.plant.clone(), self.begin);
+    /// Returns the same as the integrators of a scheme meet it.
+    fn by<C: Scheme>(&self, _: C) -> Rc<Contender<C::Scene<DynPlant<Y, M, E>>>> {
+        let (plant, begin) = C::scene((self.plant.clone(), self.begin));
         Rc::new(Contender { plant, begin })
     }
 }
@@ -144,18 +145,22 @@ const REFERENCE: &str = "extrapolation12";
 
 impl TestCase {
     /// Sets the reference: order 12 in double-double with controlled steps.
-    pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
+    pub fn reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S, scheme: impl Scheme) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        self.reference = Some(started.reference());
+        self.reference = Some(started.by(scheme).reference());
     }
 
-    /// Adds every integrator of bgdyn-sim except that of the reference.
-    pub fn methods<S: Slope<f64> + 'static>(&mut self, scene: S) {
+    /// Adds every integrator of bgdyn-sim except that of the reference; `moreau` takes the scene as it is.
+    pub fn methods<S: Slope<f64> + 'static>(&mut self, scene: S, scheme: impl Scheme) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
+        let others = started.by(scheme);
         for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
-            let run = started.runner_by_name(name);
+            let run = match *name {
+                "moreau" => started.runner(Moreau::new),
+                name => others.runner_by_name(name),
+            };
             self.configurations
                 .push(configuration(name, F64, CHEAPEST, run));
         }
@@ -176,25 +181,31 @@ impl TestCase {
         }
     }
 
-    /// Adds an explicit integrator and one with step control in `f32`.
-    pub fn single<S: HybridSystem<f32> + 'static>(&mut self, scene: S) {
+    /// Adds two integrators in `f32`: an explicit one, and one with step control; from event to event `moreau` in its place,
+    /// as the instants of events in `f32` have errors that estimates of steps take for theirs.
+    pub fn single<S: HybridSystem<f32> + 'static, C: Scheme>(&mut self, scene: S, scheme: C) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        let runs: [(&str, Runner); 2] = [
-            ("rk4", started.runner(|| Rk4)),
-            ("dopri5", started.runner(|| Dopri5)),
-        ];
-        for (method, run) in runs {
+        let second: (&str, Runner) = match C::BY_EVENTS {
+            true => ("moreau", started.runner(Moreau::new)),
+            false => ("dopri5", started.runner(|| Dopri5)),
+        };
+        for (method, run) in [("rk4", started.by(scheme).runner(|| Rk4)), second] {
             self.configurations
                 .push(configuration(method, F32, CHEAPEST, run));
         }
     }
 
     /// Adds the scene's rates by another formulation, with the classical Runge–Kutta method.
-    pub fn formulation<S: HybridSystem<f64> + 'static>(&mut self, name: &str, scene: S) {
+    pub fn formulation<S: HybridSystem<f64> + 'static>(
+        &mut self,
+        name: &str,
+        scene: S,
+        scheme: impl Scheme,
+    ) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        let run = started.runner(|| Rk4);
+        let run = started.by(scheme).runner(|| Rk4);
         self.configurations
             .push(configuration("rk4", F64, name, run));
     }
@@ -204,11 +215,12 @@ impl TestCase {
         &mut self,
         effects: &str,
         scene: S,
+        scheme: impl Scheme,
         integrator: impl Fn() -> I + 'static,
     ) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        self.add_ablation(effects, started.runner(integrator));
+        self.add_ablation(effects, started.by(scheme).runner(integrator));
     }
 
     /// Adds the same with an integrator that needs slopes.
@@ -216,11 +228,12 @@ impl TestCase {
         &mut self,
         effects: &str,
         scene: S,
+        scheme: impl Scheme,
         integrator: impl Fn() -> I + 'static,
     ) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
-        self.add_ablation(effects, started.runner(integrator));
+        self.add_ablation(effects, started.by(scheme).runner(integrator));
     }
 
     /// Adds a set of effects without which the measured output does not exist.
@@ -239,79 +252,5 @@ impl TestCase {
             effects: effects.into(),
             ..ablation
         });
-    }
-}
-
-/// Scenes with rigid contacts: every integrator goes from event to event, except `moreau`, which solves for the impulses of
-/// its steps.
-impl TestCase {
-    /// [`TestCase::reference`] of a scene with rigid contacts.
-    pub fn contact_reference<S: HybridSystem<Dd> + 'static>(&mut self, scene: S) {
-        let scene = leak(scene);
-        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        self.reference = Some(started.event_driven().reference());
-    }
-
-    /// [`TestCase::methods`] of a scene with rigid contacts.
-    pub fn contact_methods<S: Slope<f64> + 'static>(&mut self, scene: S) {
-        let scene = leak(scene);
-        let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
-        let events = started.event_driven();
-        for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
-            let run = match *name {
-                "moreau" => started.runner(Moreau::new),
-                name => events.runner_by_name(name),
-            };
-            self.configurations
-                .push(configuration(name, F64, CHEAPEST, run));
-        }
-    }
-
-    /// Adds `moreau` and an explicit integrator in `f32`, both with fixed steps: the instants of events in `f32` have
-    /// errors that estimates of steps take for theirs.
-    pub fn contact_single<S: HybridSystem<f32> + 'static>(&mut self, scene: S) {
-        let scene = leak(scene);
-        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        let runs: [(&str, Runner); 2] = [
-            ("rk4", started.event_driven().runner(|| Rk4)),
-            ("moreau", started.runner(Moreau::new)),
-        ];
-        for (method, run) in runs {
-            self.configurations
-                .push(configuration(method, F32, CHEAPEST, run));
-        }
-    }
-
-    /// [`TestCase::formulation`] of a scene with rigid contacts.
-    pub fn contact_formulation<S: HybridSystem<f64> + 'static>(&mut self, name: &str, scene: S) {
-        let scene = leak(scene);
-        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        let run = started.event_driven().runner(|| Rk4);
-        self.configurations
-            .push(configuration("rk4", F64, name, run));
-    }
-
-    /// [`TestCase::ablation`] of a scene with rigid contacts, from event to event.
-    pub fn contact_ablation<S: HybridSystem<f64> + 'static, I: Integrator<S::State>>(
-        &mut self,
-        effects: &str,
-        scene: S,
-        integrator: impl Fn() -> I + 'static,
-    ) {
-        let scene = leak(scene);
-        let started = Started::new(ScenePlant::new(scene), Run::begin(scene));
-        self.add_ablation(effects, started.event_driven().runner(integrator));
-    }
-
-    /// [`TestCase::ablation_with_slope`] of a scene with rigid contacts, from event to event.
-    pub fn contact_ablation_with_slope<S: Slope<f64> + 'static, I: Integrator<S::State>>(
-        &mut self,
-        effects: &str,
-        scene: S,
-        integrator: impl Fn() -> I + 'static,
-    ) {
-        let scene = leak(scene);
-        let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
-        self.add_ablation(effects, started.event_driven().runner(integrator));
     }
 }

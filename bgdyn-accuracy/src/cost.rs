@@ -1,8 +1,8 @@
 //! Measures the cost of an effect: operations and time of `derivative` with and without it, and steps of a
 //! run.
 
-use std::fmt::Debug;
 use std::hint::black_box;
+use std::rc::Rc;
 
 use bgdyn_runtime::HybridSystem;
 use bgdyn_sim::{
@@ -11,8 +11,10 @@ use bgdyn_sim::{
 
 use crate::clock::{Spread, calls};
 use crate::configuration::RunError;
-use crate::integrate::{event_driven, in_short, named};
-use crate::priced::{Call, Priced, StepCount};
+use crate::dyn_plant::DynPlant;
+use crate::integrate::{Measured, in_short};
+use crate::priced::{Call, Priced};
+use crate::scheme::Scheme;
 use crate::step_sequence::Effort;
 use crate::table::write_csv;
 use crate::test_case::TestCase;
@@ -68,10 +70,9 @@ pub struct CountSteps<P: Plant> {
     pub end: f64,
 }
 
-impl<P: Plant> WithIntegrator<P::State> for CountSteps<P>
+impl<P: Measured> WithIntegrator<P::State> for CountSteps<P>
 where
     Of<P::State>: Real,
-    P::Error: Debug,
 {
     type Output = Result<usize, RunError>;
 
@@ -91,7 +92,7 @@ where
             let taken = run.advance_densely(number(left));
             taken.map_err(|failure| RunError {
                 t: failure.t.to_f64(),
-                why: in_short(&failure.reason, named),
+                why: in_short(&failure.reason, P::in_words),
             })?;
         }
         let why = format!("more than {STEPS:e} steps");
@@ -102,42 +103,12 @@ where
 
 impl TestCase {
     /// Adds the scene with these effects, whose `derivative` has this number of operations, to the costs
-    /// to measure.
-    pub fn price<S>(&mut self, effects: &str, operations: usize, scene: S)
+    /// to measure: operations and time of `derivative`, without rigid contacts, and steps of a run.
+    pub fn price<S, C: Scheme>(&mut self, effects: &str, operations: usize, scene: S, _: C)
     where
         S: HybridSystem<f64> + 'static,
     {
         let scene: &'static S = Box::leak(Box::new(scene));
-        let steps = move |end| {
-            let (plant, begin) = (ScenePlant::new(scene), Run::begin(scene));
-            CountSteps { plant, begin, end }.with(Dopri5)
-        };
-        self.add_price(effects, operations, scene, Box::new(steps));
-    }
-
-    /// Adds the same of a scene whose rigid contacts are solved from event to event. The operations and the time are those
-    /// of `derivative`, without the contacts.
-    pub fn contact_price<S>(&mut self, effects: &str, operations: usize, scene: S)
-    where
-        S: HybridSystem<f64> + 'static,
-    {
-        let scene: &'static S = Box::leak(Box::new(scene));
-        let steps = move |end| {
-            let (plant, begin) = event_driven(ScenePlant::new(scene), Run::begin(scene));
-            CountSteps { plant, begin, end }.with(Dopri5)
-        };
-        self.add_price(effects, operations, scene, Box::new(steps));
-    }
-
-    fn add_price<S>(
-        &mut self,
-        effects: &str,
-        operations: usize,
-        scene: &'static S,
-        steps: StepCount,
-    ) where
-        S: HybridSystem<f64> + 'static,
-    {
         let begin = Run::begin(scene);
         let plant = ScenePlant::new(scene);
         let input = plant.input(begin.t, &begin.y, &begin.modes);
@@ -156,7 +127,11 @@ impl TestCase {
             effects: effects.into(),
             operations,
             call: Call::Compiled(Box::new(call)),
-            steps,
+            steps: Box::new(move |end| {
+                let plant = DynPlant(Rc::new(ScenePlant::new(scene)));
+                let (plant, begin) = C::scene((plant, Run::begin(scene)));
+                CountSteps { plant, begin, end }.with(Dopri5)
+            }),
         });
     }
 }

@@ -121,7 +121,7 @@ pub fn own_way(system: &SceneEquations) -> (&'static str, crate::StepControl) {
 ///
 /// # Errors
 /// A sentence, if there are more than [`MOST_EVENT_CONTACTS`].
-pub fn check(system: &SceneEquations) -> Result<(), String> {
+pub fn check_contacts(system: &SceneEquations) -> Result<(), String> {
     let number = system.scene.layout.rigid_contacts.len();
     if number <= MOST_EVENT_CONTACTS {
         return Ok(());
@@ -132,12 +132,11 @@ pub fn check(system: &SceneEquations) -> Result<(), String> {
     ))
 }
 
-/// Returns the first part of the names of the functions of [`TestCase`](crate::TestCase) that go from event to event, for a
-/// scene with rigid contacts.
-fn by_events(system: &SceneEquations) -> &'static str {
+/// Returns the [`Scheme`](crate::Scheme) by which integrators that do not solve for impulses of contacts meet a scene.
+fn scheme(system: &SceneEquations) -> &'static str {
     match system.scene.layout.rigid_contacts.is_empty() {
-        true => "",
-        false => "contact_",
+        true => "bgdyn_accuracy::AsItIs",
+        false => "bgdyn_accuracy::ByEvents",
     }
 }
 
@@ -148,7 +147,7 @@ fn by_events(system: &SceneEquations) -> &'static str {
 /// # Errors
 /// A sentence, if the scene has nothing to measure or too many rigid contacts.
 pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, String> {
-    check(system)?;
+    check_contacts(system)?;
     let name = &system.scene.name;
     let full =
         measured(system).ok_or_else(|| format!("the scene `{name}` has nothing to measure"))?;
@@ -163,31 +162,25 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     };
     let functions = scene_functions(&full, &all);
     text += &module(&full, &functions, "all")?;
-    let contact = by_events(&full);
     let role = |f: &Function| matches!(f.method, Method::Scene(SceneFunction::CanonicalRates));
-    let momenta = functions
-        .iter()
-        .any(role)
-        .then_some(("momenta".into(), "f64"));
-    let of_all = [
-        Some((format!("{contact}methods"), "f64")),
-        momenta,
-        Some((format!("{contact}single"), "f32")),
-        Some((format!("{contact}reference"), "bgdyn_accuracy::Dd")),
-    ];
-    for (call, scalar) in of_all.into_iter().flatten() {
-        writeln!(
-            calls,
-            "test_case.{call}(all::{structure}::<{scalar}>::default());"
-        )
-        .expect("text");
+    let contacts = scheme(&full);
+    let mut of_all = |call: &str, scalar: &str, contacts: &str| {
+        let model = format!("all::{structure}::<{scalar}>::default()");
+        writeln!(calls, "test_case.{call}({model}{contacts});").expect("text");
+    };
+    let by = format!(", {contacts}");
+    of_all("methods", "f64", &by);
+    if functions.iter().any(role) {
+        of_all("momenta", "f64", "");
     }
+    of_all("single", "f32", &by);
+    of_all("reference", "bgdyn_accuracy::Dd", &by);
     for (formulation, functions) in formulations(&full) {
         text += &module(&full, &functions, formulation)?;
         let model = format!("{formulation}::{structure}::<f64>::default()");
         writeln!(
             calls,
-            "test_case.{contact}formulation({formulation:?}, {model});"
+            "test_case.formulation({formulation:?}, {model}, {contacts});"
         )
         .expect("text");
     }
@@ -203,21 +196,21 @@ pub fn variants(system: &SceneEquations, end: Option<f64>) -> Result<String, Str
     let integrator = struct_ident(own.name());
     let method = format!("bgdyn_accuracy::bgdyn_sim::{integrator}::default");
     let add = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
-        let contact = match own.solves_contacts() {
-            true => "",
-            false => by_events(system),
+        let contacts = match own.solves_contacts() {
+            true => "bgdyn_accuracy::AsItIs",
+            false => scheme(system),
         };
         writeln!(
             text,
-            "test_case.{contact}{call}({effects:?}, {model}, {method});"
+            "test_case.{call}({effects:?}, {model}, {contacts}, {method});"
         )
         .expect("text");
     };
     let price = |effects: &str, system: &SceneEquations, model: &str, text: &mut String| {
-        let (count, contact) = (operations(system), by_events(system));
+        let (count, contacts) = (operations(system), scheme(system));
         writeln!(
             text,
-            "test_case.{contact}price({effects:?}, {count}, {model});"
+            "test_case.price({effects:?}, {count}, {model}, {contacts});"
         )
         .expect("text");
     };

@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use bgdyn_sim::event_driven::{ContactModes, EventError};
+use bgdyn_sim::event_driven::EventError;
 use bgdyn_sim::{
     EventDriven, HybridState, Integrator, Of, Plant, Real, Reason, Run, Tolerance, WithIntegrator,
 };
@@ -40,23 +40,6 @@ where
             error => error.to_string(),
         }
     }
-}
-
-/// A plant and its start.
-pub type PlantAtStart<P> = (P, HybridState<<P as Plant>::State, <P as Plant>::Modes>);
-
-/// Returns a scene whose rigid contacts are solved from event to event, and its start. Runs find the modes of the contacts
-/// there.
-pub fn event_driven<P: Plant>(
-    plant: P,
-    begin: HybridState<P::State, P::Modes>,
-) -> PlantAtStart<EventDriven<P>>
-where
-    Of<P::State>: Real,
-{
-    let HybridState { t, y, modes } = begin;
-    let modes = ContactModes::open(modes);
-    (EventDriven::new(plant), HybridState { t, y, modes })
 }
 
 /// A run to be made, by any integrator.

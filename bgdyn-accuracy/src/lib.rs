@@ -52,6 +52,7 @@ mod pareto;
 pub mod plot;
 mod priced;
 mod row;
+mod scheme;
 mod step_sequence;
 mod study;
 mod table;
@@ -65,13 +66,14 @@ pub use cost::{Cost, CountSteps, METHOD as STEPS_METHOD, costs_csv};
 #[cfg(feature = "plot")]
 pub use figures::{Figure, figures};
 pub use format::escaped;
-pub use integrate::{Integrate, Measured, PlantAtStart, event_driven};
+pub use integrate::{Integrate, Measured};
 pub use order_check::{Finding, Verdict, verdicts};
 #[cfg(feature = "plot")]
 pub use page::{Machine, page, readme};
 pub use pareto::{Choice, front, targets};
-pub use priced::{Call, Priced, StepCount};
+pub use priced::{Call, Priced};
 pub use row::{Row, Status, rows_csv};
+pub use scheme::{AsItIs, ByEvents, PlantAtStart, Scheme};
 pub use step_sequence::Effort;
 pub use study::{Failed, Study, StudyInfo, study};
 pub use test_case::{References, TestCase, order};

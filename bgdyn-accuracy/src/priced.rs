@@ -12,9 +12,6 @@ pub enum Call {
     Estimated(f64),
 }
 
-/// Returns the steps of [`STEPS_METHOD`](crate::STEPS_METHOD) from the start to this time, s.
-pub type StepCount = Box<dyn Fn(f64) -> Result<usize, RunError>>;
-
 /// A scene with all effects, or some of them, whose costs are measured.
 pub struct Priced {
     /// The effects of the scene: `all`, `all but friction`.
@@ -24,8 +21,8 @@ pub struct Priced {
     pub operations: usize,
     /// One call of `derivative`.
     pub call: Call,
-    /// The steps of its run.
-    pub steps: StepCount,
+    /// Returns the steps of [`STEPS_METHOD`](crate::STEPS_METHOD) from the start to this time, s.
+    pub steps: Box<dyn Fn(f64) -> Result<usize, RunError>>,
 }
 
 /// Prints all fields except the closures.

@@ -5,8 +5,8 @@ use std::rc::Rc;
 
 use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
-    Call, Configuration, CountSteps, Grid, Integrate, Measured, Priced, RunError, Runner,
-    STEPS_METHOD, Samples, StepControl, TestCase, event_driven, order,
+    AsItIs, ByEvents, Call, Configuration, CountSteps, Grid, Integrate, Measured, PlantAtStart,
+    Priced, RunError, Runner, STEPS_METHOD, Samples, Scheme, StepControl, TestCase, order,
 };
 use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::method::SceneFunction;
@@ -115,6 +115,11 @@ impl Counted {
         })
     }
 
+    /// Returns the scene and its start.
+    fn at_start(&self) -> PlantAtStart<Self> {
+        (self.clone(), self.plant.begin())
+    }
+
     /// Returns whether an integrator takes the scene from event to event: it has rigid contacts, for whose impulses the
     /// integrator does not solve.
     fn goes_by_events(&self, method: &impl Integrator<Numbers>) -> bool {
@@ -129,33 +134,27 @@ struct RunOf<'a> {
     step_control: StepControl,
 }
 
+impl RunOf<'_> {
+    fn by<C: Scheme, M: Integrator<Numbers>>(self, method: M) -> Result<Vec<Vec<f64>>, RunError> {
+        let (plant, begin) = C::scene(self.counted.at_start());
+        let run = Integrate {
+            plant,
+            begin,
+            grid: self.grid,
+            step_control: self.step_control,
+        };
+        run.with(method)
+    }
+}
+
 impl WithIntegrator<Numbers> for RunOf<'_> {
     type Output = Result<Vec<Vec<f64>>, RunError>;
 
     fn with<M: Integrator<Numbers>>(self, method: M) -> Self::Output {
-        let RunOf {
-            counted,
-            grid,
-            step_control,
-        } = self;
-        let (plant, begin) = (counted.clone(), counted.plant.begin());
-        if counted.goes_by_events(&method) {
-            let (plant, begin) = event_driven(plant, begin);
-            let run = Integrate {
-                plant,
-                begin,
-                grid,
-                step_control,
-            };
-            return run.with(method);
+        match self.counted.goes_by_events(&method) {
+            true => self.by::<ByEvents, M>(method),
+            false => self.by::<AsItIs, M>(method),
         }
-        let run = Integrate {
-            plant,
-            begin,
-            grid,
-            step_control,
-        };
-        run.with(method)
     }
 }
 
@@ -165,17 +164,22 @@ struct StepsOf<'a> {
     end: f64,
 }
 
+impl StepsOf<'_> {
+    fn by<C: Scheme, M: Integrator<Numbers>>(self, method: M) -> Result<usize, RunError> {
+        let (plant, begin) = C::scene(self.counted.at_start());
+        let end = self.end;
+        CountSteps { plant, begin, end }.with(method)
+    }
+}
+
 impl WithIntegrator<Numbers> for StepsOf<'_> {
     type Output = Result<usize, RunError>;
 
     fn with<M: Integrator<Numbers>>(self, method: M) -> Self::Output {
-        let StepsOf { counted, end } = self;
-        let (plant, begin) = (counted.clone(), counted.plant.begin());
-        if counted.goes_by_events(&method) {
-            let (plant, begin) = event_driven(plant, begin);
-            return CountSteps { plant, begin, end }.with(method);
+        match self.counted.goes_by_events(&method) {
+            true => self.by::<ByEvents, M>(method),
+            false => self.by::<AsItIs, M>(method),
         }
-        CountSteps { plant, begin, end }.with(method)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Accuracy studies of compiled scenes with rigid contacts: every integrator of the list, and the reference, against the
 //! closed form of a bouncing ball.
 
-use bgdyn_accuracy::{Configuration, Dd, Grid, StepControl, TestCase};
+use bgdyn_accuracy::{ByEvents, Configuration, Dd, Grid, StepControl, TestCase};
 
 use crate::G;
 use crate::bounces::Bounces;
@@ -45,9 +45,9 @@ fn error_of(configuration: &Configuration, step_control: StepControl) -> f64 {
 fn integrators_of_studies_go_from_event_to_event() {
     let words = ["bounces", "", "base_z", "m"];
     let mut case = TestCase::new(words, GRID.end, "moreau", StepControl::Step(1e-3));
-    case.contact_methods(Bounces::<f64>::default());
-    case.contact_single(Bounces::<f32>::default());
-    case.contact_reference(Bounces::<Dd>::default());
+    case.methods(Bounces::<f64>::default(), ByEvents);
+    case.single(Bounces::<f32>::default(), ByEvents);
+    case.reference(Bounces::<Dd>::default(), ByEvents);
     let reference = case.reference.as_ref().expect("a reference");
     let samples = reference(&GRID, 1e-20).expect("a run");
     assert_eq!(samples.len(), GRID.samples);
@@ -86,9 +86,11 @@ fn integrators_of_studies_go_from_event_to_event() {
 fn formulations_and_effects_of_studies_do_the_same() {
     let words = ["bounces", "", "base_z", "m"];
     let mut case = TestCase::new(words, GRID.end, "rk4", StepControl::Step(1e-3));
-    case.contact_formulation("recursion", Bounces::<f64>::default());
-    case.contact_ablation("all", Bounces::<f64>::default(), || bgdyn_sim::Rk4);
-    case.contact_price("all", 1, Bounces::<f64>::default());
+    case.formulation("recursion", Bounces::<f64>::default(), ByEvents);
+    case.ablation("all", Bounces::<f64>::default(), ByEvents, || {
+        bgdyn_sim::Rk4
+    });
+    case.price("all", 1, Bounces::<f64>::default(), ByEvents);
     let runs = case.configurations.iter().chain(&case.ablations);
     for configuration in runs {
         let late = Grid {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use bgdyn_accuracy::generate::{check, variants};
+use bgdyn_accuracy::generate::{check_contacts, variants};
 use bgdyn_accuracy::{Effort, Study, costs_csv, rows_csv, study, targets, verdicts};
 #[cfg(feature = "plot")]
 use bgdyn_accuracy::{Machine, figures, page};
@@ -59,7 +59,7 @@ impl Accuracy {
         }
         let end = positive("end", self.end.as_ref(), Dimension::Time)?;
         let system = file.scene()?;
-        check(&system).map_err(|e| anyhow!(e))?;
+        check_contacts(&system).map_err(|e| anyhow!(e))?;
         let study = self.study(&system, end)?;
         write(&study, &self.out)?;
         print(&summary(&study, &self.out))?;

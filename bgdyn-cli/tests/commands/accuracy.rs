@@ -211,23 +211,30 @@ fn compiled_studies_go_from_event_to_event_where_they_have_to() {
         variants(&system, None)
     };
     let hopper = calls("specs/contact/hopper_hops.scene.yaml").expect("a module");
+    let has = |text: &str, call: &str, scheme: &str| {
+        let mut lines = text.lines().filter(|line| line.contains(call));
+        let scheme = format!("bgdyn_accuracy::{scheme}");
+        let line = lines.next().unwrap_or_else(|| panic!("no {call}"));
+        assert!(line.contains(&scheme), "{line}");
+    };
     for call in [
-        "contact_methods(all::",
-        "contact_single(all::",
-        "contact_reference(all::",
-        "contact_formulation(\"recursion\"",
-        "contact_price(\"all\"",
-        "test_case.price(\"all but contact\"",
-        // The scene's own integrator is `moreau`.
-        "test_case.ablation_with_slope(\"all\"",
+        "methods(all::",
+        "single(all::",
+        "reference(all::",
+        "formulation(\"recursion\"",
+        "price(\"all\"",
     ] {
-        assert!(hopper.contains(call), "{call}");
+        has(&hopper, call, "ByEvents");
     }
+    has(&hopper, "price(\"all but contact\"", "AsItIs");
+    // The scene's own integrator is `moreau`.
+    has(&hopper, "ablation_with_slope(\"all\"", "AsItIs");
     assert!(!hopper.contains("momenta("));
     let top = calls("tests/free_scenes/heavy_top_run.scene.yaml").expect("a module");
-    assert!(top.contains("test_case.methods(all::") && !top.contains("momenta("));
+    has(&top, "methods(all::", "AsItIs");
+    assert!(!top.contains("momenta("));
     let pendulum = calls("specs/scenes/stick_slip.scene.yaml").expect("a module");
-    assert!(pendulum.contains("test_case.momenta(all::") && !pendulum.contains("contact_"));
+    assert!(pendulum.contains("test_case.momenta(all::") && !pendulum.contains("ByEvents"));
     let quadruped = calls("specs/contact/quadruped_rigid.scene.yaml");
     assert!(quadruped.is_err_and(|why| why.contains("12 rigid contacts")));
 }

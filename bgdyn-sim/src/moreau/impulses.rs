@@ -94,7 +94,7 @@ where
 
     /// Makes the velocities γ⁺ linear from now on: J v⁺ in the middle, as in the scheme of Jean. With the axes
     /// at the end, which the impulses turn, those of contacts that jam may jump to and fro.
-    pub(super) fn linearise(&mut self) {
+    pub(super) fn make_velocities_linear(&mut self) {
         self.linear = true;
     }
 

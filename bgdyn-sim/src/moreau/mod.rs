@@ -1,11 +1,13 @@
 //! Time stepping for rigid contacts, after Moreau and Jean.
 
+mod convergence;
 mod impulses;
 mod lift;
 mod middle;
 
 use bgdyn_runtime::{Scalar as _, StateVector};
 
+use self::convergence::Convergence;
 use self::impulses::Impulses;
 use self::lift::lifted;
 use self::middle::{Factors, Middle, positions_in_middle};
@@ -63,18 +65,50 @@ pub struct MoreauStages<Y: StateVector> {
     factors: Option<Factors<Y>>,
 }
 
-/// So many changes that do not fall any more end the iteration: impulses of redundant contacts have rounding errors of
-/// their own, which levers and small inertias multiply. They may be up to √ε of the velocities.
-const STALLS: usize = 2;
-
-/// Changes that fall by less than this factor are reason for Newton's method: its slopes serve the steps after this one, too.
-const SLOW: f64 = 0.02;
-
 /// After so many evaluations of the rates the velocities at the contacts are linear in the impulses.
 const MOST_NONLINEAR: usize = 16;
 
 /// The largest number of evaluations of the rates in a step.
 const MOST_ITERATIONS: usize = 40;
+
+/// Returns the velocities at the end of a step: the rates are evaluated anew with each until they settle.
+fn settled<O: Ode>(
+    ode: &O,
+    middle: &mut Middle<O::State>,
+    impulses: &mut Impulses<O::State>,
+) -> Result<O::State, Reason<O::Error>>
+where
+    Of<O::State>: Real,
+{
+    let mut end = middle.y.clone();
+    let mut convergence = Convergence::new::<Of<O::State>>();
+    for iteration in 1..=MOST_ITERATIONS {
+        let free = middle.free(ode, &end)?;
+        let rough = convergence.is_rough() && iteration < MOST_ITERATIONS;
+        impulses.set_rough(rough);
+        let next = impulses.pushed(ode, middle, &free)?;
+        convergence.note(middle.change(&next, &end, &free));
+        end = next;
+        if convergence.is_reached() && (impulses.is_solved() || !rough) {
+            return Ok(end);
+        }
+        if iteration == MOST_NONLINEAR {
+            impulses.make_velocities_linear();
+            convergence.restart();
+        }
+        if convergence.is_slow() && middle.linearise(ode, &end)? {
+            impulses.remake_maps(ode, middle)?;
+            convergence.restart();
+        }
+    }
+    // Contacts of which no impulses were found end the step as they are: the residual tells.
+    let change = convergence.last();
+    if change.is_finite() && impulses.give_up() {
+        return Ok(end);
+    }
+    let iterations = MOST_ITERATIONS;
+    Err(Reason::NoConvergence { iterations, change })
+}
 
 impl<Y: StateVector> Integrator<Y> for Moreau<Of<Y>>
 where
@@ -116,56 +150,12 @@ where
         let mut middle = Middle::new((from.t, y), h, ode.positions(), factors);
         let before = contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?;
         let halfway = contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?;
-        let number = ode.rigid_contacts();
-        let given = (before, halfway);
         let last = from
             .before
             .map(|step| (step.stages.contacts.impulses, h / step.h));
-        let mut impulses = Impulses::new(self.options, number, given, last);
-        let mut end = middle.y.clone();
-        let (mut before, mut slowest, mut stalls) = (f64::INFINITY, 1.0_f64, 0);
-        let rough =
-            Of::<Y>::EPSILON.to_f64().sqrt() / middle::NEGLIGIBLE / Of::<Y>::EPSILON.to_f64();
-        for iteration in 1.. {
-            let free = middle.free(ode, &end)?;
-            impulses.set_rough(before > rough && iteration < MOST_ITERATIONS);
-            let next = impulses.pushed(ode, &middle, &free)?;
-            let change = middle.change(&next, &end, &free);
-            end = next;
-            // What is left of changes that fall like a geometric series, by the slower of the last two ratios (Hairer and
-            // Wanner 1996, section IV.8).
-            let ratio = change / before;
-            let slower = slowest.max(ratio);
-            let left = change * slower / (1.0 - slower);
-            slowest = ratio;
-            if ratio > 0.5 {
-                stalls += 1;
-            }
-            let settled = stalls >= STALLS && change < rough;
-            let converged = change <= 1.0 || (slower < 1.0 && left <= 1.0) || settled;
-            if converged && (impulses.is_solved() || before <= rough) {
-                break;
-            }
-            if iteration == MOST_ITERATIONS {
-                // Contacts of which no impulses were found end the step as they are: the residual tells.
-                if change.is_finite() && impulses.give_up() {
-                    break;
-                }
-                let iterations = iteration;
-                return Err(Reason::NoConvergence { iterations, change });
-            }
-            if iteration == MOST_NONLINEAR {
-                impulses.linearise();
-                stalls = 0;
-            }
-            // Substitution that is slow, or that does not converge. The second change has impulses that the first had not: it
-            // does not tell.
-            if iteration > 2 && ratio > SLOW && middle.linearise(ode, &end)? {
-                impulses.remake_maps(ode, &middle)?;
-                stalls = 0;
-            }
-            before = change;
-        }
+        let number = ode.rigid_contacts();
+        let mut impulses = Impulses::new(self.options, number, (before, halfway), last);
+        let mut end = settled(ode, &mut middle, &mut impulses)?;
         let mut contacts = impulses.result(&middle, &end);
         middle.advance(ode, &mut end)?;
         lifted(ode, (from.t + h, h), &mut end, &impulses, &mut contacts)?;
