@@ -59,6 +59,9 @@ impl<S: Canonical<T>, T: Real> Measured for CanonicalPlant<'_, S, T> {
 /// A plant behind a pointer, with its start.
 type Started<Y, M, E> = Contender<DynPlant<Y, M, E>>;
 
+/// The same as the integrators of a scheme meet it.
+type StartedBy<C, Y, M, E> = Contender<<C as Scheme>::Scene<DynPlant<Y, M, E>>>;
+
 /// A plant with its start.
 struct Contender<P: Plant> {
     plant: P,
@@ -77,7 +80,7 @@ where
     }
 
     /// Returns the same as the integrators of a scheme meet it.
-    fn by<C: Scheme>(&self, _: C) -> Rc<Contender<C::Scene<DynPlant<Y, M, E>>>> {
+    fn by<C: Scheme>(&self, _: C) -> Rc<StartedBy<C, Y, M, E>> {
         let (plant, begin) = C::scene((self.plant.clone(), self.begin));
         Rc::new(Contender { plant, begin })
     }

@@ -307,6 +307,12 @@ impl Plant for Decay {
     }
 }
 
+impl bgdyn_accuracy::Measured for Decay {
+    fn measured(&self, _: f64, y: &V, _: &Nothing) -> Vec<f64> {
+        y.as_slice().to_vec()
+    }
+}
+
 /// ẋ = −x with step control: consecutive steps to the end, more of them for a longer run.
 #[test]
 fn steps_are_counted() {

@@ -39,12 +39,16 @@ fn a_disc_rolls_or_slips_down_an_incline() {
     );
 
     let scene = Slips::<f64>::default();
-    let wanted = [G * (sin - 0.1 * cos) * 2.0, 2.0 * 0.1 * G * cos / 0.2 * 2.0];
+    let rates = [G * (sin - 0.1 * cos), 2.0 * 0.1 * G * cos / 0.2];
     let errors = |steps: usize| {
         let mut run = start!(&scene, |_: &mut Y| {});
         advance(&mut run, 2.0, steps);
+        // Once in about two hundred steps the disc is above the incline for a step. The next one makes up for it.
+        while run.contact_step().expect("a step").impulses[0][2] == 0.0 {
+            run.step(2.0 / steps as f64).expect("a step");
+        }
         let found = [downhill(run.y()), run.y()[5]];
-        [0, 1].map(|k| (found[k] - wanted[k]).abs())
+        [0, 1].map(|k| (found[k] - rates[k] * run.t()).abs())
     };
     let (coarse, fine) = (errors(1000), errors(4000));
     for (coarse, fine) in coarse.into_iter().zip(fine) {
@@ -126,6 +130,7 @@ fn a_rod_jams_without_gaining_energy() {
             let now = energy(run.y());
             assert!(now < before + 1e-3, "at {} s: {before} J, {now} J", run.t());
             before = now;
+            assert!(run.contact_step().expect("a step").solved, "{}", run.t());
         }
         let y = run.y();
         assert!(y.as_slice()[3..].iter().all(|v| v.abs() < 1e-9), "{y}");

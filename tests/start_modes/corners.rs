@@ -159,15 +159,15 @@ fn the_clock_shows_every_corner_that_a_step_meets() {
 /// The plants of studies, behind pointers, and the reference in double-double.
 #[test]
 fn a_study_resolves_stiction_at_the_start_and_at_corners() {
-    use bgdyn_accuracy::{Grid, StepControl, TestCase};
+    use bgdyn_accuracy::{AsItIs, Grid, StepControl, TestCase};
     let grid = Grid {
         end: 3.6,
         samples: 12,
     };
     let words = ["belt", "", "slide", "m"];
     let mut case = TestCase::new(words, grid.end, "rk4", StepControl::Step(1e-3));
-    case.methods(belt::Belt::<f64>::default());
-    case.reference(belt::Belt::<bgdyn_runtime::Dd>::default());
+    case.methods(belt::Belt::<f64>::default(), AsItIs);
+    case.reference(belt::Belt::<bgdyn_runtime::Dd>::default(), AsItIs);
     let expected = |k: usize| on_the_belt(grid.end * (k + 1) as f64 / grid.samples as f64).0;
     let reference = case.reference.expect("a reference");
     for (k, row) in reference(&grid, 1e-14).expect("a run").iter().enumerate() {
@@ -190,7 +190,7 @@ fn a_study_resolves_stiction_at_the_start_and_at_corners() {
 /// The scene begins held by 20 N. With 1 N, a run-time parameter, only the run can find that the weight falls.
 #[test]
 fn a_study_lets_go_what_a_parameter_no_longer_holds() {
-    use bgdyn_accuracy::{Grid, StepControl, TestCase};
+    use bgdyn_accuracy::{AsItIs, Grid, StepControl, TestCase};
     let held = brake::Brake::<f64>::default();
     assert_eq!(HybridSystem::start(&held).1[0], 0.0);
     let grid = Grid {
@@ -200,7 +200,7 @@ fn a_study_lets_go_what_a_parameter_no_longer_holds() {
     let words = ["brake", "", "fall", "m"];
     let mut case = TestCase::new(words, grid.end, "rk4", StepControl::Step(1e-3));
     let grip = super::FRICTION;
-    case.formulation("cheapest", brake::Brake::<f64> { grip });
+    case.formulation("cheapest", brake::Brake::<f64> { grip }, AsItIs);
     let run = (case.configurations[0].run)(&grid, StepControl::Step(1e-3)).expect("a run");
     near(run.values[3][0], -0.5 * (9.81 - super::FRICTION), 1e-9);
 }

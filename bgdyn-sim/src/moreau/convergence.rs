@@ -1,5 +1,7 @@
 //! When the velocities of a step have settled.
 
+use bgdyn_runtime::Scalar;
+
 use super::middle::NEGLIGIBLE;
 use crate::real::Real;
 
@@ -33,7 +35,7 @@ impl Convergence {
             last: f64::INFINITY,
             ratios: [1.0; 2],
             stalls: 0,
-            rough: epsilon.sqrt() / (NEGLIGIBLE * epsilon),
+            rough: Scalar::sqrt(epsilon) / (NEGLIGIBLE * epsilon),
         }
     }
 

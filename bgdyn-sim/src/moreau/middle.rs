@@ -31,7 +31,13 @@ pub(super) struct Middle<Y: StateVector> {
 pub(super) struct Factors<Y: StateVector> {
     matrix: MatrixOf<Y>,
     pivots: ArrayOf<Y, usize>,
+    /// The number of steps that B has served.
+    age: usize,
 }
+
+/// B serves so many steps. After them a step tries without: a body that has come to rest needs no B, and that of its fall
+/// would turn its velocities.
+const MOST_STEPS: usize = 10;
 
 /// Returns a state with the positions in the middle of the step of length `h` from it, at a time.
 pub(super) fn positions_in_middle<O: Ode>(
@@ -68,14 +74,18 @@ where
             h,
             y,
             positions,
-            factors: factors.cloned(),
+            factors: factors.filter(|factors| factors.age < MOST_STEPS).cloned(),
             linearised: false,
         }
     }
 
     /// Returns the factors of B for the next step.
     pub(super) fn into_factors(self) -> Option<Factors<Y>> {
-        self.factors
+        let age = |factors: Factors<Y>| Factors {
+            age: factors.age + 1,
+            ..factors
+        };
+        self.factors.map(age)
     }
 
     /// Returns the velocities at the end without impulses, from a guess of those with impulses: one step of Newton's method
@@ -137,13 +147,17 @@ where
         if !factor(&mut entries[..n * n], &mut pivots.as_mut()[..n], n) {
             return Err(Reason::SingularMatrix);
         }
-        self.factors = Some(Factors { matrix, pivots });
+        self.factors = Some(Factors {
+            matrix,
+            pivots,
+            age: 0,
+        });
         Ok(true)
     }
 
     /// Replaces velocities x by B⁻¹ x.
     pub(super) fn solve(&self, x: &mut Y) {
-        if let Some(Factors { matrix, pivots }) = &self.factors {
+        if let Some(Factors { matrix, pivots, .. }) = &self.factors {
             let x = &mut x.entries_mut()[self.positions..];
             let n = x.len();
             solve(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], x);
