@@ -5,6 +5,7 @@ use nalgebra::SVector;
 use crate::sine::{self, SineLanes};
 use crate::singular::{failed, note_refused, succeeded};
 use crate::sqrt::{sqrt_f32, sqrt_f64};
+use crate::tanh::tanh;
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
@@ -18,7 +19,7 @@ pub(crate) trait Float: TwoWord {
 }
 
 macro_rules! float_scalar {
-    ($float:ident, $sqrt:path, $exp:path, $ln:path, $tanh:path) => {
+    ($float:ident, $sqrt:path, $exp:path, $ln:path) => {
         impl Scalar for $float {
             type Mask = bool;
             type Refused = Option<usize>;
@@ -55,7 +56,7 @@ macro_rules! float_scalar {
 
             #[inline]
             fn tanh(self) -> Self {
-                $tanh(self)
+                tanh(self)
             }
 
             #[inline]
@@ -158,5 +159,5 @@ macro_rules! float_scalar {
 /// The bound of pivots in `f64`: `Float::PIVOT_FLOOR`.
 pub const F64_PIVOT_FLOOR: f64 = <f64 as Float>::PIVOT_FLOOR;
 
-float_scalar!(f64, sqrt_f64, libm::exp, libm::log, libm::tanh);
-float_scalar!(f32, sqrt_f32, libm::expf, libm::logf, libm::tanhf);
+float_scalar!(f64, sqrt_f64, libm::exp, libm::log);
+float_scalar!(f32, sqrt_f32, libm::expf, libm::logf);

@@ -2,7 +2,8 @@
 //!
 //! Lane k of every result equals, bit for bit, the result of `f64` (or `f32`) for lane k of the arguments.
 //! Sines and cosines are computed in the lanes, except for large angles (`sine/`); those of `wide` lose
-//! accuracy for large angles. The other elementary functions are those of the scalar, lane by lane.
+//! accuracy for large angles. So are hyperbolic tangents (`tanh.rs`). Exponentials and logarithms are those of the scalar, lane
+//! by lane.
 
 use core::fmt;
 
@@ -12,6 +13,7 @@ use wide::{f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 use crate::float::Float;
 use crate::sine;
 use crate::singular::{sum, zero_if_finite};
+use crate::tanh::tanh;
 use crate::two_sum::TwoWord;
 use crate::{Look, Scalar, Singular};
 
@@ -93,7 +95,7 @@ macro_rules! lane_scalar {
 
             #[inline]
             fn tanh(self) -> Self {
-                Self::new(self.to_array().map(<$float as Scalar>::tanh))
+                tanh(self)
             }
 
             #[inline]

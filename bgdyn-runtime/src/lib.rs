@@ -66,6 +66,7 @@ mod state_vector;
 pub mod step;
 mod stiction;
 mod system;
+mod tanh;
 mod two_sum;
 mod wrench;
 

@@ -16,11 +16,13 @@ pub(crate) struct Stage {
 
 /// Returns Σ wⱼ kⱼ.
 pub(crate) fn combined<Y: StateVector>(weights: &[Words], rates: &[Y]) -> Y {
-    let mut sum = rates[0].zero();
-    for (w, k) in weights.iter().zip(rates) {
-        if !w.is_zero() {
-            sum.add(w.to(), k);
-        }
+    let mut terms = weights.iter().zip(rates).filter(|(w, _)| !w.is_zero());
+    let Some((w, k)) = terms.next() else {
+        return rates[0].zero();
+    };
+    let mut sum = k.times(w.to());
+    for (w, k) in terms {
+        sum.add(w.to(), k);
     }
     sum
 }
@@ -36,7 +38,10 @@ pub(crate) fn fill<O: Ode>(
     let done = rates.len() - stages.len();
     for (i, stage) in stages.iter().enumerate() {
         let (before, after) = rates.split_at_mut(done + i);
-        let there = y.plus(h, &combined(stage.a, before));
+        let mut there = combined(stage.a, before);
+        for (x, &y) in there.entries_mut().iter_mut().zip(y.entries()) {
+            *x = y + h * *x;
+        }
         let k = ode.rates(t + stage.c.to::<ScalarOf<O>>() * h, &there);
         after[0] = k.map_err(Reason::Singular)?;
     }

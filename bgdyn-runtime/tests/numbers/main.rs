@@ -18,3 +18,4 @@ mod scalars;
 #[cfg(feature = "serde")]
 mod serial;
 mod sine;
+mod tanh;

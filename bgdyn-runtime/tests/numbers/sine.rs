@@ -4,7 +4,7 @@ use crate::random::Random;
 use bgdyn_runtime::{Dd, Scalar};
 
 /// `f64` or `f32`.
-trait Float: Scalar {
+pub(crate) trait Float: Scalar {
     /// Binary digits.
     const DIGITS: i32;
     /// The largest angle that takes the branch-free path.
@@ -39,7 +39,7 @@ float!(f64, i64, 53, 1e5, -1022);
 float!(f32, i32, 24, 1e4, -126);
 
 /// Returns the distance of `found` from `exact`, in units of the last place of `exact`.
-fn units<T: Float>(found: T, exact: Dd) -> f64 {
+pub(crate) fn units<T: Float>(found: T, exact: Dd) -> f64 {
     let exponent = libm::ilogb(exact.hi()).max(T::LEAST);
     let off = (Dd::from(found.wide()) - exact).hi();
     libm::scalbn(off.abs(), T::DIGITS - 1 - exponent)
