@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use bgdyn_runtime::{ContactMap, FixedVector, RigidContact};
+use bgdyn_runtime::{ContactMap, FixedVector, QuasiJoint, RigidContact};
 use bgdyn_sim::{Jacobian, Of, Plant, Power, StateVector};
 use nalgebra::SVector;
 
@@ -18,6 +18,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     fn positions(&self) -> usize;
     fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
     fn position_change(&self, t: Of<Y>, y: &Y, modes: &M, h: Of<Y>) -> Result<Y, String>;
+    fn turning_joints(&self) -> &[QuasiJoint];
     fn project(&self, t: Of<Y>, y: &mut Y, modes: &M) -> Result<bool, String>;
     fn project_in_two(&self, t: Of<Y>, y: (&mut Y, &mut Y), modes: &M) -> Result<bool, String>;
     fn strays(&self, y: &Y) -> bool;
@@ -107,6 +108,10 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         h: Of<P::State>,
     ) -> Result<P::State, String> {
         with_text_error(Plant::position_change(self, t, y, modes, h))
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        Plant::turning_joints(self)
     }
 
     fn project(&self, t: Of<P::State>, y: &mut P::State, modes: &P::Modes) -> Result<bool, String> {
@@ -237,6 +242,10 @@ where
 
     fn position_change(&self, t: Of<Y>, y: &Y, modes: &M, h: Of<Y>) -> Result<Y, String> {
         self.0.position_change(t, y, modes, h)
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        self.0.turning_joints()
     }
 
     fn project(&self, t: Of<Y>, y: &mut Y, modes: &M) -> Result<bool, String> {

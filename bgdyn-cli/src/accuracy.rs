@@ -11,7 +11,7 @@ use bgdyn_accuracy::{
 use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{ContactMap, Dd, RigidContact};
+use bgdyn_runtime::{ContactMap, Dd, QuasiJoint, RigidContact};
 use bgdyn_sim::{INTEGRATORS, Integrator, Jacobian, Plant, Power, WithIntegrator, with_integrator};
 
 use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
@@ -215,6 +215,10 @@ impl Plant for Counted {
 
     fn position_change(&self, t: f64, y: &Numbers, modes: &Numbers, h: f64) -> Evaluation<Numbers> {
         self.plant.position_change(t, y, modes, h)
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        self.plant.turning_joints()
     }
 
     fn project(&self, t: f64, y: &mut Numbers, modes: &Numbers) -> Evaluation<bool> {

@@ -1,6 +1,6 @@
 //! Jacobians of the rates by finite differences.
 
-use bgdyn_runtime::{ContactMap, RigidContact, Scalar, StateVector};
+use bgdyn_runtime::{ContactMap, QuasiJoint, RigidContact, Scalar, StateVector};
 
 use crate::ode::{Jacobian, Ode, ScalarOf};
 use crate::real::{Of, Real};
@@ -46,6 +46,10 @@ where
         h: ScalarOf<O>,
     ) -> Result<O::State, O::Error> {
         self.0.position_change(t, y, h)
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        self.0.turning_joints()
     }
 
     fn project(&self, t: ScalarOf<O>, y: &mut O::State) -> Result<bool, O::Error> {

@@ -79,6 +79,7 @@ pub mod event_driven;
 mod extrapolation;
 mod failure;
 mod finite_differences;
+mod fixed_axes;
 mod gauss;
 pub mod ilqr;
 mod integrator;

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::{ContactMap, RigidContact, StateVector};
+use bgdyn_runtime::{ContactMap, QuasiJoint, RigidContact, StateVector};
 
 use crate::real::Of;
 
@@ -78,6 +78,12 @@ pub trait Ode {
         h: ScalarOf<Self>,
     ) -> Result<Self::State, Self::Error> {
         Ok(self.position_rates(t, y)?.times(h))
+    }
+
+    /// Returns the joints whose linear velocities are along the axes of their link, which turn: planar and floating ones.
+    /// Others may be among them. The default is none.
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        &[]
     }
 
     /// Projects a state at time `t` onto the manifold of valid states. Returns whether that changed it.
@@ -177,6 +183,10 @@ impl<O: Ode> Ode for &O {
         h: ScalarOf<O>,
     ) -> Result<O::State, O::Error> {
         (**self).position_change(t, y, h)
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        (**self).turning_joints()
     }
 
     fn project(&self, t: ScalarOf<O>, y: &mut O::State) -> Result<bool, Self::Error> {

@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::{ContactMap, RigidContact, StateVector};
+use bgdyn_runtime::{ContactMap, QuasiJoint, RigidContact, StateVector};
 
 use crate::ode::{Jacobian, Ode};
 use crate::real::Of;
@@ -106,6 +106,11 @@ pub trait Plant {
         h: Time<Self>,
     ) -> Result<Self::State, Self::Error> {
         Ok(self.position_rates(t, y, modes)?.times(h))
+    }
+
+    /// The joints whose linear velocities are along axes that turn, as [`Ode::turning_joints`].
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        &[]
     }
 
     /// Takes a state back onto the set of possible ones with these modes, as [`Ode::project`].
@@ -328,6 +333,10 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
 
     fn position_change(&self, t: Time<P>, y: &P::State, h: Time<P>) -> Result<P::State, P::Error> {
         self.plant.position_change(t, y, self.modes, h)
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        self.plant.turning_joints()
     }
 
     fn project(&self, t: Time<P>, y: &mut P::State) -> Result<bool, Self::Error> {

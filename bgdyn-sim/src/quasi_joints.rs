@@ -15,12 +15,12 @@ use crate::two_sum::sum_in_two;
 const STRAYED: f64 = 64.0;
 
 /// Components of the state: `N` numbers from an index.
-fn part<T: Scalar, const N: usize>(y: &[T], from: usize) -> [T; N] {
+pub(crate) fn part<T: Scalar, const N: usize>(y: &[T], from: usize) -> [T; N] {
     core::array::from_fn(|i| y.get(from + i).copied().unwrap_or(T::from_f64(0.0)))
 }
 
 /// Writes components of a vector from an index.
-fn set<T: Scalar, const N: usize>(to: &mut [T], from: usize, values: [T; N]) {
+pub(crate) fn set<T: Scalar, const N: usize>(to: &mut [T], from: usize, values: [T; N]) {
     for (to, value) in to.iter_mut().skip(from).zip(values) {
         *to = value;
     }

@@ -1,8 +1,8 @@
 //! Compiled scenes as plants.
 
 use bgdyn_runtime::{
-    ArrayOf, Canonical, Contact, ContactMap, FixedVector, HybridSystem, MatrixOf, RigidContact,
-    SampledControl, Slope,
+    ArrayOf, Canonical, Contact, ContactMap, FixedVector, HybridSystem, MatrixOf, QuasiJoint,
+    RigidContact, SampledControl, Slope,
 };
 
 use crate::finite_differences::differences;
@@ -191,6 +191,10 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         h: T,
     ) -> Result<S::State, S::Singular> {
         Ok(scene_positions::position_change(self.scene, y, h))
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        scene_positions::turning_joints(self.scene)
     }
 
     fn project(&self, _: T, y: &mut S::State, _: &S::Modes) -> Result<bool, S::Singular> {

@@ -1,7 +1,7 @@
 //! Positions of a generated scene: their rates, their change in a step, and the way back to valid ones, with unit
 //! quaternions and closed loops.
 
-use bgdyn_runtime::{HybridSystem, Scalar, StateVector};
+use bgdyn_runtime::{FixedVector, HybridSystem, QuasiJoint, Scalar, StateVector};
 
 use crate::quasi_joints;
 use crate::real::Real;
@@ -30,6 +30,16 @@ pub(crate) fn position_change<T: Scalar, S: HybridSystem<T>>(
         quasi_joints::position_change(joints, positions, y.entries(), h, change.entries_mut());
     }
     change
+}
+
+/// Returns the joints whose linear velocities are along axes that turn; none if a scene has rates of positions of its own, as
+/// its velocities are others.
+pub(crate) fn turning_joints<T: Scalar, S: HybridSystem<T>>(scene: &S) -> &'static [QuasiJoint] {
+    let zero = S::State::zero_vector();
+    if scene.position_rates(&zero, &mut zero.clone()) {
+        return &[];
+    }
+    scene.quasi_joints()
 }
 
 /// Scales quaternions to length 1 and closes loops. Returns whether there are such.

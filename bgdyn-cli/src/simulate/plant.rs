@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bgdyn_codegen::engine::{CallArguments, Engine, Status};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{Contact, ContactMap, Dd, RigidContact};
+use bgdyn_runtime::{Contact, ContactMap, Dd, QuasiJoint, RigidContact};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Sampler, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
@@ -254,6 +254,13 @@ impl Plant for Evaluated<'_> {
         h: f64,
     ) -> Evaluation<Numbers> {
         Ok(self.change_of_positions(t, &self.natural(t, state, modes)?, modes, h))
+    }
+
+    fn turning_joints(&self) -> &[QuasiJoint] {
+        match self.functions.position_rates {
+            Some(_) => &[],
+            None => &self.functions.quasi_joints,
+        }
     }
 
     fn project(&self, _: f64, y: &mut Numbers, _: &Numbers) -> Evaluation<bool> {

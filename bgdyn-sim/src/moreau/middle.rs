@@ -3,6 +3,7 @@
 use bgdyn_runtime::{ArrayOf, MatrixOf, Scalar as _, StateVector};
 
 use crate::failure::Reason;
+use crate::fixed_axes::{add_turning, carry};
 use crate::lu::{factor, solve};
 use crate::motion::moved;
 use crate::ode::Ode;
@@ -12,6 +13,7 @@ use crate::real::{Of, Real};
 pub(super) const NEGLIGIBLE: f64 = 256.0;
 
 /// The middle of a step. Components that are not positions are called velocities here; first-order states are among them.
+/// Velocities of the beginning and of the end are along the axes of links in the middle.
 pub(super) struct Middle<Y: StateVector> {
     /// t + h/2
     pub(super) t: Of<Y>,
@@ -54,6 +56,7 @@ where
     moved(ode, t, &mut y, half).map_err(Reason::Singular)?;
     ode.project(t + half, &mut y).map_err(Reason::Singular)?;
     y.entries_mut()[positions..].copy_from_slice(&from.entries()[positions..]);
+    carry(ode.turning_joints(), from.entries(), y.entries_mut());
     Ok(y)
 }
 
@@ -91,9 +94,10 @@ where
     /// Returns the velocities at the end without impulses, from a guess of those with impulses: one step of Newton's method
     /// for v + h v̇((v + v⁺)/2) − v⁺ = 0. The positions are those of the middle.
     pub(super) fn free<O: Ode<State = Y>>(&self, ode: &O, end: &Y) -> Result<Y, Reason<O::Error>> {
-        let rates = ode
-            .rates(self.t, &self.mean(end))
-            .map_err(Reason::Singular)?;
+        let mean = self.mean(end);
+        let mut rates = ode.rates(self.t, &mean).map_err(Reason::Singular)?;
+        let both = (mean.entries(), mean.entries());
+        add_turning(ode.turning_joints(), both, rates.entries_mut());
         let mut step = end.zero();
         let (start, n) = (self.y.entries(), self.positions);
         for (i, x) in step.entries_mut().iter_mut().enumerate().skip(n) {
@@ -128,7 +132,8 @@ where
             return Ok(false);
         }
         self.linearised = true;
-        let Some(slopes) = ode.jacobian(self.t, &self.mean(end)) else {
+        let mean = self.mean(end);
+        let Some(slopes) = ode.jacobian(self.t, &mean) else {
             return Ok(false);
         };
         let slopes = slopes.map_err(Reason::Singular)?.state;
@@ -138,9 +143,17 @@ where
         let mut matrix = end.matrix();
         let entries = Y::columns_mut(&mut matrix);
         for (j, column) in Y::columns(&slopes).chunks(all).skip(positions).enumerate() {
-            for (i, &slope) in column[positions..].iter().enumerate() {
+            let mut unit = end.zero();
+            unit.entries_mut()[positions + j] = Of::<Y>::from_f64(1.0);
+            let mut turning = end.zero();
+            for both in [(&mean, &unit), (&unit, &mean)] {
+                let both = (both.0.entries(), both.1.entries());
+                add_turning(ode.turning_joints(), both, turning.entries_mut());
+            }
+            let slopes = column.iter().zip(turning.entries()).skip(positions);
+            for (i, (&slope, &turning)) in slopes.enumerate() {
                 let own = if i == j { 1.0 } else { 0.0 };
-                entries[j * n + i] = Of::<Y>::from_f64(own) - half * slope;
+                entries[j * n + i] = Of::<Y>::from_f64(own) - half * (slope + turning);
             }
         }
         let mut pivots = end.array(0);
@@ -184,13 +197,15 @@ where
         change / (size * NEGLIGIBLE * Of::<Y>::EPSILON.to_f64())
     }
 
-    /// Moves the positions of the middle to the end of the step, with the velocities there.
+    /// Moves the positions of the middle to the end of the step, with the velocities there, and turns these to the axes there.
     pub(super) fn advance<O: Ode<State = Y>>(
         &self,
         ode: &O,
         end: &mut Y,
     ) -> Result<(), Reason<O::Error>> {
         let half = self.h * Of::<Y>::from_f64(0.5);
-        moved(ode, self.t, end, half).map_err(Reason::Singular)
+        moved(ode, self.t, end, half).map_err(Reason::Singular)?;
+        carry(ode.turning_joints(), self.y.entries(), end.entries_mut());
+        Ok(())
     }
 }

@@ -25,10 +25,11 @@ use crate::real::{Of, Real};
 ///
 /// v⁺ = v + h v̇(t + h/2, q_m, (v + v⁺)/2) + M⁻¹ Jᵀ p,  q⁺ = q_m + (h/2) v⁺
 ///
-/// where the impulses p are the solution of Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's
-/// law of restitution and γ_t⁺, at the end of the step. J and M are those in the middle. A contact that approaches by less
-/// than forces add in a step does not bounce. A contact is active if its gap would be closed at the end of the step without
-/// impulses. Where a closed contact overlaps afterwards, the positions are put right in the metric of M, without a spring.
+/// with linear velocities of planar and floating joints along axes that do not turn. The impulses p are the solution of
+/// Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's law of restitution and γ_t⁺, at the end
+/// of the step. J and M are those in the middle. A contact that approaches by less than forces add in a step does not
+/// bounce. A contact is active if its gap would be closed at the end of the step without impulses. Where a closed contact
+/// overlaps afterwards, the positions are put right in the metric of M, without a spring.
 ///
 /// Order 2 without impacts, order 1 with them, as an impact is anywhere within its step, and where contacts slip along
 /// curves. Implicit in the velocities, which are solved for by substitution; where that is slow, by Newton's method with the
