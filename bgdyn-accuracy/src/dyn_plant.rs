@@ -18,7 +18,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     fn positions(&self) -> usize;
     fn position_rates(&self, t: Of<Y>, y: &Y, modes: &M) -> Result<Y, String>;
     fn position_change(&self, t: Of<Y>, y: &Y, modes: &M, h: Of<Y>) -> Result<Y, String>;
-    fn turning_joints(&self) -> &[QuasiJoint];
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]>;
     fn project(&self, t: Of<Y>, y: &mut Y, modes: &M) -> Result<bool, String>;
     fn project_in_two(&self, t: Of<Y>, y: (&mut Y, &mut Y), modes: &M) -> Result<bool, String>;
     fn strays(&self, y: &Y) -> bool;
@@ -110,8 +110,8 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
         with_text_error(Plant::position_change(self, t, y, modes, h))
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        Plant::turning_joints(self)
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        Plant::quasi_joints(self)
     }
 
     fn project(&self, t: Of<P::State>, y: &mut P::State, modes: &P::Modes) -> Result<bool, String> {
@@ -244,8 +244,8 @@ where
         self.0.position_change(t, y, modes, h)
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        self.0.turning_joints()
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        self.0.quasi_joints()
     }
 
     fn project(&self, t: Of<Y>, y: &mut Y, modes: &M) -> Result<bool, String> {

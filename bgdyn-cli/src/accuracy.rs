@@ -217,8 +217,8 @@ impl Plant for Counted {
         self.plant.position_change(t, y, modes, h)
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        self.plant.turning_joints()
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        self.plant.quasi_joints()
     }
 
     fn project(&self, t: f64, y: &mut Numbers, modes: &Numbers) -> Evaluation<bool> {

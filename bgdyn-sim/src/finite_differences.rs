@@ -48,8 +48,8 @@ where
         self.0.position_change(t, y, h)
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        self.0.turning_joints()
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        self.0.quasi_joints()
     }
 
     fn project(&self, t: ScalarOf<O>, y: &mut O::State) -> Result<bool, O::Error> {

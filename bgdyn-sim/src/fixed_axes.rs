@@ -1,61 +1,75 @@
-//! Linear velocities of planar and floating joints in axes that do not turn.
+//! Linear velocities of planar and floating joints along axes that do not turn.
 //!
 //! In the state these velocities v are along the axes of the link, R v along those of its origin. Where nothing pushes a link,
 //! R v is constant and v is not: steps that take R v have no error there.
 
-use bgdyn_runtime::manifold::{floating, planar};
+use bgdyn_runtime::manifold::{floating, planar, spherical};
 use bgdyn_runtime::{QuasiJoint, QuasiJointKind, Scalar};
 
-use crate::quasi_joints::{part, set};
+use crate::quasi_joints::{each_plain, part, set};
 
-/// Returns R v of a joint with its positions in `y`, or Rᵀ v with the `inverse`. Two components are those of a planar joint.
-fn turned<T: Scalar>(joint: &QuasiJoint, y: &[T], v: [T; 3], inverse: bool) -> [T; 3] {
-    let zero = T::from_f64(0.0);
-    let sign = |x: T| if inverse { -x } else { x };
-    let [a, b, c] = v;
-    match joint.kind {
-        QuasiJointKind::Planar => {
-            let [_, _, angle] = part(y, joint.position);
-            let [a, b, _] = planar::position_rates([zero, zero, sign(angle)], [a, b, zero]);
-            [a, b, zero]
+/// Writes the change of the first `positions` components of the state `y` in the time `h` at its velocities: linear ones are
+/// constant along the axes of the joint's origin, angular ones along those of the link.
+pub(crate) fn straight_change<T: Scalar>(
+    joints: &[QuasiJoint],
+    positions: usize,
+    y: &[T],
+    h: T,
+    change: &mut [T],
+) {
+    each_plain(joints, positions, |q, v| {
+        let [rate] = part(y, v);
+        set(change, q, [h * rate]);
+    });
+    for joint in joints {
+        let (q, v) = (joint.position, joint.velocity);
+        match joint.kind {
+            QuasiJointKind::Planar => {
+                let rates = planar::position_rates(part(y, q), part(y, v));
+                set(change, q, rates.map(|rate| h * rate));
+            }
+            QuasiJointKind::Floating => {
+                let rates = floating::position_rates(part(y, q), part(y, v));
+                let linear: [T; 3] = part(&rates, 0);
+                set(change, q, linear.map(|rate| h * rate));
+                let angular: [T; 3] = part(y, v + 3);
+                let turn = spherical::change(part(y, q + 3), angular.map(|w| h * w));
+                set(change, q + 3, turn);
+            }
+            QuasiJointKind::Spherical => {
+                let angular: [T; 3] = part(y, v);
+                let turn = spherical::change(part(y, q), angular.map(|w| h * w));
+                set(change, q, turn);
+            }
         }
-        QuasiJointKind::Floating => {
-            let [_, _, _, i, j, k, w] = part(y, joint.position);
-            let q = [zero, zero, zero, sign(i), sign(j), sign(k), w];
-            let rates = floating::position_rates(q, [a, b, c, zero, zero, zero]);
-            part(&rates, 0)
-        }
-        QuasiJointKind::Spherical => v,
     }
 }
 
-/// Writes three components for a floating joint, two for a planar one.
-fn set_linear<T: Scalar>(joint: &QuasiJoint, to: &mut [T], from: usize, linear: [T; 3]) {
-    match joint.kind {
-        QuasiJointKind::Planar => set(to, from, [linear[0], linear[1]]),
-        QuasiJointKind::Floating => set(to, from, linear),
-        QuasiJointKind::Spherical => {}
-    }
-}
-
-/// Turns the velocities of the state `y` from the axes at the positions of another one to those at its own.
+/// Turns the velocities of the state `y` from the axes at the positions of another one to those at its own: Rᵀ R₀ v.
 pub(crate) fn carry<T: Scalar>(joints: &[QuasiJoint], from: &[T], y: &mut [T]) {
+    let zero = T::from_f64(0.0);
     for joint in joints {
-        let fixed = turned(joint, from, part(y, joint.velocity), false);
-        let own = turned(joint, y, fixed, true);
-        set_linear(joint, y, joint.velocity, own);
+        let (q, v) = (joint.position, joint.velocity);
+        match joint.kind {
+            QuasiJointKind::Planar => {
+                let ([_, _, a], [_, _, b]): ([T; 3], [T; 3]) = (part(from, q), part(y, q));
+                let rates = planar::position_rates([zero, zero, a - b], part(y, v));
+                set(y, v, rates);
+            }
+            QuasiJointKind::Floating => {
+                let rates = floating::position_rates(part(from, q), part(y, v));
+                let [a, b, c]: [T; 3] = part(&rates, 0);
+                let [i, j, k, w] = part(y, q + 3);
+                let back = [zero, zero, zero, -i, -j, -k, w];
+                let rates = floating::position_rates(back, [a, b, c, zero, zero, zero]);
+                set::<T, 3>(y, v, part(&rates, 0));
+            }
+            QuasiJointKind::Spherical => {}
+        }
     }
 }
 
-/// Writes the change of the places in the time `h` along straight lines, h R v.
-pub(crate) fn go_straight<T: Scalar>(joints: &[QuasiJoint], y: &[T], h: T, change: &mut [T]) {
-    for joint in joints {
-        let fixed = turned(joint, y, part(y, joint.velocity), false);
-        set_linear(joint, change, joint.position, fixed.map(|v| h * v));
-    }
-}
-
-/// Adds ω × v, with ω of one state and v of another, to the rates v̇: then they are Rᵀ d(R v)/dt.
+/// Adds ω × v, with ω of one state and v of another, to the rates v̇: with both of the same they are then Rᵀ d(R v)/dt.
 pub(crate) fn add_turning<T: Scalar>(
     joints: &[QuasiJoint],
     (turning, moving): (&[T], &[T]),
@@ -63,22 +77,23 @@ pub(crate) fn add_turning<T: Scalar>(
 ) {
     for joint in joints {
         let at = joint.velocity;
-        let (v, rate): ([T; 3], [T; 3]) = (part(moving, at), part(rates, at));
-        let sum = match joint.kind {
+        let [x, y, z] = part(moving, at);
+        let [dx, dy, dz] = part(rates, at);
+        match joint.kind {
             QuasiJointKind::Planar => {
                 let [_, _, w] = part(turning, at);
-                [rate[0] - w * v[1], rate[1] + w * v[0], rate[2]]
+                set(rates, at, [dx - w * y, dy + w * x]);
             }
             QuasiJointKind::Floating => {
                 let [a, b, c]: [T; 3] = part(turning, at + 3);
-                [
-                    rate[0] + (b * v[2] - c * v[1]),
-                    rate[1] + (c * v[0] - a * v[2]),
-                    rate[2] + (a * v[1] - b * v[0]),
-                ]
+                let sums = [
+                    dx + (b * z - c * y),
+                    dy + (c * x - a * z),
+                    dz + (a * y - b * x),
+                ];
+                set(rates, at, sums);
             }
-            QuasiJointKind::Spherical => rate,
-        };
-        set_linear(joint, rates, at, sum);
+            QuasiJointKind::Spherical => {}
+        }
     }
 }

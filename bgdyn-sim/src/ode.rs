@@ -80,10 +80,10 @@ pub trait Ode {
         Ok(self.position_rates(t, y)?.times(h))
     }
 
-    /// Returns the joints whose linear velocities are along the axes of their link, which turn: planar and floating ones.
-    /// Others may be among them. The default is none.
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        &[]
+    /// Returns the joints whose velocities are not the rates of their positions; those of all others are. `None`, the default,
+    /// if the positions have other rates.
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        None
     }
 
     /// Projects a state at time `t` onto the manifold of valid states. Returns whether that changed it.
@@ -185,8 +185,8 @@ impl<O: Ode> Ode for &O {
         (**self).position_change(t, y, h)
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        (**self).turning_joints()
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        (**self).quasi_joints()
     }
 
     fn project(&self, t: ScalarOf<O>, y: &mut O::State) -> Result<bool, Self::Error> {

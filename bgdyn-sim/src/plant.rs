@@ -108,9 +108,9 @@ pub trait Plant {
         Ok(self.position_rates(t, y, modes)?.times(h))
     }
 
-    /// The joints whose linear velocities are along axes that turn, as [`Ode::turning_joints`].
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        &[]
+    /// The joints whose velocities are not the rates of their positions, as [`Ode::quasi_joints`].
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        None
     }
 
     /// Takes a state back onto the set of possible ones with these modes, as [`Ode::project`].
@@ -335,8 +335,8 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
         self.plant.position_change(t, y, self.modes, h)
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        self.plant.turning_joints()
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        self.plant.quasi_joints()
     }
 
     fn project(&self, t: Time<P>, y: &mut P::State) -> Result<bool, Self::Error> {

@@ -193,8 +193,8 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
         Ok(scene_positions::position_change(self.scene, y, h))
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        scene_positions::turning_joints(self.scene)
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        scene_positions::quasi_joints_of(self.scene)
     }
 
     fn project(&self, _: T, y: &mut S::State, _: &S::Modes) -> Result<bool, S::Singular> {

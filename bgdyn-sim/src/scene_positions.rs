@@ -32,14 +32,14 @@ pub(crate) fn position_change<T: Scalar, S: HybridSystem<T>>(
     change
 }
 
-/// Returns the joints whose linear velocities are along axes that turn; none if a scene has rates of positions of its own, as
-/// its velocities are others.
-pub(crate) fn turning_joints<T: Scalar, S: HybridSystem<T>>(scene: &S) -> &'static [QuasiJoint] {
+/// Returns the joints whose velocities are not the rates of their positions; `None` if a scene has rates of positions of its
+/// own.
+pub(crate) fn quasi_joints_of<T: Scalar, S: HybridSystem<T>>(
+    scene: &S,
+) -> Option<&'static [QuasiJoint]> {
     let zero = S::State::zero_vector();
-    if scene.position_rates(&zero, &mut zero.clone()) {
-        return &[];
-    }
-    scene.quasi_joints()
+    let own = scene.position_rates(&zero, &mut zero.clone());
+    (!own).then(|| scene.quasi_joints())
 }
 
 /// Scales quaternions to length 1 and closes loops. Returns whether there are such.

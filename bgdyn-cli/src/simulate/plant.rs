@@ -256,11 +256,9 @@ impl Plant for Evaluated<'_> {
         Ok(self.change_of_positions(t, &self.natural(t, state, modes)?, modes, h))
     }
 
-    fn turning_joints(&self) -> &[QuasiJoint] {
-        match self.functions.position_rates {
-            Some(_) => &[],
-            None => &self.functions.quasi_joints,
-        }
+    fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
+        let own = self.functions.position_rates.is_some();
+        (!own).then_some(&*self.functions.quasi_joints)
     }
 
     fn project(&self, _: f64, y: &mut Numbers, _: &Numbers) -> Evaluation<bool> {

@@ -3,9 +3,8 @@
 use bgdyn_runtime::{ArrayOf, MatrixOf, Scalar as _, StateVector};
 
 use crate::failure::Reason;
-use crate::fixed_axes::{add_turning, carry};
 use crate::lu::{factor, solve};
-use crate::motion::moved;
+use crate::motion::{add_turning, moved, turn_velocities};
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
@@ -56,7 +55,7 @@ where
     moved(ode, t, &mut y, half).map_err(Reason::Singular)?;
     ode.project(t + half, &mut y).map_err(Reason::Singular)?;
     y.entries_mut()[positions..].copy_from_slice(&from.entries()[positions..]);
-    carry(ode.turning_joints(), from.entries(), y.entries_mut());
+    turn_velocities(ode, from, &mut y);
     Ok(y)
 }
 
@@ -96,8 +95,7 @@ where
     pub(super) fn free<O: Ode<State = Y>>(&self, ode: &O, end: &Y) -> Result<Y, Reason<O::Error>> {
         let mean = self.mean(end);
         let mut rates = ode.rates(self.t, &mean).map_err(Reason::Singular)?;
-        let both = (mean.entries(), mean.entries());
-        add_turning(ode.turning_joints(), both, rates.entries_mut());
+        add_turning(ode, (&mean, &mean), &mut rates);
         let mut step = end.zero();
         let (start, n) = (self.y.entries(), self.positions);
         for (i, x) in step.entries_mut().iter_mut().enumerate().skip(n) {
@@ -146,10 +144,8 @@ where
             let mut unit = end.zero();
             unit.entries_mut()[positions + j] = Of::<Y>::from_f64(1.0);
             let mut turning = end.zero();
-            for both in [(&mean, &unit), (&unit, &mean)] {
-                let both = (both.0.entries(), both.1.entries());
-                add_turning(ode.turning_joints(), both, turning.entries_mut());
-            }
+            add_turning(ode, (&mean, &unit), &mut turning);
+            add_turning(ode, (&unit, &mean), &mut turning);
             let slopes = column.iter().zip(turning.entries()).skip(positions);
             for (i, (&slope, &turning)) in slopes.enumerate() {
                 let own = if i == j { 1.0 } else { 0.0 };
@@ -205,7 +201,7 @@ where
     ) -> Result<(), Reason<O::Error>> {
         let half = self.h * Of::<Y>::from_f64(0.5);
         moved(ode, self.t, end, half).map_err(Reason::Singular)?;
-        carry(ode.turning_joints(), self.y.entries(), end.entries_mut());
+        turn_velocities(ode, &self.y, end);
         Ok(())
     }
 }
