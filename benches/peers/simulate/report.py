@@ -151,7 +151,7 @@ def figure(rows):
         return [r for r in some if ((r["system"], r["setting"]) in MANY) == many]
 
     panels = [panel(f"{TITLES[s]}: one state", of(s, False)) for s in TITLES]
-    panels.append(panel("Friction: 8 lanes (hollow), all cores", of("friction", True)))
+    panels.append(panel("Viscous and dry friction: many states", of("friction", True)))
     return {"legend": list(LEGEND.values()), "panels": panels}
 
 
@@ -173,6 +173,8 @@ A Panda arm falls for 2 s from a bent pose, with viscous friction of 0.8 N·m·s
 - **rapier**: multibody joints in `f64` with damping. It has no such dry friction.
 
 ![Error over simulated seconds a second](peers_simulate.svg)
+
+Many states: hollow points are 8 lanes on one core; all others all cores.
 
 {chr(10).join(section(rows, scene) for scene in TITLES).rstrip()}
 """
