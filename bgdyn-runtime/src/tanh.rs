@@ -16,12 +16,12 @@ pub(crate) struct Constants {
     /// ln 2 in two parts: n times the first is exact.
     ln_2: (f64, f64),
     /// Q, with the least relative error of eʳ − 1 for its degree (found by Lawson's iteration in 50 digits).
-    polynomial: Polynomial,
+    polynomial: ExponentialPolynomial,
 }
 
 /// A polynomial by its number of coefficients, the constant first.
 #[derive(Clone, Copy)]
-enum Polynomial {
+enum ExponentialPolynomial {
     Five([f64; 5]),
     Ten([f64; 10]),
 }
@@ -30,7 +30,7 @@ enum Polynomial {
 const DOUBLE: Constants = Constants {
     bound: 20.0,
     ln_2: (0.693_147_180_559_890_3, 5.497_923_018_708_371e-14),
-    polynomial: Polynomial::Ten([
+    polynomial: ExponentialPolynomial::Ten([
         0.166_666_666_666_666_77,
         0.041_666_666_666_666_58,
         0.008_333_333_333_322_163,
@@ -48,7 +48,7 @@ const DOUBLE: Constants = Constants {
 const SINGLE: Constants = Constants {
     bound: 10.0,
     ln_2: (0.693_145_751_953_125, 1.428_606_820_309_417_3e-6),
-    polynomial: Polynomial::Five([
+    polynomial: ExponentialPolynomial::Five([
         0.166_666_662_993_083_97,
         0.041_666_482_709_116_055,
         0.008_333_419_615_501_637,
@@ -108,15 +108,15 @@ pub(crate) fn tanh<P: TanhLanes>(x: P) -> P {
 
 /// Evaluates a polynomial in pairs of terms, which shortens the chain of dependent steps.
 #[inline(always)]
-fn evaluated<P: TanhLanes>(x: P, polynomial: Polynomial) -> P {
+fn evaluated<P: TanhLanes>(x: P, polynomial: ExponentialPolynomial) -> P {
     let pair = |constant, linear| x.fused(P::splat(linear), P::splat(constant));
     let square = x * x;
     match polynomial {
-        Polynomial::Five([a, b, c, d, e]) => {
+        ExponentialPolynomial::Five([a, b, c, d, e]) => {
             let high = P::splat(e).fused(square, pair(c, d));
             high.fused(square, pair(a, b))
         }
-        Polynomial::Ten([a, b, c, d, e, f, g, h, i, j]) => {
+        ExponentialPolynomial::Ten([a, b, c, d, e, f, g, h, i, j]) => {
             let fourth = square * square;
             let low = pair(c, d).fused(square, pair(a, b));
             let middle = pair(g, h).fused(square, pair(e, f));
