@@ -29,7 +29,7 @@
 //!
 //! # Rigid contacts
 //! `moreau` solves for their impulses in fixed steps; every other integrator and the reference go from event to
-//! event ([`event_driven`]), which takes at most [`bgdyn_runtime::MOST_EVENT_CONTACTS`] contacts.
+//! event ([`bgdyn_sim::event_driven`]), which takes at most [`bgdyn_runtime::MOST_EVENT_CONTACTS`] contacts.
 #![forbid(unsafe_code)]
 
 mod clock;
