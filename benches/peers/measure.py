@@ -17,6 +17,7 @@ from pathlib import Path
 import free
 import page
 import plot
+from machine import undisturbed
 
 DIR = Path(os.environ["PEERS_DIR"])
 ROOT = Path(__file__).resolve().parents[2]
@@ -36,18 +37,6 @@ COMPILERS = ["clang-19", "gcc"]
 COMPARED = ["casadi", "cppad", "pinocchio"]
 # The states in which they are.
 VALUES = 16
-
-
-def undisturbed():
-    """What to put in front of a program: one core, ahead of everything else, where that is allowed."""
-    prefix = ["chrt", "-f", "10", "taskset", "-c", str(max(os.sched_getaffinity(0)))]
-    try:
-        allowed = subprocess.run([*prefix, "true"], capture_output=True).returncode == 0
-    except FileNotFoundError:
-        allowed = False
-    return prefix if allowed else []
-
-
 PREFIX = undisturbed()
 
 

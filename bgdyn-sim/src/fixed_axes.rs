@@ -6,7 +6,7 @@
 use bgdyn_runtime::manifold::{floating, planar, spherical};
 use bgdyn_runtime::{QuasiJoint, QuasiJointKind, Scalar};
 
-use crate::quasi_joints::{each_plain, part, set};
+use crate::quasi_joints::{part, position_rates, set};
 
 /// Writes the change of the first `positions` components of the state `y` in the time `h` at its velocities: linear ones are
 /// constant along the axes of the joint's origin, angular ones along those of the link.
@@ -17,31 +17,18 @@ pub(crate) fn straight_change<T: Scalar>(
     h: T,
     change: &mut [T],
 ) {
-    each_plain(joints, positions, |q, v| {
-        let [rate] = part(y, v);
-        set(change, q, [h * rate]);
-    });
+    position_rates(joints, positions, y, change);
+    for x in change.iter_mut().take(positions) {
+        *x = h * *x;
+    }
     for joint in joints {
-        let (q, v) = (joint.position, joint.velocity);
-        match joint.kind {
-            QuasiJointKind::Planar => {
-                let rates = planar::position_rates(part(y, q), part(y, v));
-                set(change, q, rates.map(|rate| h * rate));
-            }
-            QuasiJointKind::Floating => {
-                let rates = floating::position_rates(part(y, q), part(y, v));
-                let linear: [T; 3] = part(&rates, 0);
-                set(change, q, linear.map(|rate| h * rate));
-                let angular: [T; 3] = part(y, v + 3);
-                let turn = spherical::change(part(y, q + 3), angular.map(|w| h * w));
-                set(change, q + 3, turn);
-            }
-            QuasiJointKind::Spherical => {
-                let angular: [T; 3] = part(y, v);
-                let turn = spherical::change(part(y, q), angular.map(|w| h * w));
-                set(change, q, turn);
-            }
-        }
+        let Some(q) = joint.quaternion() else {
+            continue;
+        };
+        // The angular velocities of a joint are its last ones.
+        let angular: [T; 3] = part(y, joint.velocity + joint.velocities() - 3);
+        let turn = spherical::change(part(y, q), angular.map(|w| h * w));
+        set(change, q, turn);
     }
 }
 

@@ -27,11 +27,7 @@ pub(crate) fn set<T: Scalar, const N: usize>(to: &mut [T], from: usize, values: 
 }
 
 /// Calls a function with each position outside of these joints and the index of its velocity.
-pub(crate) fn each_plain(
-    joints: &[QuasiJoint],
-    positions: usize,
-    mut with: impl FnMut(usize, usize),
-) {
+fn each_plain(joints: &[QuasiJoint], positions: usize, mut with: impl FnMut(usize, usize)) {
     let (mut position, mut velocity) = (0, positions);
     for joint in joints {
         while position < joint.position {

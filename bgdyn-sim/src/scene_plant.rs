@@ -41,6 +41,7 @@ enum Slopes<F> {
 #[derive(Debug)]
 pub struct ScenePlant<'a, S: HybridSystem<T>, T: Real> {
     scene: &'a S,
+    quasi_joints: Option<&'static [QuasiJoint]>,
     /// Inputs that the scene does not drive.
     pub given: S::Inputs,
     slope: Slopes<SlopeOf<S, T>>,
@@ -53,6 +54,7 @@ impl<'a, S: HybridSystem<T>, T: Real> ScenePlant<'a, S, T> {
     pub fn new(scene: &'a S) -> Self {
         ScenePlant {
             scene,
+            quasi_joints: scene_positions::quasi_joints_of(scene),
             given: S::Inputs::zero_vector(),
             slope: Slopes::Unknown,
             sampler: Sampler::default(),
@@ -194,7 +196,7 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
     }
 
     fn quasi_joints(&self) -> Option<&[QuasiJoint]> {
-        scene_positions::quasi_joints_of(self.scene)
+        self.quasi_joints
     }
 
     fn project(&self, _: T, y: &mut S::State, _: &S::Modes) -> Result<bool, S::Singular> {

@@ -188,7 +188,7 @@ fn crates_chains_and_quadrupeds_fall_and_rest() {
 }
 
 #[test]
-#[ignore = "half an hour"]
+#[ignore = "five minutes"]
 fn ten_thousand_crates() {
     let crates = Tumbles::<f64>::default();
     assert_rests(drops("crate", (&crates, &CRATE), MANY), 1e-9, 1e-9, 0.05);

@@ -17,6 +17,9 @@ import figures
 import report
 from cases import CASES, STEPS, TOLERANCES
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from machine import undisturbed  # noqa: E402
+
 DIR = Path(os.environ["PEERS_DIR"])
 ROOT = Path(__file__).resolve().parents[3]
 HERE = Path(__file__).resolve().parent
@@ -38,21 +41,7 @@ SPECIAL = {
     "compliant": [("bgdyn", "dopri5"), ("Drake", "continuous"), ("Drake", "spring")],
 }
 CONTROLLED = ["dopri5", "continuous"]
-
-
-def priority():
-    """What to put in front of a program: one core, ahead of everything else, where that is allowed."""
-    prefix = ["chrt", "-f", "10", "taskset", "-c", str(max(os.sched_getaffinity(0)))]
-    if os.environ.get("PEERS_PRIORITY") == "0":
-        return []
-    try:
-        allowed = subprocess.run([*prefix, "true"], capture_output=True).returncode == 0
-    except FileNotFoundError:
-        allowed = False
-    return prefix if allowed else []
-
-
-PREFIX = priority()
+PREFIX = undisturbed()
 
 
 def lines(system, setting, case, more, numbers, patience, repeats, prefix):

@@ -15,6 +15,9 @@ from pathlib import Path
 
 import report
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from machine import undisturbed  # noqa: E402
+
 DIR = Path(os.environ["PEERS_DIR"])
 ROOT = Path(__file__).resolve().parents[3]
 HERE = Path(__file__).resolve().parent
@@ -48,21 +51,7 @@ def runs(scene):
         yield "Drake", "runge_kutta3", ACCURACIES, [*drake, "runge_kutta3"], False
         yield "Drake", "discrete", STEPS[:-1], [*drake, "discrete"], False
         yield "rapier", "multibody", STEPS[:-1], [str(DIR / "bin/rapier"), FLAT], False
-
-
-def priority():
-    """What to put in front of a program: one core, ahead of everything else, where that is allowed."""
-    prefix = ["chrt", "-f", "10", "taskset", "-c", str(max(os.sched_getaffinity(0)))]
-    if os.environ.get("PEERS_PRIORITY") == "0":
-        return []
-    try:
-        allowed = subprocess.run([*prefix, "true"], capture_output=True).returncode == 0
-    except FileNotFoundError:
-        allowed = False
-    return prefix if allowed else []
-
-
-PREFIX = priority()
+PREFIX = undisturbed()
 
 
 def lines(command, numbers, shared, patience):

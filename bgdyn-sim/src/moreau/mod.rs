@@ -25,7 +25,8 @@ use crate::real::{Of, Real};
 ///
 /// v⁺ = v + h v̇(t + h/2, q_m, (v + v⁺)/2) + M⁻¹ Jᵀ p,  q⁺ = q_m + (h/2) v⁺
 ///
-/// with linear velocities of planar and floating joints along axes that do not turn. The impulses p are the solution of
+/// with linear velocities of planar and floating joints along axes that do not turn, except where a scene has other rates of
+/// positions ([`Ode::quasi_joints`]). The impulses p are the solution of
 /// Coulomb's cones ([`crate::cone`]) for the velocities γ_n⁺ + e γ_n⁻ of Newton's law of restitution and γ_t⁺, at the end
 /// of the step. J and M are those in the middle. A contact that approaches by less than forces add in a step does not
 /// bounce. A contact is active if its gap would be closed at the end of the step without impulses. Where a closed contact
