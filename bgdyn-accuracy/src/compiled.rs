@@ -13,7 +13,7 @@ use crate::configuration::{Configuration, Grid, RunError, Runner, Samples, StepC
 use crate::dyn_plant::{DynPlant, PlantObject};
 use crate::integrate::{Integrate, Measured, numbers};
 use crate::scheme::Scheme;
-use crate::test_case::{References, TestCase, order};
+use crate::test_case::{References, TestCase, has_law, order};
 
 /// Name of the equations with the default formulations.
 const CHEAPEST: &str = "cheapest";
@@ -154,12 +154,15 @@ impl TestCase {
         self.reference = Some(started.by(scheme).reference());
     }
 
-    /// Adds every integrator of bgdyn-sim except that of the reference; `moreau` takes the scene as it is.
+    /// Adds every integrator of bgdyn-sim except that of the reference; `moreau` takes the scene as it is, and only with Newton's law
+    /// of impacts.
     pub fn methods<S: Slope<f64> + 'static>(&mut self, scene: S, scheme: impl Scheme) {
         let scene = leak(scene);
         let started = Started::new(ScenePlant::with_slope(scene), Run::begin(scene));
         let others = started.by(scheme);
-        for name in INTEGRATORS.iter().filter(|name| **name != REFERENCE) {
+        let law = HybridSystem::impact_law(scene);
+        let all = INTEGRATORS.iter().filter(|name| **name != REFERENCE);
+        for name in all.filter(|name| has_law(name, law)) {
             let run = match *name {
                 "moreau" => started.runner(Moreau::new),
                 name => others.runner_by_name(name),
@@ -193,7 +196,9 @@ impl TestCase {
             true => ("moreau", started.runner(Moreau::new)),
             false => ("dopri5", started.runner(|| Dopri5)),
         };
-        for (method, run) in [("rk4", started.by(scheme).runner(|| Rk4)), second] {
+        let both = [("rk4", started.by(scheme).runner(|| Rk4)), second];
+        let law = HybridSystem::impact_law(scene);
+        for (method, run) in both.into_iter().filter(|both| has_law(both.0, law)) {
             self.configurations
                 .push(configuration(method, F32, CHEAPEST, run));
         }

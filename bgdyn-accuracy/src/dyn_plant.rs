@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use bgdyn_runtime::{ContactMap, FixedVector, QuasiJoint, RigidContact};
+use bgdyn_runtime::{ContactMap, FixedVector, ImpactLaw, QuasiJoint, RigidContact};
 use bgdyn_sim::{Jacobian, Of, Plant, Power, StateVector};
 use nalgebra::SVector;
 
@@ -40,6 +40,7 @@ pub(crate) trait PlantObject<Y: StateVector, M, E> {
     ) -> Result<Option<(Y, M)>, String>;
     fn next_corner(&self, t: Of<Y>) -> Option<Of<Y>>;
     fn rigid_contacts(&self) -> usize;
+    fn impact_law(&self) -> ImpactLaw;
     fn rigid_contact_states(
         &self,
         t: Of<Y>,
@@ -165,6 +166,10 @@ impl<P: Measured> PlantObject<P::State, P::Modes, P::Values> for P {
 
     fn rigid_contacts(&self) -> usize {
         Plant::rigid_contacts(self)
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        Plant::impact_law(self)
     }
 
     fn rigid_contact_states(
@@ -298,6 +303,10 @@ where
 
     fn rigid_contacts(&self) -> usize {
         self.0.rigid_contacts()
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        self.0.impact_law()
     }
 
     fn rigid_contact_states(

@@ -105,6 +105,7 @@ pub(crate) fn in_short<E>(reason: &Reason<E>, words: impl Fn(&E) -> String) -> S
         Reason::NoConvergence { .. } => "stages not solved".into(),
         Reason::SingularMatrix => "matrix of the stages singular".into(),
         Reason::RigidContacts => "knows no rigid contacts".into(),
+        Reason::ImpactLaw => "has another law of impacts".into(),
         Reason::NoJacobian => "needs slopes".into(),
         Reason::StepTooSmall { h, .. } => format!("steps below {h:.0e} s"),
         Reason::TooManyEvents { .. } => "too many events".into(),

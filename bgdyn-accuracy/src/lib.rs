@@ -76,4 +76,4 @@ pub use row::{Row, Status, rows_csv};
 pub use scheme::{AsItIs, ByEvents, PlantAtStart, Scheme};
 pub use step_sequence::Effort;
 pub use study::{Failed, Study, StudyInfo, study};
-pub use test_case::{References, TestCase, order};
+pub use test_case::{References, TestCase, has_law, order};

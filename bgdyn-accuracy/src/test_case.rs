@@ -89,6 +89,11 @@ impl WithIntegrator<SVector<f64, 1>> for Known {
     }
 }
 
+/// Returns whether an integrator has a law of impacts: `moreau` has Newton's.
+pub fn has_law(integrator: &str, law: ImpactLaw) -> bool {
+    integrator != "moreau" || law == ImpactLaw::Newton
+}
+
 /// Returns the order of an integrator and whether it has step control, by its name in scenes; the prefix
 /// `canonical_` means the integrator of the canonical form. `None` if the name is unknown.
 pub fn order(name: &str) -> Option<(u32, bool)> {

@@ -6,12 +6,12 @@ use std::rc::Rc;
 use bgdyn_accuracy::generate::{ALL_BUT, ablations, kinked, measured, operations, own_way};
 use bgdyn_accuracy::{
     AsItIs, ByEvents, Call, Configuration, CountSteps, Grid, Integrate, Measured, PlantAtStart,
-    Priced, RunError, Runner, STEPS_METHOD, Samples, Scheme, StepControl, TestCase, order,
+    Priced, RunError, Runner, STEPS_METHOD, Samples, Scheme, StepControl, TestCase, has_law, order,
 };
 use bgdyn_codegen::engine::Engine;
 use bgdyn_codegen::method::SceneFunction;
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{ContactMap, Dd, QuasiJoint, RigidContact};
+use bgdyn_runtime::{ContactMap, Dd, ImpactLaw, QuasiJoint, RigidContact};
 use bgdyn_sim::{INTEGRATORS, Integrator, Jacobian, Plant, Power, WithIntegrator, with_integrator};
 
 use crate::simulate::{Evaluated, Evaluation, Form, Numbers, Undefined};
@@ -242,6 +242,10 @@ impl Plant for Counted {
         self.plant.rigid_contacts()
     }
 
+    fn impact_law(&self) -> ImpactLaw {
+        self.plant.impact_law()
+    }
+
     fn rigid_contact_entry(&self, contact: usize) -> usize {
         self.plant.rigid_contact_entry(contact)
     }
@@ -363,6 +367,7 @@ pub(crate) fn test_case(
         full.outputs[0].unit,
     ];
     let end = end.unwrap_or(scene.integration.end);
+    let law = scene.integration.impacts;
     let mut test_case = TestCase::new(words, end, method, step_control);
     test_case.kinked = kinked(&full);
     test_case.tolerances = TOLERANCES;
@@ -374,7 +379,8 @@ pub(crate) fn test_case(
         let row = |row: Vec<f64>| row.into_iter().map(Dd::from_f64).collect();
         Ok(ran.values.into_iter().map(row).collect())
     }));
-    for method in INTEGRATORS.iter().filter(|m| **m != REFERENCE) {
+    let all = INTEGRATORS.iter().filter(|m| **m != REFERENCE);
+    for method in all.filter(|m| has_law(m, law)) {
         let (order, controlled) = order(method)?;
         test_case.configurations.push(Configuration {
             effects: "all".into(),

@@ -62,6 +62,7 @@ impl Settings {
                 method,
                 step_control,
                 end,
+                impacts: own.impacts,
             },
             points,
             audited: true,

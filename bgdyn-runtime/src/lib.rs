@@ -88,7 +88,7 @@ pub use nalgebra;
 pub use num_dual;
 pub use operations::Operations;
 pub use pose::Pose;
-pub use rigid_contact::{ContactMap, MOST_CONTACTS, MOST_EVENT_CONTACTS, RigidContact};
+pub use rigid_contact::{ContactMap, ImpactLaw, MOST_CONTACTS, MOST_EVENT_CONTACTS, RigidContact};
 pub use scalar::Scalar;
 #[cfg(feature = "serde")]
 pub use serde;

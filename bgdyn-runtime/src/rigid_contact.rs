@@ -27,3 +27,32 @@ pub struct ContactMap<Y> {
     /// The columns of M⁻¹ Jᵀ: the change of the velocities by a unit of impulse, 1/(N·s).
     pub columns: [Y; 3],
 }
+
+/// The law of restitution at impacts from event to event.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImpactLaw {
+    /// Newton's: γ_n⁺ ≥ −e γ_n⁻. Where it would add energy, which it can with friction, Poisson's law is taken, and the
+    /// jump tells.
+    #[default]
+    Newton,
+    /// Poisson's: the normal impulse of expansion is e times that of compression.
+    Poisson,
+}
+
+impl ImpactLaw {
+    /// All laws.
+    pub const ALL: [ImpactLaw; 2] = [ImpactLaw::Newton, ImpactLaw::Poisson];
+
+    /// Returns its name in scenes.
+    pub fn name(self) -> &'static str {
+        match self {
+            ImpactLaw::Newton => "newton",
+            ImpactLaw::Poisson => "poisson",
+        }
+    }
+
+    /// Returns the law with this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|law| law.name() == name)
+    }
+}

@@ -4,7 +4,7 @@ use core::fmt::Debug;
 
 use crate::Scalar;
 use crate::joint::QuasiJoint;
-use crate::rigid_contact::{ContactMap, RigidContact};
+use crate::rigid_contact::{ContactMap, ImpactLaw, RigidContact};
 use crate::sampled::SampledControl;
 use crate::state_vector::{ArrayOf, FixedVector, MatrixOf};
 
@@ -178,6 +178,11 @@ pub trait HybridSystem<T: Scalar> {
     /// Returns for each rigid contact its entry in the balance of power: what its impulses take is dissipated there.
     fn rigid_contact_entries(&self) -> &'static [usize] {
         &[]
+    }
+
+    /// Returns the law of restitution at impacts, where integrators go from event to event.
+    fn impact_law(&self) -> ImpactLaw {
+        ImpactLaw::Newton
     }
 
     /// Writes the state of each rigid contact, in the order of their names.

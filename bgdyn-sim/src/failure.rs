@@ -25,6 +25,8 @@ pub enum Reason<E> {
     /// The equation has rigid contacts, and the integrator does not solve for their impulses; or more than
     /// [`MOST_CONTACTS`](bgdyn_runtime::MOST_CONTACTS).
     RigidContacts,
+    /// The equation has Poisson's law of restitution, and the integrator, which solves for impulses, Newton's.
+    ImpactLaw,
     /// The integrator needs the slopes of the rates, and they are not available.
     NoJacobian,
     /// The tolerance requires steps that are too small for the resolution of time.
@@ -68,6 +70,9 @@ impl<E: fmt::Debug> fmt::Display for Reason<E> {
             ),
             Self::RigidContacts => f.write_str(
                 "the method does not know so many rigid contacts: use `Moreau`, which knows 32, go from event to event with `EventDriven`, which knows 8, or use a compliant law of contact",
+            ),
+            Self::ImpactLaw => f.write_str(
+                "the method has Newton's law at impacts, and the scene Poisson's: go from event to event with `EventDriven`",
             ),
             Self::NoJacobian => f.write_str(
                 "the method needs the slopes of the rates; generate the scene with them, or take them from differences",

@@ -1,6 +1,6 @@
 //! Jacobians of the rates by finite differences.
 
-use bgdyn_runtime::{ContactMap, QuasiJoint, RigidContact, Scalar, StateVector};
+use bgdyn_runtime::{ContactMap, ImpactLaw, QuasiJoint, RigidContact, Scalar, StateVector};
 
 use crate::ode::{Jacobian, Ode, ScalarOf};
 use crate::real::{Of, Real};
@@ -71,6 +71,10 @@ where
 
     fn rigid_contacts(&self) -> usize {
         self.0.rigid_contacts()
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        self.0.impact_law()
     }
 
     fn rigid_contact_states(

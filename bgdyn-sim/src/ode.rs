@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::{ContactMap, QuasiJoint, RigidContact, StateVector};
+use bgdyn_runtime::{ContactMap, ImpactLaw, QuasiJoint, RigidContact, StateVector};
 
 use crate::real::Of;
 
@@ -123,6 +123,11 @@ pub trait Ode {
         0
     }
 
+    /// Returns the law of restitution at impacts. Integrators that solve for impulses know Newton's.
+    fn impact_law(&self) -> ImpactLaw {
+        ImpactLaw::Newton
+    }
+
     /// Writes the state of each rigid contact.
     ///
     /// # Errors
@@ -208,6 +213,10 @@ impl<O: Ode> Ode for &O {
 
     fn rigid_contacts(&self) -> usize {
         (**self).rigid_contacts()
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        (**self).impact_law()
     }
 
     fn rigid_contact_states(

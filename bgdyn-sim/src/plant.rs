@@ -2,7 +2,7 @@
 
 use core::fmt::Debug;
 
-use bgdyn_runtime::{ContactMap, QuasiJoint, RigidContact, StateVector};
+use bgdyn_runtime::{ContactMap, ImpactLaw, QuasiJoint, RigidContact, StateVector};
 
 use crate::ode::{Jacobian, Ode};
 use crate::real::Of;
@@ -150,6 +150,11 @@ pub trait Plant {
     /// The number of rigid contacts, as [`Ode::rigid_contacts`].
     fn rigid_contacts(&self) -> usize {
         0
+    }
+
+    /// The law of restitution at impacts, for [`EventDriven`](crate::EventDriven).
+    fn impact_law(&self) -> ImpactLaw {
+        ImpactLaw::Newton
     }
 
     /// The entry of the balance of power to which each rigid contact belongs.
@@ -354,6 +359,10 @@ impl<P: Plant> Ode for FixedModes<'_, P> {
 
     fn strays(&self, y: &P::State) -> bool {
         self.plant.strays(y)
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        self.plant.impact_law()
     }
 
     fn rigid_contacts(&self) -> usize {

@@ -1,8 +1,8 @@
 //! Compiled scenes as plants.
 
 use bgdyn_runtime::{
-    ArrayOf, Canonical, Contact, ContactMap, FixedVector, HybridSystem, MatrixOf, QuasiJoint,
-    RigidContact, SampledControl, Slope,
+    ArrayOf, Canonical, Contact, ContactMap, FixedVector, HybridSystem, ImpactLaw, MatrixOf,
+    QuasiJoint, RigidContact, SampledControl, Slope,
 };
 
 use crate::finite_differences::differences;
@@ -218,6 +218,10 @@ impl<S: HybridSystem<T>, T: Real> Plant for ScenePlant<'_, S, T> {
 
     fn rigid_contacts(&self) -> usize {
         self.scene.rigid_contact_names().len()
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        self.scene.impact_law()
     }
 
     fn rigid_contact_entry(&self, contact: usize) -> usize {

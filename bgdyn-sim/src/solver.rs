@@ -1,6 +1,6 @@
 //! Advances a state step by step: fixed or controlled steps, plain or compensated sums.
 
-use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
+use bgdyn_runtime::{ImpactLaw, MOST_CONTACTS, Scalar as _, StateVector};
 
 use crate::control::{Controller, Tolerance, first_step};
 use crate::dense::Dense;
@@ -256,6 +256,9 @@ where
         };
         if ode.rigid_contacts() > most {
             return Err(Reason::RigidContacts);
+        }
+        if most > 0 && ode.impact_law() != ImpactLaw::Newton {
+            return Err(Reason::ImpactLaw);
         }
         let step = self.integrator.step(ode, &self.start(), h)?;
         let t = sum_in_two(self.t, self.low_time + h);

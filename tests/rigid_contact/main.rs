@@ -5,6 +5,7 @@ mod balls;
 mod biases;
 mod drops;
 mod events;
+mod laws;
 mod planar;
 mod rest;
 mod sliding;
@@ -21,6 +22,7 @@ bgdyn::bgdyn!("collides.scene.yaml");
 bgdyn::bgdyn!("tumbles.scene.yaml");
 bgdyn::bgdyn!("falls.scene.yaml");
 bgdyn::bgdyn!("jams.scene.yaml");
+bgdyn::bgdyn!("lands.scene.yaml");
 bgdyn::bgdyn!("../../specs/contact/quadruped_rigid.scene.yaml");
 
 use bgdyn_sim::{Moreau, Run, ScenePlant};

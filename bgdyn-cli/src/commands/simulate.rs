@@ -9,7 +9,7 @@ use bgdyn_codegen::fault::{Fault, Faults};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::{Integration, IntegratorName, Scene, StepControl};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::MOST_EVENT_CONTACTS;
+use bgdyn_runtime::{ImpactLaw, MOST_EVENT_CONTACTS};
 use clap::Args;
 
 use self::many::{Batch, Many};
@@ -211,6 +211,13 @@ impl Simulate {
                 method.name()
             )));
         }
+        if scene.impacts != ImpactLaw::Newton && method.solves_contacts() {
+            return Err(Usage(format!(
+                "`{}` has Newton's law at impacts, and the scene's `impacts` is `{}`: use a method that goes from event to event, such as `dop853`",
+                method.name(),
+                scene.impacts.name()
+            )));
+        }
         let step_control = match (given.step, given.tolerance) {
             (Some(step), _) => StepControl::Step(step),
             (_, Some(tolerance)) => StepControl::Tolerance(tolerance),
@@ -231,6 +238,7 @@ impl Simulate {
             method,
             step_control,
             end: given.end.unwrap_or(scene.end),
+            impacts: scene.impacts,
         };
         match too_many_steps(&integration) {
             Some(message) => Err(Usage(message)),

@@ -7,6 +7,7 @@ use bgdyn_codegen::declaration::keys_declared;
 use bgdyn_codegen::effect::{EFFECTS, Effect};
 use bgdyn_codegen::format::Dimension;
 use bgdyn_codegen::scene::IntegratorName;
+use bgdyn_runtime::ImpactLaw;
 use serde_json::{Map, Value, json};
 
 use super::effects::{effects, reads};
@@ -407,6 +408,13 @@ fn integration() -> Value {
             ),
         ),
         ("end", described("when the run ends, s", time())),
+        (
+            "impacts",
+            described(
+                "law of restitution at impacts",
+                json!({ "enum": ImpactLaw::ALL.map(ImpactLaw::name) }),
+            ),
+        ),
     ];
     described("how the scene is run", object(&keys, &[]))
 }

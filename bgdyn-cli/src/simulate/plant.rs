@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bgdyn_codegen::engine::{CallArguments, Engine, Status};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::{Contact, ContactMap, Dd, QuasiJoint, RigidContact};
+use bgdyn_runtime::{Contact, ContactMap, Dd, ImpactLaw, QuasiJoint, RigidContact};
 use bgdyn_sim::{HybridState, Jacobian, Plant, Power, Sampler, Stiction, quasi_joints};
 use nalgebra::{DMatrix, DVector};
 
@@ -281,6 +281,10 @@ impl Plant for Evaluated<'_> {
 
     fn rigid_contacts(&self) -> usize {
         self.system.scene.layout.rigid_contacts.len()
+    }
+
+    fn impact_law(&self) -> ImpactLaw {
+        self.system.scene.integration.impacts
     }
 
     fn rigid_contact_entry(&self, contact: usize) -> usize {

@@ -5,7 +5,7 @@ use std::iter::once;
 
 use bgdyn_codegen::scene::{Integration, StepControl};
 use bgdyn_codegen::system::SceneEquations;
-use bgdyn_runtime::Digits;
+use bgdyn_runtime::{Digits, ImpactLaw};
 
 use crate::table;
 
@@ -20,13 +20,21 @@ pub fn summary(name: &str, integration: &Integration) -> String {
         method,
         step_control,
         end,
+        impacts,
     } = integration;
     let step_control = match step_control {
         StepControl::Step(h) => format!("in steps of {} s", short(*h)),
         StepControl::Tolerance(t) => format!("with the tolerance {}", short(*t)),
     };
     let end = short(*end);
-    format!("{name}: {} {step_control}, to t = {end} s", method.name())
+    let law = match impacts {
+        ImpactLaw::Newton => "",
+        ImpactLaw::Poisson => ", impacts by Poisson's law",
+    };
+    format!(
+        "{name}: {} {step_control}, to t = {end} s{law}",
+        method.name()
+    )
 }
 
 /// Returns the points as comma-separated values, with the columns' units in the first line.

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use bgdyn_runtime::ImpactLaw;
+
 use crate::bond_graph;
 use crate::effect;
 use crate::format::{Dimension, Located, Raw, SceneSpec, parse_scene};
@@ -30,6 +32,8 @@ pub struct SceneInterface {
     pub mode_coordinates: Vec<usize>,
     /// The instants, s, at which an input bends, in increasing order.
     pub corners: Vec<f64>,
+    /// The law of restitution at impacts.
+    pub impacts: ImpactLaw,
     /// How controllers are sampled.
     pub control: Option<Control>,
     /// Run-time parameters.
@@ -47,6 +51,7 @@ impl SceneInterface {
             entries: system.entries.clone(),
             mode_coordinates: system.mode_coordinates(),
             corners: system.scene.corners(),
+            impacts: system.scene.integration.impacts,
             control: system.scene.control.clone(),
             parameters: system.scene.parameters.clone(),
         }
@@ -208,6 +213,7 @@ fn nothing() -> SceneInterface {
         entries: own.map(named).to_vec(),
         mode_coordinates: Vec::new(),
         corners: Vec::new(),
+        impacts: ImpactLaw::Newton,
         control: None,
         parameters: Vec::new(),
     }

@@ -1,5 +1,7 @@
 //! The settings of a scene's integration, and the table of the integrators that it can name.
 
+use bgdyn_runtime::ImpactLaw;
+
 /// The settings of a scene's integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Integration {
@@ -9,6 +11,8 @@ pub struct Integration {
     pub step_control: StepControl,
     /// End of the run, s.
     pub end: f64,
+    /// The law of restitution at impacts, where the integrator goes from event to event.
+    pub impacts: ImpactLaw,
 }
 
 /// The choice of steps.

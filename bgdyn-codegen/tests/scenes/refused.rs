@@ -85,6 +85,7 @@ fn a_method_and_what_its_steps_go_by_fit_together() {
 #[test]
 fn a_run_is_as_the_scene_says() {
     use bgdyn_codegen::scene::{Integration, IntegratorName, StepControl};
+    use bgdyn_runtime::ImpactLaw;
     let run = |text: &str| {
         let text = format!("scene: 1\nmechanism: arm.yaml\neffects: [inertia]\n{text}");
         scene(&text, MECHANISM).scene.integration
@@ -93,6 +94,7 @@ fn a_run_is_as_the_scene_says() {
         method,
         step_control,
         end,
+        impacts: ImpactLaw::Newton,
     };
     let usual = wanted(IntegratorName::Rk4, StepControl::Step(1e-3), 1.0);
     assert_eq!(run(""), usual);

@@ -299,6 +299,8 @@ fn what_rigid_contacts_refuse() {
         "",
         "integration: { method: rk4 }\n",
         "integration: { method: dopri5 }\n",
+        "integration: { method: dop853, impacts: poisson }\n",
+        "integration: { impacts: newton }\n",
     ] {
         let more = format!("initial: {{ fall: 10 mm }}\n{more}");
         assert_eq!(rigid(floor, &more), "sound", "{more}");
@@ -309,6 +311,18 @@ fn what_rigid_contacts_refuse() {
             "initial: { fall: 10 mm }\nintegration: { method: canonical_midpoint }\n",
             "integration",
             "`canonical_midpoint` integrates momenta",
+        ),
+        (
+            "contact: floor",
+            "initial: { fall: 10 mm }\nintegration: { impacts: poisson }\n",
+            "integration",
+            "`moreau` has Newton's law",
+        ),
+        (
+            "contact: floor",
+            "initial: { fall: 10 mm }\nintegration: { method: rk4, impacts: poison }\n",
+            "unknown-name",
+            "`poisson`",
         ),
         (
             "contact: floor",
@@ -354,6 +368,18 @@ fn what_rigid_contacts_refuse() {
             "{keys} {more}: {text}"
         );
     }
+}
+
+#[test]
+fn a_law_of_impacts_without_contacts_is_refused() {
+    let text =
+        "scene: 1\nmechanism: m.yaml\neffects: [inertia]\nintegration: { impacts: newton }\n";
+    let refusal = try_scene(text, BALL).expect_err("no rigid contact");
+    let text = told(&refusal, text);
+    assert!(
+        text.contains("[integration]") && text.contains("the scene has none"),
+        "{text}"
+    );
 }
 
 /// Returns the message about a scene with rigid contacts at these cubes, of eight corners each, with these other contacts

@@ -1,9 +1,8 @@
 //! The equation of a plant with its contacts in their modes: forces and accelerations.
 
-use bgdyn_runtime::{MOST_EVENT_CONTACTS, Scalar as _, StateVector};
+use bgdyn_runtime::{ImpactLaw, MOST_EVENT_CONTACTS, Scalar as _, StateVector};
 
 use super::error::EventError;
-use super::impact::ImpactLaw;
 use super::modes::{ContactModes, PerContact};
 use super::snapshot::Snapshot;
 use crate::plant::{Plant, Time};
@@ -49,9 +48,9 @@ impl<P: Plant> EventDriven<P>
 where
     Time<P>: Real,
 {
-    /// Returns the plant with Newton's law of restitution.
+    /// Returns the plant with its law of restitution ([`Plant::impact_law`]).
     pub fn new(plant: P) -> Self {
-        let law = ImpactLaw::default();
+        let law = plant.impact_law();
         EventDriven { plant, law }
     }
 

@@ -1,23 +1,12 @@
 //! Impacts: jumps of the velocities by impulses of all contacts that touch.
 
-use bgdyn_runtime::{Scalar as _, StateVector};
+use bgdyn_runtime::{ImpactLaw, Scalar as _, StateVector};
 
 use super::impulses::{by_cones, note_losses};
 use super::modes::{Jump, PerContact};
 use super::poisson;
 use super::snapshot::Snapshot;
 use crate::real::{Of, Real};
-
-/// The law of restitution at impacts.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ImpactLaw {
-    /// Newton's: γ_n⁺ ≥ −e γ_n⁻. Where it would add energy, which it can with friction, Poisson's law is taken, and
-    /// [`Jump::by_poisson`] tells.
-    #[default]
-    Newton,
-    /// Poisson's: the normal impulse of expansion is e times that of compression.
-    Poisson,
-}
 
 /// Returns the impulses with which contacts, where `active`, meet. Where `ends` holds, a contact comes to rest: e = 0.
 pub(super) fn impact<Y: StateVector>(

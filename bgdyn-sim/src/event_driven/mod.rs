@@ -12,11 +12,11 @@ mod settle;
 mod snapshot;
 mod system;
 
+pub use bgdyn_runtime::ImpactLaw;
 use bgdyn_runtime::{HybridSystem, MOST_EVENT_CONTACTS, StateVector};
 
 pub use self::equations::EventDriven;
 pub use self::error::EventError;
-pub use self::impact::ImpactLaw;
 pub use self::modes::{ContactMode, ContactModes, Jump};
 
 use self::equations::{ErrorOf, PlantModes, closes};
@@ -53,7 +53,7 @@ impl<V: EventValues<T>, T: Real> EventValues<T> for ContactEvents<V, T> {
 }
 
 impl<'a, S: HybridSystem<T>, T: Real> EventDriven<ScenePlant<'a, S, T>> {
-    /// Returns a run of a scene from its start, by an integrator, with Newton's law of restitution.
+    /// Returns a run of a scene from its start, by an integrator, with the scene's law of restitution.
     pub fn run<M: Integrator<S::State>>(scene: &'a S, integrator: M) -> Run<Self, M> {
         let HybridState { t, y, modes } = Run::begin(scene);
         let modes = ContactModes::open(modes);

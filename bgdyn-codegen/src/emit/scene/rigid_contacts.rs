@@ -1,5 +1,6 @@
 //! Emits what a scene with rigid contacts has more than others.
 
+use bgdyn_runtime::ImpactLaw;
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -76,7 +77,11 @@ pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
         let mut entries = scene.entries.iter();
         size(entries.position(|entry| entry.name == *name).unwrap_or(0))
     });
+    let law = (scene.impacts == ImpactLaw::Poisson).then(|| {
+        quote! { fn impact_law(&self) -> __rt::ImpactLaw { __rt::ImpactLaw::Poisson } }
+    });
     quote! {
+        #law
         fn rigid_contact_names(&self) -> &'static [&'static str] { &[#(#names),*] }
         fn rigid_contact_entries(&self) -> &'static [usize] { &[#(#entries),*] }
         fn rigid_contact_states(

@@ -282,6 +282,24 @@ pub(crate) fn unknown_integrator(location: &Location, word: &str, known: &[&str]
     Fault::new(location, "unknown-name", message).with_help("leave `method` out for `rk4`")
 }
 
+pub(crate) fn unknown_impact_law(location: &Location, word: &str, known: &[&str]) -> Fault {
+    let message = unknown_name("law of impacts", word, known, &known.join(", "));
+    Fault::new(location, "unknown-name", message).with_help("leave `impacts` out for `newton`")
+}
+
+pub(crate) fn impacts_without_contacts(location: &Location) -> Fault {
+    let message = "`impacts` is a law for rigid contacts: the scene has none".to_owned();
+    Fault::new(location, "integration", message)
+        .with_help("leave `impacts` out, or write an effect `rigid_contact`")
+}
+
+pub(crate) fn impacts_of_time_stepping(location: &Location, method: &str) -> Fault {
+    let message = format!("`{method}` has Newton's law at impacts, and `impacts` is another");
+    Fault::new(location, "integration", message).with_help(
+        "leave `impacts` out, or choose a `method` that goes from event to event, such as `dop853`",
+    )
+}
+
 // Overrides
 
 /// `what` is the kind of value that is looked for; the scene has none.

@@ -1,8 +1,9 @@
 //! Checks that a scene with rigid contacts has an integrator for them, and nothing that it cannot solve with them.
 
-use bgdyn_runtime::{MOST_CONTACTS, MOST_EVENT_CONTACTS};
+use bgdyn_runtime::{ImpactLaw, MOST_CONTACTS, MOST_EVENT_CONTACTS};
 
 use super::super::{IntegratorName, Scene};
+use super::run::IMPACTS;
 use crate::fault::{Faults, wording};
 use crate::format::SceneSpec;
 
@@ -19,10 +20,20 @@ pub(super) fn with_integrator(spec: &SceneSpec, mut scene: Scene) -> Scene {
 pub(super) fn check(spec: &SceneSpec, scene: &Scene, faults: &mut Faults) {
     let rigid = &scene.layout.rigid_contacts;
     let first = scene.elements.iter().find(|e| rigid.contains(&e.name));
-    let Some(first) = first else { return };
+    let impacts = spec.integration.value();
+    let impacts = impacts.filter(|raw| raw.peek(IMPACTS.name).is_some());
+    let Some(first) = first else {
+        if let Some(raw) = impacts {
+            faults.push(wording::impacts_without_contacts(&raw.location));
+        }
+        return;
+    };
     let method = scene.integration.method;
     let location = spec.integration.value().map(|raw| &raw.location);
     let location = location.unwrap_or(&first.location);
+    if scene.integration.impacts != ImpactLaw::Newton && method.solves_contacts() {
+        faults.push(wording::impacts_of_time_stepping(location, method.name()));
+    }
     if method.needs_canonical() {
         faults.push(wording::canonical_of_rigid_contacts(
             location,

@@ -1,6 +1,6 @@
 //! Checks a scene's settings of integration: integrator, step or tolerance, end.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, ImpactLaw};
 
 use super::super::{Integration, IntegratorName, StepControl};
 use crate::fault::wording::expected;
@@ -31,8 +31,10 @@ const END_TIME: Key = key(
     "when the run ends",
 );
 
+pub(super) const IMPACTS: Key = key("impacts", Reads::Word(&[]), "law of restitution at impacts");
+
 /// The keys of `integration`.
-const KEYS: [Key; 4] = [METHOD, STEP_LENGTH, STEP_ERROR, END_TIME];
+const KEYS: [Key; 5] = [METHOD, STEP_LENGTH, STEP_ERROR, END_TIME, IMPACTS];
 
 const fn key(name: &'static str, reads: Reads, about: &'static str) -> Key {
     Key {
@@ -50,6 +52,7 @@ pub(super) fn integration(field: &Field<Raw>, faults: &mut Faults) -> Integratio
         method: IntegratorName::Rk4,
         step_control: StepControl::Step(STEP),
         end: END,
+        impacts: ImpactLaw::Newton,
     })
 }
 
@@ -60,6 +63,7 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
     let end = positive(&fields, &END_TIME, "a time such as `5 s`", faults);
     let step = positive(&fields, &STEP_LENGTH, "a time such as `1 ms`", faults);
     let tolerance = positive(&fields, &STEP_ERROR, "a number such as `1e-8`", faults);
+    let impacts = impacts(&fields, faults);
     let method = method?;
     let step_control = match (step, tolerance) {
         (None, None) if method.controls_its_error() => StepControl::Tolerance(TOLERANCE),
@@ -75,6 +79,23 @@ fn settings(raw: &Raw, faults: &mut Faults) -> Option<Integration> {
         method,
         step_control,
         end,
+        impacts,
+    })
+}
+
+/// Returns the law of restitution, by default Newton's; reports an unknown name.
+fn impacts(fields: &Fields, faults: &mut Faults) -> ImpactLaw {
+    let Some(Located {
+        value: ParsedValue::Text(word),
+        location,
+    }) = fields.get(&IMPACTS)
+    else {
+        return ImpactLaw::Newton;
+    };
+    ImpactLaw::named(word).unwrap_or_else(|| {
+        let known = ImpactLaw::ALL.map(ImpactLaw::name);
+        faults.push(wording::unknown_impact_law(location, word, &known));
+        ImpactLaw::Newton
     })
 }
 
