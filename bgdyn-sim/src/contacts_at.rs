@@ -18,11 +18,21 @@ pub(crate) fn contacts_at<O: Ode, const K: usize>(
         friction: zero,
         restitution: zero,
     }; K];
-    let number = ode.rigid_contacts();
-    if number > 0 {
-        ode.rigid_contact_states(t, y, &mut contacts[..number])?;
-    }
+    write_contacts(ode, t, y, &mut contacts)?;
     Ok(contacts)
+}
+
+/// Writes the contacts in a state, as many as the equation has.
+pub(crate) fn write_contacts<O: Ode>(
+    ode: &O,
+    t: ScalarOf<O>,
+    y: &O::State,
+    contacts: &mut [RigidContact<ScalarOf<O>>],
+) -> Result<(), O::Error> {
+    match ode.rigid_contacts() {
+        0 => Ok(()),
+        number => ode.rigid_contact_states(t, y, &mut contacts[..number]),
+    }
 }
 
 /// Returns the scalar product of the velocities of two states: of their components after the positions.

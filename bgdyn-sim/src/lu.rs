@@ -91,6 +91,32 @@ pub(crate) fn solve<T: Real>(a: &[T], pivots: &[usize], x: &mut [T]) {
     }
 }
 
+/// Solves for four right-hand sides at once, the rows of x, as [`solve`] does for each.
+pub(crate) fn solve_four<T: Real>(a: &[T], pivots: &[usize], x: &mut [[T; 4]]) {
+    let n = x.len();
+    for (k, &p) in pivots.iter().enumerate() {
+        x.swap(k, p);
+    }
+    for (k, column) in a.chunks(n.max(1)).enumerate() {
+        let top = x[k];
+        eliminate_four(&mut x[k + 1..], &column[k + 1..], top);
+    }
+    for (k, column) in a.chunks(n.max(1)).enumerate().rev() {
+        let top = x[k].map(|x| x / column[k]);
+        x[k] = top;
+        eliminate_four(&mut x[..k], &column[..k], top);
+    }
+}
+
+/// Computes x ← x − column · topᵀ.
+fn eliminate_four<T: Real>(x: &mut [[T; 4]], column: &[T], top: [T; 4]) {
+    for (row, &factor) in x.iter_mut().zip(column) {
+        for (x, top) in row.iter_mut().zip(top) {
+            *x = *x - factor * top;
+        }
+    }
+}
+
 /// Computes x ← x − top · column.
 fn eliminate<T: Real>(x: &mut [T], column: &[T], top: T) {
     for (x, &factor) in x.iter_mut().zip(column) {

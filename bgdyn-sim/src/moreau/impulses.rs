@@ -5,7 +5,7 @@ use bgdyn_runtime::{ContactMap, MOST_CONTACTS, RigidContact, Scalar as _, StateV
 use super::middle::Middle;
 use crate::cone::{ContactOptions, ContactOutcome, ContactProblem, improve, solve};
 use crate::contact_step::ContactStep;
-use crate::contacts_at::{contacts_at, dot, products};
+use crate::contacts_at::{dot, products, write_contacts};
 use crate::failure::Reason;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
@@ -22,19 +22,21 @@ type Components<T> = [T; 3];
 type AllImpulses<T> = [Components<T>; MOST_CONTACTS];
 
 /// The contacts of a step and their impulses.
-pub(super) struct Impulses<Y: StateVector> {
+pub(super) struct Impulses<'m, Y: StateVector> {
     options: ContactOptions<Of<Y>>,
     number: usize,
     /// The contacts at the beginning of the step, and in its middle with the velocities of the beginning.
     pub(super) before: Contacts<Of<Y>>,
     middle: Contacts<Of<Y>>,
+    /// The contacts at the end of the step, with the last velocities.
+    ahead: Contacts<Of<Y>>,
     /// Those whose gap would close.
     pub(super) active: [bool; MOST_CONTACTS],
     /// Those that approach by less than forces add in the step: after a bounce they would touch again within it. They do
     /// not bounce, but close what is left of their gap.
     pub(super) slow: [bool; MOST_CONTACTS],
     /// Their Jacobian, and M⁻¹ Jᵀ, in the middle; B⁻¹ M⁻¹ Jᵀ of the contacts that are `implicit`.
-    pub(super) maps: [Option<ContactMap<Y>>; MOST_CONTACTS],
+    pub(super) maps: &'m mut [Option<ContactMap<Y>>],
     implicit: [bool; MOST_CONTACTS],
     impulses: AllImpulses<Of<Y>>,
     /// Whether the impulses are sought with little effort, while the velocities still change.
@@ -47,17 +49,15 @@ pub(super) struct Impulses<Y: StateVector> {
 /// The contacts of an equation in a state; those after its own ones are zero.
 pub(super) type Contacts<T> = [RigidContact<T>; MOST_CONTACTS];
 
-impl<Y: StateVector> Impulses<Y>
+impl<'m, Y: StateVector> Impulses<'m, Y>
 where
     Of<Y>: Real,
 {
-    /// Returns the impulses of a step, of so many contacts `before` it and in its `middle`. The search for them begins at
-    /// those of the last step, times a factor.
-    ///
-    /// It cannot fail, so that the maps are made where they stay: a `Result` of so many would be copied.
+    /// Returns the impulses of a step, of as many contacts as there are `maps`, `before` it and in its `middle`. The search
+    /// for them begins at those of the last step, times a factor.
     pub(super) fn new(
         options: ContactOptions<Of<Y>>,
-        number: usize,
+        maps: &'m mut [Option<ContactMap<Y>>],
         (before, middle): (Contacts<Of<Y>>, Contacts<Of<Y>>),
         last: Option<(AllImpulses<Of<Y>>, Of<Y>)>,
     ) -> Self {
@@ -68,12 +68,13 @@ where
         };
         Impulses {
             options,
-            number,
+            number: maps.len(),
             before,
             middle,
+            ahead: before,
             active: [false; MOST_CONTACTS],
             slow: [false; MOST_CONTACTS],
-            maps: [const { None }; MOST_CONTACTS],
+            maps,
             implicit: [false; MOST_CONTACTS],
             impulses,
             rough: true,
@@ -98,6 +99,12 @@ where
         self.linear = true;
     }
 
+    /// Returns whether no contact bounces.
+    pub(super) fn are_slow(&self) -> bool {
+        let mut contacts = self.active.iter().zip(&self.slow);
+        contacts.all(|(&active, &slow)| slow || !active)
+    }
+
     /// Marks the impulses as not solved. Returns whether there are active contacts.
     pub(super) fn give_up(&mut self) -> bool {
         if let Some(outcome) = &mut self.outcome {
@@ -113,7 +120,7 @@ where
     pub(super) fn pushed<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
-        middle: &Middle<Y>,
+        middle: &Middle<'_, Y>,
         free: &Y,
     ) -> Result<Y, Reason<O::Error>> {
         if self.number == 0 {
@@ -128,12 +135,12 @@ where
         };
         let mut end = known.clone();
         middle.advance(ode, &mut end)?;
-        let mut ahead = contacts_at(ode, middle.end(), &end).map_err(Reason::Singular)?;
-        self.find_active(&ahead, first);
+        write_contacts(ode, middle.end(), &end, &mut self.ahead).map_err(Reason::Singular)?;
+        self.find_active(first);
         if first {
             for (c, slow) in self.slow.iter_mut().enumerate() {
                 let approach = self.before[c].velocity[2];
-                *slow = approach.abs() <= (ahead[c].velocity[2] - approach).abs();
+                *slow = approach.abs() <= (self.ahead[c].velocity[2] - approach).abs();
             }
         }
         let (at, n) = listed(&self.active);
@@ -147,10 +154,10 @@ where
         if self.linear {
             let gained = free.plus(-Of::<Y>::from_f64(1.0), &middle.y);
             for &c in &at[..n] {
-                ahead[c].velocity = self.after(c, middle, &gained);
+                self.ahead[c].velocity = self.after(c, middle, &gained);
             }
         }
-        let given = (middle, &ahead, without);
+        let given = (middle, without);
         match n {
             1 => self.solve::<1>(given, &at[..n]),
             2..=4 => self.solve::<4>(given, &at[..n]),
@@ -175,10 +182,11 @@ where
     }
 
     /// Finds the contacts whose gap would be closed at the end of the step. A contact stays active in its step; one that
-    /// is found later begins without an impulse, as `ahead` is without it.
-    fn find_active(&mut self, ahead: &Contacts<Of<Y>>, first: bool) {
+    /// is found later begins without an impulse, as velocities are without it.
+    fn find_active(&mut self, first: bool) {
         let zero = Of::<Y>::from_f64(0.0);
-        for c in (0..self.number).filter(|&c| ahead[c].gap <= zero) {
+        let ahead = &self.ahead[..self.number];
+        for (c, _) in ahead.iter().enumerate().filter(|at| at.1.gap <= zero) {
             if !first && !self.active[c] {
                 self.impulses[c] = [zero; 3];
             }
@@ -200,7 +208,7 @@ where
     pub(super) fn remake_maps<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
-        middle: &Middle<Y>,
+        middle: &Middle<'_, Y>,
     ) -> Result<(), Reason<O::Error>> {
         if self.maps.iter().any(Option::is_some) {
             self.make_maps(ode, middle)?;
@@ -213,40 +221,34 @@ where
     fn make_maps<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
-        middle: &Middle<Y>,
+        middle: &Middle<'_, Y>,
     ) -> Result<(), Reason<O::Error>> {
-        ode.rigid_contact_maps(middle.t, &middle.y, &mut self.maps[..self.number])
+        ode.rigid_contact_maps(middle.t, &middle.y, &mut self.maps)
             .map_err(Reason::Singular)?;
         self.implicit = [false; MOST_CONTACTS];
         Ok(())
     }
 
     /// Turns M⁻¹ Jᵀ of the contacts `at` into B⁻¹ M⁻¹ Jᵀ.
-    fn make_implicit(&mut self, middle: &Middle<Y>, at: &[usize]) {
+    fn make_implicit(&mut self, middle: &Middle<'_, Y>, at: &[usize]) {
         for &c in at {
             if let (false, Some(map)) = (self.implicit[c], &mut self.maps[c]) {
-                map.columns
-                    .iter_mut()
-                    .for_each(|column| middle.solve(column));
+                middle.solve_three(&mut map.columns);
                 self.implicit[c] = true;
             }
         }
     }
 
-    /// Solves for the impulses of the contacts `at`, of which there are at most K. `ahead` are the contacts at the end of
-    /// the step with the last impulses, or `without` impulses.
-    fn solve<const K: usize>(
-        &mut self,
-        (middle, ahead, without): (&Middle<Y>, &Contacts<Of<Y>>, bool),
-        at: &[usize],
-    ) {
+    /// Solves for the impulses of the contacts `at`, of which there are at most K. Those ahead have the last impulses, or are
+    /// `without` impulses.
+    fn solve<const K: usize>(&mut self, (middle, without): (&Middle<'_, Y>, bool), at: &[usize]) {
         let zero = Of::<Y>::from_f64(0.0);
         let delassus = self.delassus::<K>(middle.positions, at);
         let mut velocities = [[zero; 3]; K];
         let (mut friction, mut active) = ([zero; K], [false; K]);
         let mut impulses = [[zero; 3]; K];
         for (i, &c) in at.iter().enumerate() {
-            velocities[i] = ahead[c].velocity;
+            velocities[i] = self.ahead[c].velocity;
             velocities[i][2] = velocities[i][2] + self.returned(c, middle.h);
             (friction[i], active[i]) = (self.before[c].friction, true);
             impulses[i] = self.impulses[c];
@@ -305,7 +307,7 @@ where
     }
 
     /// Returns the velocity of a contact with J in the middle, where the velocities have `gained` so much in the step.
-    fn after(&self, c: usize, middle: &Middle<Y>, gained: &Y) -> Components<Of<Y>> {
+    fn after(&self, c: usize, middle: &Middle<'_, Y>, gained: &Y) -> Components<Of<Y>> {
         let mut velocity = self.middle[c].velocity;
         if let Some(map) = &self.maps[c] {
             for (velocity, row) in velocity.iter_mut().zip(&map.rows) {
@@ -316,7 +318,7 @@ where
     }
 
     /// Returns impulses and losses, with the velocities at the end.
-    pub(super) fn result(&self, middle: &Middle<Y>, end: &Y) -> ContactStep<Of<Y>> {
+    pub(super) fn result(&self, middle: &Middle<'_, Y>, end: &Y) -> ContactStep<Of<Y>> {
         let zero = Of::<Y>::from_f64(0.0);
         let mut step = ContactStep {
             impulses: [[zero; 3]; MOST_CONTACTS],

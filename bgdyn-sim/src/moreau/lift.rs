@@ -9,7 +9,7 @@ use bgdyn_runtime::{MOST_CONTACTS, Scalar as _, StateVector};
 use super::impulses::{Contacts, Impulses, listed};
 use crate::cone::{ContactOptions, ContactProblem, solve};
 use crate::contact_step::ContactStep;
-use crate::contacts_at::contacts_at;
+use crate::contacts_at::{contacts_at, write_contacts};
 use crate::failure::Reason;
 use crate::motion::moved;
 use crate::ode::Ode;
@@ -20,7 +20,7 @@ pub(super) fn lifted<O: Ode>(
     ode: &O,
     (t, h): (Of<O::State>, Of<O::State>),
     end: &mut O::State,
-    impulses: &Impulses<O::State>,
+    impulses: &Impulses<'_, O::State>,
     step: &mut ContactStep<Of<O::State>>,
 ) -> Result<(), Reason<O::Error>>
 where
@@ -51,7 +51,7 @@ where
             9..=16 => shift::<O, 16>(ode, t, end, given)?,
             _ => shift::<O, MOST_CONTACTS>(ode, t, end, given)?,
         }
-        contacts = contacts_at(ode, t, end).map_err(Reason::Singular)?;
+        write_contacts(ode, t, end, &mut contacts).map_err(Reason::Singular)?;
     }
     step.depth = deepest(&contacts, &[true; MOST_CONTACTS]);
     Ok(())
@@ -66,7 +66,7 @@ fn deepest<T: Real>(contacts: &Contacts<T>, among: &[bool; MOST_CONTACTS]) -> T 
 }
 
 /// What moves positions: the maps, the contacts, and the list of those that overlap.
-type Overlaps<'a, Y> = (&'a Impulses<Y>, &'a Contacts<Of<Y>>, &'a [usize]);
+type Overlaps<'a, Y> = (&'a Impulses<'a, Y>, &'a Contacts<Of<Y>>, &'a [usize]);
 
 /// Moves the positions so that the gaps of these contacts, at most K, are 0 or more: contacts without friction, with gaps in
 /// place of velocities.

@@ -3,7 +3,7 @@
 use bgdyn_runtime::{ArrayOf, MatrixOf, Scalar as _, StateVector};
 
 use crate::failure::Reason;
-use crate::lu::{factor, solve};
+use crate::lu::{factor, solve, solve_four};
 use crate::motion::{add_turning, moved, turn_velocities};
 use crate::ode::Ode;
 use crate::real::{Of, Real};
@@ -13,7 +13,7 @@ pub(super) const NEGLIGIBLE: f64 = 256.0;
 
 /// The middle of a step. Components that are not positions are called velocities here; first-order states are among them.
 /// Velocities of the beginning and of the end are along the axes of links in the middle.
-pub(super) struct Middle<Y: StateVector> {
+pub(super) struct Middle<'a, Y: StateVector> {
     /// t + h/2
     pub(super) t: Of<Y>,
     /// h
@@ -23,7 +23,8 @@ pub(super) struct Middle<Y: StateVector> {
     /// The number of positions.
     pub(super) positions: usize,
     /// The factors of B = 1 − (h/2) ∂v̇/∂v, of this step or of one before; without them B = 1.
-    factors: Option<Factors<Y>>,
+    own: Option<Factors<Y>>,
+    before: Option<&'a Factors<Y>>,
     linearised: bool,
 }
 
@@ -59,7 +60,7 @@ where
     Ok(y)
 }
 
-impl<Y: StateVector> Middle<Y>
+impl<'a, Y: StateVector> Middle<'a, Y>
 where
     Of<Y>: Real,
 {
@@ -69,25 +70,32 @@ where
         (t, y): (Of<Y>, Y),
         h: Of<Y>,
         positions: usize,
-        factors: Option<&Factors<Y>>,
+        factors: Option<&'a Factors<Y>>,
     ) -> Self {
         Middle {
             t: t + h * Of::<Y>::from_f64(0.5),
             h,
             y,
             positions,
-            factors: factors.filter(|factors| factors.age < MOST_STEPS).cloned(),
+            own: None,
+            before: factors.filter(|factors| factors.age < MOST_STEPS),
             linearised: false,
         }
     }
 
     /// Returns the factors of B for the next step.
     pub(super) fn into_factors(self) -> Option<Factors<Y>> {
-        let age = |factors: Factors<Y>| Factors {
-            age: factors.age + 1,
-            ..factors
-        };
-        self.factors.map(age)
+        self.own.or_else(|| {
+            let before = self.before?;
+            let mut same = before.clone();
+            same.age += 1;
+            Some(same)
+        })
+    }
+
+    /// Returns the factors of B.
+    fn factors(&self) -> Option<&Factors<Y>> {
+        self.own.as_ref().or(self.before)
     }
 
     /// Returns the velocities at the end without impulses, from a guess of those with impulses: one step of Newton's method
@@ -156,20 +164,43 @@ where
         if !factor(&mut entries[..n * n], &mut pivots.as_mut()[..n], n) {
             return Err(Reason::SingularMatrix);
         }
-        self.factors = Some(Factors {
+        self.own = Some(Factors {
             matrix,
             pivots,
-            age: 0,
+            age: 1,
         });
         Ok(true)
     }
 
     /// Replaces velocities x by B⁻¹ x.
     pub(super) fn solve(&self, x: &mut Y) {
-        if let Some(Factors { matrix, pivots, .. }) = &self.factors {
+        if let Some(Factors { matrix, pivots, .. }) = self.factors() {
             let x = &mut x.entries_mut()[self.positions..];
             let n = x.len();
             solve(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], x);
+        }
+    }
+
+    /// Does the same for three vectors of velocities.
+    pub(super) fn solve_three(&self, columns: &mut [Y; 3]) {
+        let Some(Factors { matrix, pivots, .. }) = self.factors() else {
+            return;
+        };
+        let n = self.y.entries().len() - self.positions;
+        let mut rows = self.y.array([Of::<Y>::from_f64(0.0); 4]);
+        let rows = &mut rows.as_mut()[..n];
+        for (k, column) in columns.iter().enumerate() {
+            let velocities = &column.entries()[self.positions..];
+            for (row, &x) in rows.iter_mut().zip(velocities) {
+                row[k] = x;
+            }
+        }
+        solve_four(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], rows);
+        for (k, column) in columns.iter_mut().enumerate() {
+            let velocities = &mut column.entries_mut()[self.positions..];
+            for (row, x) in rows.iter().zip(velocities) {
+                *x = row[k];
+            }
         }
     }
 

@@ -5,7 +5,7 @@ mod impulses;
 mod lift;
 mod middle;
 
-use bgdyn_runtime::{Scalar as _, StateVector};
+use bgdyn_runtime::{ContactMap, MOST_CONTACTS, StateVector};
 
 use self::convergence::Convergence;
 use self::impulses::Impulses;
@@ -65,6 +65,8 @@ impl<T: Real> Default for Moreau<T> {
 pub struct MoreauStages<Y: StateVector> {
     contacts: ContactStep<Of<Y>>,
     factors: Option<Factors<Y>>,
+    /// v⁺ − v along axes that do not turn; `None` after an impact.
+    gained: Option<Y>,
 }
 
 /// After so many evaluations of the rates the velocities at the contacts are linear in the impulses.
@@ -73,16 +75,16 @@ const MOST_NONLINEAR: usize = 16;
 /// The largest number of evaluations of the rates in a step.
 const MOST_ITERATIONS: usize = 40;
 
-/// Returns the velocities at the end of a step: the rates are evaluated anew with each until they settle.
+/// Returns the velocities at the end of a step, from a guess: the rates are evaluated anew with each until they settle.
 fn settled<O: Ode>(
     ode: &O,
-    middle: &mut Middle<O::State>,
-    impulses: &mut Impulses<O::State>,
+    middle: &mut Middle<'_, O::State>,
+    impulses: &mut Impulses<'_, O::State>,
+    mut end: O::State,
 ) -> Result<O::State, Reason<O::Error>>
 where
     Of<O::State>: Real,
 {
-    let mut end = middle.y.clone();
     let mut convergence = Convergence::new::<Of<O::State>>();
     for iteration in 1..=MOST_ITERATIONS {
         let free = middle.free(ode, &end)?;
@@ -146,25 +148,12 @@ where
         from: &Start<'_, Y, Self::Stages>,
         h: Of<Y>,
     ) -> Result<Step<Y, Self::Stages>, Reason<O::Error>> {
-        let y = positions_in_middle(ode, (from.t, from.y), h)?;
-        let same = from.before.filter(|before| before.h == h);
-        let factors = same.and_then(|before| before.stages.factors.as_ref());
-        let mut middle = Middle::new((from.t, y), h, ode.positions(), factors);
-        let before = contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?;
-        let halfway = contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?;
-        let last = from
-            .before
-            .map(|step| (step.stages.contacts.impulses, h / step.h));
-        let number = ode.rigid_contacts();
-        let mut impulses = Impulses::new(self.options, number, (before, halfway), last);
-        let mut end = settled(ode, &mut middle, &mut impulses)?;
-        let mut contacts = impulses.result(&middle, &end);
-        middle.advance(ode, &mut end)?;
-        lifted(ode, (from.t + h, h), &mut end, &impulses, &mut contacts)?;
-        let change = end.plus(-Of::<Y>::from_f64(1.0), from.y);
-        let factors = middle.into_factors();
-        let stages = MoreauStages { contacts, factors };
-        Ok(Step { h, change, stages })
+        // Maps are large: no more of them are cleared than there may be contacts.
+        match ode.rigid_contacts() {
+            n @ 0..=4 => self.step_with(ode, from, h, &mut [const { None }; 4][..n]),
+            n @ 5..=16 => self.step_with(ode, from, h, &mut [const { None }; 16][..n]),
+            n => self.step_with(ode, from, h, &mut [const { None }; MOST_CONTACTS][..n]),
+        }
     }
 
     /// The straight line through both ends: velocities jump somewhere within the step.
@@ -177,5 +166,52 @@ where
         let mut terms = [const { None }; 7];
         terms[0] = Some(step.change.clone());
         Ok(Dense::new(from.t, step.h, from.y, terms))
+    }
+}
+
+impl<T: Real> Moreau<T> {
+    /// Computes a step, with room for the maps of all contacts.
+    fn step_with<O: Ode>(
+        &self,
+        ode: &O,
+        from: &Start<'_, O::State, MoreauStages<O::State>>,
+        h: T,
+        maps: &mut [Option<ContactMap<O::State>>],
+    ) -> Result<Step<O::State, MoreauStages<O::State>>, Reason<O::Error>>
+    where
+        O::State: StateVector<Scalar = T>,
+    {
+        let y = positions_in_middle(ode, (from.t, from.y), h)?;
+        let same = from.before.filter(|before| before.h == h);
+        let factors = same.and_then(|before| before.stages.factors.as_ref());
+        let mut middle = Middle::new((from.t, y), h, ode.positions(), factors);
+        let before = contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?;
+        let halfway = contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?;
+        let last = from
+            .before
+            .map(|step| (step.stages.contacts.impulses, h / step.h));
+        let mut impulses = Impulses::new(self.options, maps, (before, halfway), last);
+        let mut guess = middle.y.clone();
+        if let Some(before) = from.before
+            && let Some(gained) = &before.stages.gained
+        {
+            guess.add(h / before.h, gained);
+        }
+        let mut end = settled(ode, &mut middle, &mut impulses, guess)?;
+        let gained = impulses
+            .are_slow()
+            .then(|| end.plus(-T::from_f64(1.0), &middle.y));
+        let mut contacts = impulses.result(&middle, &end);
+        middle.advance(ode, &mut end)?;
+        lifted(ode, (from.t + h, h), &mut end, &impulses, &mut contacts)?;
+        Ok(Step {
+            h,
+            change: end.plus(-T::from_f64(1.0), from.y),
+            stages: MoreauStages {
+                contacts,
+                factors: middle.into_factors(),
+                gained,
+            },
+        })
     }
 }
