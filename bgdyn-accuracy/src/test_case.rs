@@ -1,6 +1,6 @@
 //! A test case: a scene with its reference and its configurations.
 
-use bgdyn_runtime::Dd;
+use bgdyn_runtime::{Dd, ImpactLaw};
 use bgdyn_sim::{Integrator, WithIntegrator, with_integrator};
 use nalgebra::SVector;
 
