@@ -20,7 +20,7 @@ pub struct RigidContact<T> {
 }
 
 /// How a rigid contact and the velocities of a state act on each other. Only the components of velocities differ from 0.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactMap<Y> {
     /// The rows of J: γ = J v and the motion of what is prescribed.
     pub rows: [Y; 3],

@@ -1,4 +1,4 @@
-//! LU factorisation with partial pivoting, in any scalar without lanes.
+//! LU factorisation and inverse with partial pivoting, in any scalar without lanes.
 
 use bgdyn_runtime::{ArrayOf, StateVector};
 
@@ -91,35 +91,88 @@ pub(crate) fn solve<T: Real>(a: &[T], pivots: &[usize], x: &mut [T]) {
     }
 }
 
-/// Solves for four right-hand sides at once, the rows of x, as [`solve`] does for each.
-pub(crate) fn solve_four<T: Real>(a: &[T], pivots: &[usize], x: &mut [[T; 4]]) {
-    let n = x.len();
-    for (k, &p) in pivots.iter().enumerate() {
-        x.swap(k, p);
-    }
-    for (k, column) in a.chunks(n.max(1)).enumerate() {
-        let top = x[k];
-        eliminate_four(&mut x[k + 1..], &column[k + 1..], top);
-    }
-    for (k, column) in a.chunks(n.max(1)).enumerate().rev() {
-        let top = x[k].map(|x| x / column[k]);
-        x[k] = top;
-        eliminate_four(&mut x[..k], &column[..k], top);
-    }
-}
-
-/// Computes x ← x − column · topᵀ.
-fn eliminate_four<T: Real>(x: &mut [[T; 4]], column: &[T], top: [T; 4]) {
-    for (row, &factor) in x.iter_mut().zip(column) {
-        for (x, top) in row.iter_mut().zip(top) {
-            *x = *x - factor * top;
-        }
-    }
-}
-
 /// Computes x ← x − top · column.
 fn eliminate<T: Real>(x: &mut [T], column: &[T], top: T) {
     for (x, &factor) in x.iter_mut().zip(column) {
         *x = *x - factor * top;
+    }
+}
+
+/// Inverts an n × n matrix, column by column, in place: Gauss and Jordan's elimination with partial pivoting. Returns false
+/// if a pivot is 0 or not finite.
+pub(crate) fn invert<T: Real>(a: &mut [T], pivots: &mut [usize], n: usize) -> bool {
+    let (zero, one) = (T::from_f64(0.0), T::from_f64(1.0));
+    for k in 0..n {
+        let column = &a[k * n..(k + 1) * n];
+        let larger = |p: usize, i: usize| {
+            if column[p].abs() < column[i].abs() {
+                i
+            } else {
+                p
+            }
+        };
+        let p = (k + 1..n).fold(k, larger);
+        pivots[k] = p;
+        let pivot = column[p];
+        if pivot == zero || !pivot.is_finite() {
+            return false;
+        }
+        for column in a.chunks_mut(n) {
+            column.swap(k, p);
+        }
+        // Rows other than k lose their multiple of row k, which becomes one of the inverse.
+        let (before, rest) = a.split_at_mut(k * n);
+        let (own, after) = rest.split_at_mut(n);
+        own[k] = zero;
+        for column in before.chunks_mut(n).chain(after.chunks_mut(n)) {
+            let top = column[k] / pivot;
+            column[k] = zero;
+            eliminate(column, own, top);
+            column[k] = top;
+        }
+        for x in &mut *own {
+            *x = -(*x / pivot);
+        }
+        own[k] = one / pivot;
+    }
+    for (k, &p) in pivots[..n]
+        .iter()
+        .enumerate()
+        .rev()
+        .filter(|&(k, &p)| k != p)
+    {
+        let (before, after) = a.split_at_mut(p * n);
+        before[k * n..(k + 1) * n].swap_with_slice(&mut after[..n]);
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::invert;
+
+    /// A product of a matrix with its inverse is 1, with pivots from below, and a singular one has no inverse.
+    #[test]
+    fn inverses_are_those_of_their_matrices() {
+        const N: usize = 7;
+        let matrix: [f64; N * N] = core::array::from_fn(|i| {
+            let (column, row) = (i / N, i % N);
+            let far = if (row + 3) % N == column { 4.0 } else { 0.0 };
+            far + (1.7 * i as f64 + 0.3 * (i * i) as f64).sin()
+        });
+        let (mut inverse, mut pivots) = (matrix, [0; N]);
+        assert!(invert(&mut inverse, &mut pivots, N));
+        assert!(pivots.iter().enumerate().any(|(k, &p)| k != p));
+        for i in 0..N {
+            for j in 0..N {
+                let product: f64 = (0..N).map(|k| matrix[k * N + i] * inverse[j * N + k]).sum();
+                let one = if i == j { 1.0 } else { 0.0 };
+                assert!((product - one).abs() < 1e-13, "{i}, {j}: {product}");
+            }
+        }
+        let mut singular = matrix;
+        singular.copy_within(0..N, 3 * N);
+        assert!(!invert(&mut singular, &mut pivots, N) || singular.iter().any(|x| x.abs() > 1e12));
+        assert!(!invert(&mut [0.0; 4], &mut pivots[..2], 2));
     }
 }

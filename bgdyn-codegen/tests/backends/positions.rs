@@ -133,13 +133,10 @@ fn check<T: CNumber>(name: &str, model: &Model) -> [usize; 2] {
     counts
 }
 
-/// Joints with several velocities, with quaternions of length 1 and of any length; followers; helices.
+/// Joints with several velocities, with quaternions of length 1 and of any length; helices.
 #[test]
 fn trees() {
     for path in [
-        "specs/constraints/gear_pair.yaml",
-        "specs/constraints/mimic_gripper.yaml",
-        "specs/constraints/carousel.yaml",
         "tests/golden/joints/planar_base_ur5.yaml",
         "tests/golden/joints/satellite_arm6.yaml",
         "tests/golden/joints/helical_universal_test.yaml",
@@ -175,7 +172,7 @@ fn model_of_positions(path: &str) -> Model {
     model(path, &options)
 }
 
-/// Positions that close, and positions that do not; in closed form and by Newton's method.
+/// Positions that close, and positions that do not; in closed form and by Newton's method. Followers.
 #[test]
 fn closed_mechanisms() {
     let (mut counts, mut forms) = ([0, 0], [0; 3]);

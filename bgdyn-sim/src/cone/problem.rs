@@ -39,8 +39,19 @@ impl<T: Real, const K: usize> ContactProblem<'_, T, K> {
         sum
     }
 
+    /// Returns whether there are active contacts, none of which acts on another one.
+    pub(super) fn is_separate(&self) -> bool {
+        let zero = [[T::from_f64(0.0); 3]; 3];
+        let alone = |c: usize| {
+            let mut others = (0..K).filter(|&d| d != c && self.active[d]);
+            others.all(|d| self.delassus[c][d] == zero)
+        };
+        let mut active = (0..K).filter(|&c| self.active[c]).peekable();
+        active.peek().is_some() && active.all(alone)
+    }
+
     /// Returns the largest magnitude of a component of the impulses; NaN if one is NaN.
-    pub(super) fn largest(&self, p: &[Vec3<T>; K]) -> T {
+    pub(crate) fn largest(&self, p: &[Vec3<T>; K]) -> T {
         let components = p.as_flattened().iter();
         components.fold(T::from_f64(0.0), |most, x| most.max(x.abs()))
     }

@@ -26,7 +26,8 @@ pub(super) struct Search<'a, T, const K: usize> {
     problem: &'a ContactProblem<'a, T, K>,
     options: &'a ContactOptions<T>,
     steps: Steps<T, K>,
-    sweeps: Sweeps<T, K>,
+    /// Prepared with the first sweep.
+    sweeps: Option<Sweeps<T, K>>,
     newton: Newton<T, K>,
     shift: T,
     /// The impulses with the smallest residual so far.
@@ -45,7 +46,7 @@ impl<'a, T: Real, const K: usize> Search<'a, T, K> {
             problem,
             options,
             steps: Steps::new(problem),
-            sweeps: Sweeps::new(problem),
+            sweeps: None,
             newton: Newton::new(),
             shift: T::from_f64(SHIFTS[1]),
             best: [[zero; 3]; K],
@@ -72,16 +73,15 @@ impl<'a, T: Real, const K: usize> Search<'a, T, K> {
             .saturating_add(self.options.most_newton_steps);
         self.shift = T::from_f64(SHIFTS[1]);
         let mut p = *start;
+        if self.problem.is_separate() {
+            // One sweep is exact.
+            self.sweep(&mut p, 1, most_sweeps, 1.0);
+        }
         let mut residual = self.keep(&p);
         let mut round = 0;
         while self.goes_on(residual) && self.outcome.sweeps < most_sweeps {
-            if round == 0 {
-                // Enough for contacts that do not act on each other. For others Newton's method begins at the start
-                // itself: one sweep leads away from the impulses of the step before.
-                let mut swept = p;
-                self.sweep(&mut swept, 1, most_sweeps, 1.0);
-                self.keep(&swept);
-            } else {
+            // Newton's method begins at the start itself: a sweep leads away from the impulses of the step before.
+            if round > 0 {
                 let half = round >= WHOLE_ROUNDS && round % 2 == 1;
                 self.sweep(&mut p, SWEEPS, most_sweeps, if half { 0.5 } else { 1.0 });
                 residual = self.keep(&p);
@@ -100,8 +100,10 @@ impl<'a, T: Real, const K: usize> Search<'a, T, K> {
     /// Sweeps up to `count` times, while there are fewer than `most` sweeps.
     fn sweep(&mut self, p: &mut [Vec3<T>; K], count: usize, most: usize, relaxation: f64) {
         let count = count.min(most.saturating_sub(self.outcome.sweeps));
+        let problem = self.problem;
+        let sweeps = self.sweeps.get_or_insert_with(|| Sweeps::new(problem));
         for _ in 0..count {
-            self.sweeps.sweep(self.problem, p, T::from_f64(relaxation));
+            sweeps.sweep(problem, p, T::from_f64(relaxation));
         }
         self.outcome.sweeps += count;
     }

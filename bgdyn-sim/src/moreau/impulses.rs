@@ -10,7 +10,7 @@ use crate::failure::Reason;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
-/// The effort for impulses while the velocities still change. Contacts that hold each other have no impulses at which all
+/// The effort for impulses while the velocities still change by more than √ε. Contacts that hold each other have no impulses at which all
 /// stick if the velocities do not agree, and the search goes on for long.
 const ROUGH_SWEEPS: usize = 24;
 const ROUGH_NEWTON_STEPS: usize = 10;
@@ -39,6 +39,8 @@ pub(super) struct Impulses<'m, Y: StateVector> {
     pub(super) maps: &'m mut [Option<ContactMap<Y>>],
     implicit: [bool; MOST_CONTACTS],
     impulses: AllImpulses<Of<Y>>,
+    /// Whether the first impulses are those of a step without an impact.
+    continues: bool,
     /// Whether the impulses are sought with little effort, while the velocities still change.
     rough: bool,
     /// Whether the velocities γ⁺ are linear in the impulses, with G in the middle of the step.
@@ -54,12 +56,13 @@ where
     Of<Y>: Real,
 {
     /// Returns the impulses of a step, of as many contacts as there are `maps`, `before` it and in its `middle`. The search
-    /// for them begins at those of the last step, times a factor.
+    /// for them begins at those of the last step, times a factor; it `continues` a step without an impact.
     pub(super) fn new(
         options: ContactOptions<Of<Y>>,
         maps: &'m mut [Option<ContactMap<Y>>],
         (before, middle): (Contacts<Of<Y>>, Contacts<Of<Y>>),
         last: Option<(AllImpulses<Of<Y>>, Of<Y>)>,
+        continues: bool,
     ) -> Self {
         let zero = Of::<Y>::from_f64(0.0);
         let impulses = match last {
@@ -77,6 +80,7 @@ where
             maps,
             implicit: [false; MOST_CONTACTS],
             impulses,
+            continues,
             rough: true,
             linear: false,
             outcome: None,
@@ -116,7 +120,8 @@ where
     /// Returns velocities with the impulses that their contacts then need. `free` are those without impulses.
     ///
     /// The velocities γ⁺ at the contacts are those at the end of the step, where the axes of bodies have turned on. They are
-    /// linearised with J in the middle: γ⁺ = γ⁺(p₀) + G (p − p₀) for the last impulses p₀.
+    /// linearised with J in the middle: γ⁺ = γ⁺(p₀) + G (p − p₀) for the last impulses p₀, at first for those of the step
+    /// before without an impact.
     pub(super) fn pushed<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -127,21 +132,16 @@ where
             return Ok(free.clone());
         }
         let first = self.outcome.is_none();
-        let without = first || self.linear;
+        let mut without = first || self.linear;
         let known = if without {
             free.clone()
         } else {
             self.with_impulses(free)
         };
-        let mut end = known.clone();
-        middle.advance(ode, &mut end)?;
-        write_contacts(ode, middle.end(), &end, &mut self.ahead).map_err(Reason::Singular)?;
+        self.look_ahead(ode, middle, &known)?;
         self.find_active(first);
         if first {
-            for (c, slow) in self.slow.iter_mut().enumerate() {
-                let approach = self.before[c].velocity[2];
-                *slow = approach.abs() <= (self.ahead[c].velocity[2] - approach).abs();
-            }
+            self.find_slow();
         }
         let (at, n) = listed(&self.active);
         if n == 0 {
@@ -151,6 +151,10 @@ where
             self.make_maps(ode, middle)?;
         }
         self.make_implicit(middle, &at[..n]);
+        if first && self.continues {
+            self.look_ahead(ode, middle, &self.with_impulses(free))?;
+            without = false;
+        }
         if self.linear {
             let gained = free.plus(-Of::<Y>::from_f64(1.0), &middle.y);
             for &c in &at[..n] {
@@ -166,6 +170,18 @@ where
             _ => self.solve::<MOST_CONTACTS>(given, &at[..n]),
         }
         Ok(self.with_impulses(free))
+    }
+
+    /// Finds the contacts at the end of the step with these velocities.
+    fn look_ahead<O: Ode<State = Y>>(
+        &mut self,
+        ode: &O,
+        middle: &Middle<'_, Y>,
+        velocities: &Y,
+    ) -> Result<(), Reason<O::Error>> {
+        let mut end = velocities.clone();
+        middle.advance(ode, &mut end)?;
+        write_contacts(ode, middle.end(), &end, &mut self.ahead).map_err(Reason::Singular)
     }
 
     /// Returns velocities with the impulses of the active contacts.
@@ -191,6 +207,14 @@ where
                 self.impulses[c] = [zero; 3];
             }
             self.active[c] = true;
+        }
+    }
+
+    /// Finds the contacts that approach by less than forces add in the step, which `ahead` are without impulses.
+    fn find_slow(&mut self) {
+        for (c, slow) in self.slow.iter_mut().enumerate() {
+            let approach = self.before[c].velocity[2];
+            *slow = approach.abs() <= (self.ahead[c].velocity[2] - approach).abs();
         }
     }
 
@@ -233,7 +257,9 @@ where
     fn make_implicit(&mut self, middle: &Middle<'_, Y>, at: &[usize]) {
         for &c in at {
             if let (false, Some(map)) = (self.implicit[c], &mut self.maps[c]) {
-                middle.solve_three(&mut map.columns);
+                map.columns
+                    .iter_mut()
+                    .for_each(|column| middle.solve(column));
                 self.implicit[c] = true;
             }
         }
@@ -270,10 +296,13 @@ where
             friction: &friction,
             active: &active,
         };
-        self.outcome = Some(match self.rough {
+        let mut outcome = match self.rough {
             true => improve(&problem, &rough(&self.options), &mut impulses),
             false => solve(&problem, &self.options, &mut impulses),
-        });
+        };
+        let bound = self.options.tolerance * problem.largest(&impulses);
+        outcome.solved = outcome.residual <= bound;
+        self.outcome = Some(outcome);
         for (&c, p) in at.iter().zip(impulses) {
             self.impulses[c] = p;
         }
@@ -339,10 +368,10 @@ where
     }
 }
 
-/// Returns options with a small part of the effort.
+/// Returns options with a small part of the effort, to √ε, beyond which the velocities still change.
 fn rough<T: Real>(options: &ContactOptions<T>) -> ContactOptions<T> {
     ContactOptions {
-        tolerance: options.tolerance,
+        tolerance: options.tolerance * T::from_f64(64.0),
         most_sweeps: options.most_sweeps.min(ROUGH_SWEEPS),
         most_newton_steps: options.most_newton_steps.min(ROUGH_NEWTON_STEPS),
     }

@@ -1,9 +1,9 @@
 //! The middle of a step, and the velocities at its end without impulses.
 
-use bgdyn_runtime::{ArrayOf, MatrixOf, Scalar as _, StateVector};
+use bgdyn_runtime::{MatrixOf, Scalar as _, StateVector};
 
 use crate::failure::Reason;
-use crate::lu::{factor, solve, solve_four};
+use crate::lu::invert;
 use crate::motion::{add_turning, moved, turn_velocities};
 use crate::ode::Ode;
 use crate::real::{Of, Real};
@@ -22,23 +22,22 @@ pub(super) struct Middle<'a, Y: StateVector> {
     pub(super) y: Y,
     /// The number of positions.
     pub(super) positions: usize,
-    /// The factors of B = 1 − (h/2) ∂v̇/∂v, of this step or of one before; without them B = 1.
-    own: Option<Factors<Y>>,
-    before: Option<&'a Factors<Y>>,
+    /// B⁻¹ for B = 1 − (h/2) ∂v̇/∂v, of this step or of one before; without one B = 1.
+    own: Option<Inverse<Y>>,
+    before: Option<&'a Inverse<Y>>,
     linearised: bool,
 }
 
-/// The factors of B: n × n for n velocities at the beginning of the matrix.
+/// B⁻¹: n × n for n velocities at the beginning of the matrix. Each B has some hundred right-hand sides, so its inverse
+/// costs less than its factors do. It needs few correct digits: residuals are of the equations themselves.
 #[derive(Clone, Debug)]
-pub(super) struct Factors<Y: StateVector> {
+pub(super) struct Inverse<Y: StateVector> {
     matrix: MatrixOf<Y>,
-    pivots: ArrayOf<Y, usize>,
     /// The number of steps that B has served.
     age: usize,
 }
 
-/// B serves so many steps. After them a step tries without: a body that has come to rest needs no B, and that of its fall
-/// would turn its velocities.
+/// B serves so many steps.
 const MOST_STEPS: usize = 10;
 
 /// Returns a state with the positions in the middle of the step of length `h` from it, at a time.
@@ -70,7 +69,7 @@ where
         (t, y): (Of<Y>, Y),
         h: Of<Y>,
         positions: usize,
-        factors: Option<&'a Factors<Y>>,
+        inverse: Option<&'a Inverse<Y>>,
     ) -> Self {
         Middle {
             t: t + h * Of::<Y>::from_f64(0.5),
@@ -78,13 +77,13 @@ where
             y,
             positions,
             own: None,
-            before: factors.filter(|factors| factors.age < MOST_STEPS),
+            before: inverse,
             linearised: false,
         }
     }
 
-    /// Returns the factors of B for the next step.
-    pub(super) fn into_factors(self) -> Option<Factors<Y>> {
+    /// Returns B⁻¹ for the next step.
+    pub(super) fn into_inverse(self) -> Option<Inverse<Y>> {
         self.own.or_else(|| {
             let before = self.before?;
             let mut same = before.clone();
@@ -93,8 +92,20 @@ where
         })
     }
 
-    /// Returns the factors of B.
-    fn factors(&self) -> Option<&Factors<Y>> {
+    /// Inverts B anew where it has served for long.
+    pub(super) fn renew<O: Ode<State = Y>>(
+        &mut self,
+        ode: &O,
+        end: &Y,
+    ) -> Result<(), Reason<O::Error>> {
+        if self.before.is_some_and(|before| before.age >= MOST_STEPS) {
+            self.linearise(ode, end)?;
+        }
+        Ok(())
+    }
+
+    /// Returns B⁻¹.
+    fn inverse(&self) -> Option<&Inverse<Y>> {
         self.own.as_ref().or(self.before)
     }
 
@@ -128,7 +139,7 @@ where
         mean
     }
 
-    /// Factors B with the slopes at the mean velocities. Returns whether B changed: once in a step, if there are slopes.
+    /// Inverts B with the slopes at the mean velocities. Returns whether B changed: once in a step, if there are slopes.
     pub(super) fn linearise<O: Ode<State = Y>>(
         &mut self,
         ode: &O,
@@ -161,47 +172,28 @@ where
             }
         }
         let mut pivots = end.array(0);
-        if !factor(&mut entries[..n * n], &mut pivots.as_mut()[..n], n) {
+        if !invert(&mut entries[..n * n], &mut pivots.as_mut()[..n], n) {
             return Err(Reason::SingularMatrix);
         }
-        self.own = Some(Factors {
-            matrix,
-            pivots,
-            age: 1,
-        });
+        self.own = Some(Inverse { matrix, age: 1 });
         Ok(true)
     }
 
     /// Replaces velocities x by B⁻¹ x.
     pub(super) fn solve(&self, x: &mut Y) {
-        if let Some(Factors { matrix, pivots, .. }) = self.factors() {
-            let x = &mut x.entries_mut()[self.positions..];
-            let n = x.len();
-            solve(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], x);
-        }
-    }
-
-    /// Does the same for three vectors of velocities.
-    pub(super) fn solve_three(&self, columns: &mut [Y; 3]) {
-        let Some(Factors { matrix, pivots, .. }) = self.factors() else {
+        let Some(Inverse { matrix, .. }) = self.inverse() else {
             return;
         };
-        let n = self.y.entries().len() - self.positions;
-        let mut rows = self.y.array([Of::<Y>::from_f64(0.0); 4]);
-        let rows = &mut rows.as_mut()[..n];
-        for (k, column) in columns.iter().enumerate() {
-            let velocities = &column.entries()[self.positions..];
-            for (row, &x) in rows.iter_mut().zip(velocities) {
-                row[k] = x;
+        let mut product = x.zero();
+        let (right, sums) = (&x.entries()[self.positions..], product.entries_mut());
+        let sums = &mut sums[self.positions..];
+        let n = right.len();
+        for (column, &x) in Y::columns(matrix)[..n * n].chunks(n.max(1)).zip(right) {
+            for (sum, &entry) in sums.iter_mut().zip(column) {
+                *sum = entry.mul_add(x, *sum);
             }
         }
-        solve_four(&Y::columns(matrix)[..n * n], &pivots.as_ref()[..n], rows);
-        for (k, column) in columns.iter_mut().enumerate() {
-            let velocities = &mut column.entries_mut()[self.positions..];
-            for (row, x) in rows.iter().zip(velocities) {
-                *x = row[k];
-            }
-        }
+        x.entries_mut()[self.positions..].copy_from_slice(&product.entries()[self.positions..]);
     }
 
     /// Returns the time at the end of the step.

@@ -10,7 +10,7 @@ use bgdyn_runtime::{ContactMap, MOST_CONTACTS, StateVector};
 use self::convergence::Convergence;
 use self::impulses::Impulses;
 use self::lift::lifted;
-use self::middle::{Factors, Middle, positions_in_middle};
+use self::middle::{Inverse, Middle, positions_in_middle};
 use crate::cone::ContactOptions;
 use crate::contact_step::ContactStep;
 use crate::contacts_at::contacts_at;
@@ -64,7 +64,7 @@ impl<T: Real> Default for Moreau<T> {
 #[derive(Clone, Debug)]
 pub struct MoreauStages<Y: StateVector> {
     contacts: ContactStep<Of<Y>>,
-    factors: Option<Factors<Y>>,
+    inverse: Option<Inverse<Y>>,
     /// v⁺ − v along axes that do not turn; `None` after an impact.
     gained: Option<Y>,
 }
@@ -74,6 +74,11 @@ const MOST_NONLINEAR: usize = 16;
 
 /// The largest number of evaluations of the rates in a step.
 const MOST_ITERATIONS: usize = 40;
+
+/// Returns room for so many maps, without clearing it.
+fn none<Y, const K: usize>() -> [Option<ContactMap<Y>>; K] {
+    core::array::from_fn(|_| None)
+}
 
 /// Returns the velocities at the end of a step, from a guess: the rates are evaluated anew with each until they settle.
 fn settled<O: Ode>(
@@ -150,9 +155,9 @@ where
     ) -> Result<Step<Y, Self::Stages>, Reason<O::Error>> {
         // Maps are large: no more of them are cleared than there may be contacts.
         match ode.rigid_contacts() {
-            n @ 0..=4 => self.step_with(ode, from, h, &mut [const { None }; 4][..n]),
-            n @ 5..=16 => self.step_with(ode, from, h, &mut [const { None }; 16][..n]),
-            n => self.step_with(ode, from, h, &mut [const { None }; MOST_CONTACTS][..n]),
+            n @ 0..=4 => self.step_with(ode, from, h, &mut none::<_, 4>()[..n]),
+            n @ 5..=16 => self.step_with(ode, from, h, &mut none::<_, 16>()[..n]),
+            n => self.step_with(ode, from, h, &mut none::<_, MOST_CONTACTS>()[..n]),
         }
     }
 
@@ -183,20 +188,23 @@ impl<T: Real> Moreau<T> {
     {
         let y = positions_in_middle(ode, (from.t, from.y), h)?;
         let same = from.before.filter(|before| before.h == h);
-        let factors = same.and_then(|before| before.stages.factors.as_ref());
-        let mut middle = Middle::new((from.t, y), h, ode.positions(), factors);
+        let inverse = same.and_then(|before| before.stages.inverse.as_ref());
+        let mut middle = Middle::new((from.t, y), h, ode.positions(), inverse);
         let before = contacts_at(ode, from.t, from.y).map_err(Reason::Singular)?;
         let halfway = contacts_at(ode, middle.t, &middle.y).map_err(Reason::Singular)?;
         let last = from
             .before
             .map(|step| (step.stages.contacts.impulses, h / step.h));
-        let mut impulses = Impulses::new(self.options, maps, (before, halfway), last);
+        let gained = from
+            .before
+            .and_then(|step| Some((h / step.h, step.stages.gained.as_ref()?)));
+        let continues = gained.is_some();
+        let mut impulses = Impulses::new(self.options, maps, (before, halfway), last, continues);
         let mut guess = middle.y.clone();
-        if let Some(before) = from.before
-            && let Some(gained) = &before.stages.gained
-        {
-            guess.add(h / before.h, gained);
+        if let Some((scale, gained)) = gained {
+            guess.add(scale, gained);
         }
+        middle.renew(ode, &guess)?;
         let mut end = settled(ode, &mut middle, &mut impulses, guess)?;
         let gained = impulses
             .are_slow()
@@ -209,7 +217,7 @@ impl<T: Real> Moreau<T> {
             change: end.plus(-T::from_f64(1.0), from.y),
             stages: MoreauStages {
                 contacts,
-                factors: middle.into_factors(),
+                inverse: middle.into_inverse(),
                 gained,
             },
         })

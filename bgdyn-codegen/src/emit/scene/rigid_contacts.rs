@@ -105,11 +105,12 @@ pub(super) fn of_trait(scene: &SceneInterface) -> TokenStream {
             maps: &mut [::core::option::Option<__rt::ContactMap<__na::SVector<T, N>>>],
         ) -> ::core::result::Result<(), Self::Singular> {
             let state = State::from_vectors(y, &State::<T>::default().modes());
-            let all = self.rigid_contact_maps(&state, &Input::from_vector(input), t)?;
-            for (to, from) in maps.iter_mut().zip(all) {
-                *to = ::core::option::Option::Some(from);
+            let all = self.rigid_contact_maps(&state, &Input::from_vector(input), t);
+            // Maps are large: each is copied once.
+            for (to, from) in maps.iter_mut().zip(all.iter().flatten()) {
+                *to = ::core::option::Option::Some(*from);
             }
-            ::core::result::Result::Ok(())
+            all.map(|_| ())
         }
         fn rigid_contact_biases(
             &self,
