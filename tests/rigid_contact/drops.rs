@@ -165,8 +165,11 @@ const QUADRUPED: Fall = Fall {
 const SOME: u64 = if cfg!(debug_assertions) { 4 } else { 12 };
 const FEW: u64 = if cfg!(debug_assertions) { 1 } else { 4 };
 
-/// Drops in the long tests.
-const MANY: u64 = 10_000;
+/// Returns the number of drops in the long tests, which `DROPS` may lower.
+fn many() -> u64 {
+    let fewer = std::env::var("DROPS").ok();
+    fewer.map_or(10_000, |n| n.parse().expect("a number of drops"))
+}
 
 /// Asserts bars for all drops: rest, overlap, gains.
 fn assert_rests(drop: Drop, speed: f64, depth: f64, gain: f64) {
@@ -191,9 +194,9 @@ fn crates_chains_and_quadrupeds_fall_and_rest() {
 #[ignore = "five minutes"]
 fn ten_thousand_crates() {
     let crates = Tumbles::<f64>::default();
-    assert_rests(drops("crate", (&crates, &CRATE), MANY), 1e-9, 1e-9, 0.05);
+    assert_rests(drops("crate", (&crates, &CRATE), many()), 1e-9, 1e-9, 0.05);
     let crates = Tumbles::<f32>::default();
-    let worst = drops("crate, f32", (&crates, &CRATE), MANY);
+    let worst = drops("crate, f32", (&crates, &CRATE), many());
     assert_rests(worst, 1e-3, 1e-4, 0.05);
 }
 
@@ -201,9 +204,9 @@ fn ten_thousand_crates() {
 #[ignore = "an hour"]
 fn ten_thousand_chains() {
     let chain = Falls::<f64>::default();
-    assert_rests(drops("chain", (&chain, &CHAIN), MANY), 1e-2, 1e-6, 0.05);
+    assert_rests(drops("chain", (&chain, &CHAIN), many()), 1e-2, 1e-6, 0.05);
     let chain = Falls::<f32>::default();
-    let worst = drops("chain, f32", (&chain, &CHAIN), MANY);
+    let worst = drops("chain, f32", (&chain, &CHAIN), many());
     assert_rests(worst, 1e-2, 1e-4, 0.05);
 }
 
@@ -211,9 +214,9 @@ fn ten_thousand_chains() {
 #[ignore = "an hour"]
 fn ten_thousand_quadrupeds() {
     let quadruped = QuadrupedRigid::<f64>::default();
-    let worst = drops("quadruped", (&quadruped, &QUADRUPED), MANY);
+    let worst = drops("quadruped", (&quadruped, &QUADRUPED), many());
     assert_rests(worst, 1e-2, 1e-6, 0.05);
     let quadruped = QuadrupedRigid::<f32>::default();
-    let worst = drops("quadruped, f32", (&quadruped, &QUADRUPED), MANY);
+    let worst = drops("quadruped, f32", (&quadruped, &QUADRUPED), many());
     assert_rests(worst, 1e-2, 1e-4, 0.05);
 }

@@ -74,8 +74,8 @@ impl Convergence {
     }
 
     /// Returns whether substitution is slow, or does not converge. The second change has impulses that the first had not: it
-    /// does not tell.
+    /// does not tell. Nor do small changes: rough impulses have errors of their own.
     pub(super) fn is_slow(&self) -> bool {
-        self.count > 2 && self.ratios[1] > SLOW
+        self.count > 2 && self.ratios[1] > SLOW && self.is_rough()
     }
 }
