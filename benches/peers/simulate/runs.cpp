@@ -2,9 +2,8 @@
 //
 // SYSTEM is pinocchio or mujoco, SCENE viscous or friction. METHOD of pinocchio: rk4, semi_implicit (velocities first, then positions). METHOD of
 // mujoco: its integrator: Euler, implicitfast, RK4.
-#include <mujoco/mujoco.h>
-
 #include "model.hpp"
+#include "mujoco_model.hpp"
 #include <pinocchio/algorithm/aba.hpp>
 
 constexpr double END = 2.0, DAMPING = 0.8, KINETIC = 0.5, WIDTH = 0.1;
@@ -69,36 +68,10 @@ static void friction(const mjModel* m, mjData* d) {
 }
 
 static void by_mujoco(const Mechanism& mechanism, const std::string& method, int steps) {
-  std::ostringstream out;
-  out << std::setprecision(17);
-  for (int i = 0; i < 7; ++i) {
-    const Body& b = mechanism.bodies[size_t(i)];
-    auto list = [&](const char* name, std::initializer_list<double> numbers) {
-      out << ' ' << name << "=\"";
-      for (double x : numbers) out << x << ' ';
-      out << '"';
-    };
-    out << "<body";
-    list("pos", {b.p[0], b.p[1], b.p[2]});
-    list("xyaxes", {b.R[0], b.R[3], b.R[6], b.R[1], b.R[4], b.R[7]});
-    out << "><joint type=\"hinge\" damping=\"" << DAMPING << '"';
-    list("axis", {b.axis[0], b.axis[1], b.axis[2]});
-    out << "/><inertial";
-    list("mass", {b.m});
-    list("pos", {b.com[0], b.com[1], b.com[2]});
-    list("fullinertia", {b.I[0], b.I[3], b.I[5], b.I[1], b.I[2], b.I[4]});
-    out << "/>";
-  }
-  for (int i = 0; i < 7; ++i) out << "</body>";
-  std::ostringstream all;
-  all << std::setprecision(17) << "<mujoco><compiler angle=\"radian\"/><option integrator=\"" << method << "\" timestep=\""
-      << END / steps << "\" gravity=\"" << mechanism.gravity[0] << ' ' << mechanism.gravity[1] << ' ' << mechanism.gravity[2]
-      << "\"><flag contact=\"disable\" constraint=\"disable\"/></option><worldbody>" << out.str() << "</worldbody></mujoco>";
-  char error[1000] = "";
-  mjSpec* spec = mj_parseXMLString(all.str().c_str(), nullptr, error, sizeof error);
-  if (!spec) cannot(error);
-  mjModel* m = mj_compile(spec, nullptr);
-  if (!m) cannot(mjs_getError(spec));
+  std::ostringstream damping;
+  damping << " damping=\"" << DAMPING << '"';
+  mjModel* m = mujoco_model(xml(mechanism, damping.str(), " integrator=\"" + method + '"',
+                                "<flag contact=\"disable\" constraint=\"disable\"/>"));
   m->opt.timestep = END / steps;
   mjData* d = mj_makeData(m);
   mjcb_passive = dry ? friction : nullptr;

@@ -247,7 +247,7 @@ where
         ode: &O,
         middle: &Middle<'_, Y>,
     ) -> Result<(), Reason<O::Error>> {
-        ode.rigid_contact_maps(middle.t, &middle.y, &mut self.maps)
+        ode.rigid_contact_maps(middle.t, &middle.y, self.maps)
             .map_err(Reason::Singular)?;
         self.implicit = [false; MOST_CONTACTS];
         Ok(())

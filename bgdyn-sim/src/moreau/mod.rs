@@ -69,6 +69,10 @@ pub struct MoreauStages<Y: StateVector> {
     gained: Option<Y>,
 }
 
+/// A step of an equation, or why there is none.
+type Stepped<O> =
+    Result<Step<<O as Ode>::State, MoreauStages<<O as Ode>::State>>, Reason<<O as Ode>::Error>>;
+
 /// After so many evaluations of the rates the velocities at the contacts are linear in the impulses.
 const MOST_NONLINEAR: usize = 16;
 
@@ -182,7 +186,7 @@ impl<T: Real> Moreau<T> {
         from: &Start<'_, O::State, MoreauStages<O::State>>,
         h: T,
         maps: &mut [Option<ContactMap<O::State>>],
-    ) -> Result<Step<O::State, MoreauStages<O::State>>, Reason<O::Error>>
+    ) -> Stepped<O>
     where
         O::State: StateVector<Scalar = T>,
     {
