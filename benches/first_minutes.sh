@@ -61,7 +61,7 @@ macro() {
   local name text
   name=$(basename "$1" .yaml)
   cp "$1" "specs/$name.yaml"
-  "$work/cli/bin/bgdyn" generate "specs/$name.yaml" >src/text.rs
+  "$work/cli/bin/bgdyn" generate "specs/$name.yaml" >src/text.rs 2>"$work/output"
   printf 'include!("text.rs");\nfn main() {}\n' >src/main.rs
   shortest
   text=$seconds

@@ -191,7 +191,7 @@ fn crates_chains_and_quadrupeds_fall_and_rest() {
 }
 
 #[test]
-#[ignore = "five minutes"]
+#[ignore = "five minutes: .ci/long contact"]
 fn ten_thousand_crates() {
     let crates = Tumbles::<f64>::default();
     assert_rests(drops("crate", (&crates, &CRATE), many()), 1e-9, 1e-9, 0.05);
@@ -201,7 +201,7 @@ fn ten_thousand_crates() {
 }
 
 #[test]
-#[ignore = "an hour"]
+#[ignore = "half an hour: .ci/long contact"]
 fn ten_thousand_chains() {
     let chain = Falls::<f64>::default();
     assert_rests(drops("chain", (&chain, &CHAIN), many()), 1e-2, 1e-6, 0.05);
@@ -211,7 +211,7 @@ fn ten_thousand_chains() {
 }
 
 #[test]
-#[ignore = "an hour"]
+#[ignore = "half an hour: .ci/long contact"]
 fn ten_thousand_quadrupeds() {
     let quadruped = QuadrupedRigid::<f64>::default();
     let worst = drops("quadruped", (&quadruped, &QUADRUPED), many());

@@ -262,7 +262,7 @@ fn crates_fall_and_rest() {
 }
 
 #[test]
-#[ignore = "a quarter of an hour"]
+#[ignore = "a quarter of an hour: .ci/long contact"]
 fn ten_thousand_crates_from_event_to_event() {
     let double = Tumbles::<f64>::default();
     assert_crates_rest(&double, 10_000, Some(1e-10), [5e-11, 1e-13, 1e-5]);

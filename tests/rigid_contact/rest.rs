@@ -28,7 +28,7 @@ fn a_crate_tumbles_and_rests() {
 
 /// The same for a million steps.
 #[test]
-#[ignore = "a minute"]
+#[ignore = "a minute: .ci/long contact"]
 fn a_crate_rests_for_a_million_steps() {
     rests(1_000_000);
 }

@@ -10,10 +10,12 @@ use crate::failure::Reason;
 use crate::ode::Ode;
 use crate::real::{Of, Real};
 
-/// The effort for impulses while the velocities still change by more than √ε. Contacts that hold each other have no impulses at which all
-/// stick if the velocities do not agree, and the search goes on for long.
+/// The effort for impulses while the velocities still change by more than √ε: how many sweeps and Newton steps at the most, and
+/// the factor of the tolerance. Contacts that hold each other have no impulses at which all stick if the velocities do not
+/// agree, and the search goes on for long.
 const ROUGH_SWEEPS: usize = 24;
 const ROUGH_NEWTON_STEPS: usize = 10;
+const ROUGH_TOLERANCE: f64 = 64.0;
 
 /// Three components at a contact.
 type Components<T> = [T; 3];
@@ -368,10 +370,10 @@ where
     }
 }
 
-/// Returns options with a small part of the effort, to √ε, beyond which the velocities still change.
+/// Returns options with a small part of the effort.
 fn rough<T: Real>(options: &ContactOptions<T>) -> ContactOptions<T> {
     ContactOptions {
-        tolerance: options.tolerance * T::from_f64(64.0),
+        tolerance: options.tolerance * T::from_f64(ROUGH_TOLERANCE),
         most_sweeps: options.most_sweeps.min(ROUGH_SWEEPS),
         most_newton_steps: options.most_newton_steps.min(ROUGH_NEWTON_STEPS),
     }

@@ -28,8 +28,8 @@ pub(super) struct Middle<'a, Y: StateVector> {
     linearised: bool,
 }
 
-/// B⁻¹: n × n for n velocities at the beginning of the matrix. Each B has some hundred right-hand sides, so its inverse
-/// costs less than its factors do. It needs few correct digits: residuals are of the equations themselves.
+/// B⁻¹: n × n for n velocities at the beginning of the matrix. Each B has dozens of right-hand sides, so its inverse costs
+/// less than its factors do. It needs few correct digits: residuals are of the equations themselves.
 #[derive(Clone, Debug)]
 pub(super) struct Inverse<Y: StateVector> {
     matrix: MatrixOf<Y>,

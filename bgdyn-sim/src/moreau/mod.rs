@@ -79,8 +79,8 @@ const MOST_NONLINEAR: usize = 16;
 /// The largest number of evaluations of the rates in a step.
 const MOST_ITERATIONS: usize = 40;
 
-/// Returns room for so many maps, without clearing it.
-fn none<Y, const K: usize>() -> [Option<ContactMap<Y>>; K] {
+/// Returns room for so many maps. Maps are large: `[const { None }; K]` would clear them all.
+fn no_maps<Y, const K: usize>() -> [Option<ContactMap<Y>>; K] {
     core::array::from_fn(|_| None)
 }
 
@@ -159,9 +159,9 @@ where
     ) -> Result<Step<Y, Self::Stages>, Reason<O::Error>> {
         // Maps are large: no more of them are cleared than there may be contacts.
         match ode.rigid_contacts() {
-            n @ 0..=4 => self.step_with(ode, from, h, &mut none::<_, 4>()[..n]),
-            n @ 5..=16 => self.step_with(ode, from, h, &mut none::<_, 16>()[..n]),
-            n => self.step_with(ode, from, h, &mut none::<_, MOST_CONTACTS>()[..n]),
+            n @ 0..=4 => self.step_with(ode, from, h, &mut no_maps::<_, 4>()[..n]),
+            n @ 5..=16 => self.step_with(ode, from, h, &mut no_maps::<_, 16>()[..n]),
+            n => self.step_with(ode, from, h, &mut no_maps::<_, MOST_CONTACTS>()[..n]),
         }
     }
 
